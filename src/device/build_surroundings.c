@@ -84,13 +84,13 @@ fw_status fw_device_build_friction(fw_device_scene_reader *s, int at) {
 
 static void check_hinge(fw_device_reader *r, const fw_xml_record *record, const fw_device_scene *s,
                         fw_device_contact_use *c, int k) {
-    static const char *const of_points[] = {"a",   "a-x", "a-y",  "b",
-                                            "b-x", "b-y", "side", "distance"};
+    static const char *const of_points[] = {"a",   "a-x",  "a-y",      "b",      "b-x",
+                                            "b-y", "side", "distance", "undrawn"};
     const fw_device *d = r->device;
     char label[FW_LABEL];
     fw_xml_label(record, label);
     fw_device_refused(
-        r, record, 78, of_points, 8,
+        r, record, 78, of_points, 9,
         "describes a contact of two points, and this one is on a hinge; remove it, or write "
         "two contacts");
     if (k < 0) return;
@@ -152,6 +152,11 @@ static void check_points(fw_device_reader *r, const fw_xml_record *record,
                       fw_xml_label(record, label), fw_xml_text_of(record, "a"));
 }
 
+static fw_device_undrawn undrawn_of(const char *word) {
+    if (!word) return FW_UNDRAWN_NOT_SAID;
+    return strcmp(word, "placed") == 0 ? FW_UNDRAWN_PLACED : FW_UNDRAWN_ETCHED;
+}
+
 fw_status fw_device_build_contact(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     const char *side = fw_xml_text_of(record, "side");
@@ -171,6 +176,7 @@ fw_status fw_device_build_contact(fw_device_scene_reader *s, int at) {
                                .distance_m = fw_xml_number_of(record, hinge ? "gap" : "distance"),
                                .stiffness_N_per_m = fw_xml_number_of(record, "stiffness"),
                                .damping_Ns_per_m = fw_xml_number_or(record, "damping", 0.0),
+                               .undrawn = undrawn_of(fw_xml_text_of(record, "undrawn")),
                                .place = record->element->place};
     if (hinge)
         check_hinge(s->r, record, s->scene, &c, fw_device_reference(s->r, record, "on"));

@@ -251,6 +251,14 @@ typedef enum fw_device_contact_side {
     FW_CONTACT_OUTSIDE
 } fw_device_contact_side;
 
+/* what the masks do not draw of a contact is put there, at its place as stated, or etched of the same layer by
+   masks that somebody else adds, so that its edge moves as all edges do. Not said: both are judged. */
+typedef enum fw_device_undrawn {
+    FW_UNDRAWN_NOT_SAID,
+    FW_UNDRAWN_PLACED,
+    FW_UNDRAWN_ETCHED
+} fw_device_undrawn;
+
 /* <contact on>: the conjugate surfaces of a hinge touch where its gap closes. <contact a b ...>:
    two round things about point a and point b: a disc inside a hole (their centres stay within
    `distance`), or side by side (not nearer than `distance`). */
@@ -265,6 +273,7 @@ typedef struct fw_device_contact_use {
     double distance_m;        /* NaN, of a hinge: its gap */
     double stiffness_N_per_m; /* NaN, of a hinge: of the line contact of its surfaces */
     double damping_Ns_per_m;
+    fw_device_undrawn undrawn;
     fw_place place;
 } fw_device_contact_use;
 

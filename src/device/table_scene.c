@@ -57,6 +57,7 @@ const fw_xml_element_row fw_device_table_scene[] = {
 static const char *const pad_places[] = {"probed", "edge", NULL};
 static const char *const electrode_kinds[] = {"comb", "plate", NULL};
 static const char *const contact_sides[] = {"inside", "outside", NULL};
+static const char *const undrawn_words[] = {"placed", "etched", NULL};
 static const char *const air_kinds[] = {"slide", "squeeze", "drag", NULL};
 
 #define D_VOLTAGE   .kind = FW_KIND_NUMBER, .dimension = {2, 1, -3, -1, 0, 0, 0, 0}, .unit = "V"
@@ -206,6 +207,14 @@ static const fw_xml_attribute_row contact_rows[] = {
      .sentence = "Force per length by which the two come too near; needed with a and b."},
     {"damping", D_LINEAR_C, ELASTIC, .fallback = "0 N s/m",
      .sentence = "Force per speed while they touch."},
+    {"undrawn", .kind = FW_KIND_WORD, .words = undrawn_words, .fallback = "both are judged",
+     .sentence =
+         "Outside, of what the masks of this device do not draw (which is said by name, FW-D656). "
+         "placed: an object that is gripped, or a stop that is put there, with its face at the "
+         "place "
+         "that is stated. etched: masks that you add draw it in the same layer, so that its edge "
+         "moves "
+         "as all edges of a flow do. Of what is drawn it says nothing."},
 };
 
 /* ---- material and surroundings ---- */

@@ -272,7 +272,8 @@ static fw_status add_conjugate(const fw_effect_case *c, fw_effects_loads *loads,
 
 static fw_status add_round(const fw_effect_case *c, fw_effects_loads *loads,
                            const fw_device_contact_use *use) {
-    if (!(use->face ? use->distance_m >= 0 : use->distance_m > 0) ||
+    /* of a face as made it may be below 0, where an edge has moved beyond the point that it was stated by */
+    if (!(use->face ? isfinite(use->distance_m) : use->distance_m > 0) ||
         !(use->stiffness_N_per_m > 0) || !isfinite(use->stiffness_N_per_m))
         return unknown(c, use, "two round things need a distance and a stiffness above 0");
     const touch t = {.distance_m = use->distance_m,

@@ -240,6 +240,6 @@ fw_status fw_plan_assumptions(fw_plan *plan) {
                   100.0 * e->strain));
     FW_TRY(of_workspace(plan));
     for (int i = 0; i < plan->noutside; i++)
-        FW_TRY(assume(plan, "From outside: %s.", plan->outside[i]));
+        FW_TRY(assume(plan, "From outside: %s.", plan->outside[i].text));
     return as_fabricated(plan);
 }

@@ -309,7 +309,7 @@ static fw_status notes_of(fw_plan *plan, const fw_plan_flow *pf, fw_mask_options
         FW_NEED(options->note[i] = line[i]);
     for (int i = 0; i < plan->noutside; i++)
         FW_NEED(options->note[own + i] =
-                    fw_arena_printf(plan->arena, "from_outside=%s", plan->outside[i]));
+                    fw_arena_printf(plan->arena, "from_outside=%s", plan->outside[i].text));
     return FW_OK;
 }
 
@@ -582,6 +582,8 @@ fw_recipe_header fw_plan_recipe_header(const fw_plan *plan, const fw_plan_flow *
         .measuring = pf->measuring,
         .release = pf->release_svg.length ? &pf->release_svg : NULL,
         .wiring = pf->wiring,
+        .outside = plan->outside,
+        .noutside = plan->noutside,
         .plates_written = pf->wafer || pf->single,
         .test_die = pf->coupons != NULL,
         .test_die_lacks = pf->coupons_lack,

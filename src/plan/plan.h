@@ -126,7 +126,7 @@ typedef struct fw_plan {
     fw_verdict verdict;
     const char **because; /* (nbecause) why it is rejected */
     int nbecause;
-    const char **outside; /* (noutside) what moves it and is not of the chip */
+    const fw_verdict_from_outside *outside; /* (noutside) what it needs and the masks do not have */
     int noutside;
     const char **assumption; /* (nassumption) */
     int nassumption, assumption_capacity;

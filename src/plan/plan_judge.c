@@ -55,12 +55,13 @@ static fw_status check_cells(fw_plan *plan) {
     return fw_layout_cells_check(layout, &plan->diags);
 }
 
-/* drivers: said once, and kept for certificate and report */
+/* drivers, and what is touched and not drawn: said once, and kept for certificate, report and recipe */
 static fw_status say_outside(fw_plan *plan) {
     FW_TRY(fw_verdict_outside(plan->arena, plan->device, &plan->verdict, &plan->outside,
                               &plan->noutside));
     for (int i = 0; i < plan->noutside; i++)
-        fw_diag_note(&plan->diags, 598, plan->device->driver[i].place, "%s", plan->outside[i]);
+        fw_diag_note(&plan->diags, plan->outside[i].number, plan->outside[i].place, "%s",
+                     plan->outside[i].text);
     return FW_OK;
 }
 

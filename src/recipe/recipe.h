@@ -31,8 +31,11 @@ typedef struct fw_recipe_header {
     const fw_text *release;            /* the picture of the release as a fragment; NULL: none */
     const fw_verdict_variant_verdict *verdict; /* of this flow, for what drying it bears; NULL */
     const fw_wiring *wiring;                   /* nets and their contacts; NULL: nothing is drawn */
-    bool plates_written;                       /* there are plates as the shop writes them, */
-    bool test_die;                             /* a test die, */
+    const fw_verdict_from_outside
+        *outside; /* (noutside) what the device needs and the masks do not have */
+    int noutside;
+    bool plates_written;        /* there are plates as the shop writes them, */
+    bool test_die;              /* a test die, */
     const char *test_die_lacks; /* what steps read and it has no room for; NULL: nothing */
     const fw_wafer *wafer;      /* that those plates are of; NULL: one die, or none */
 } fw_recipe_header;

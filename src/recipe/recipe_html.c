@@ -379,6 +379,20 @@ static void wiring(const fw_wiring *w, fw_text *out) {
     fw_text_add(out, "</ul>\n");
 }
 
+/* what nothing of this sheet makes */
+static void from_outside(const fw_recipe_header *header, fw_text *out) {
+    if (header->noutside == 0) return;
+    fw_text_add(
+        out, "<p class=\"note\"><b>From outside.</b> What the verdict counts on and no step here "
+             "makes:</p>\n<ul>\n");
+    for (int i = 0; i < header->noutside; i++) {
+        fw_text_add(out, "<li>");
+        fw_text_escaped(out, header->outside[i].text);
+        fw_text_printf(out, " [FW-D%03d]</li>\n", header->outside[i].number);
+    }
+    fw_text_add(out, "</ul>\n");
+}
+
 static void summary_row(const fw_process_step *s, fw_text *out) {
     const fw_process_time *t = &s->time;
     fw_text_add(out, "<tr><td class=\"id\"><span class=\"box\"></span><a href=\"#");
@@ -509,6 +523,7 @@ fw_status fw_recipe_write_html(const fw_process_flow *flow, const fw_recipe_head
     if (header->rejected) rejected(header, out);
     front(flow, header, out);
     judgement(flow, header, out);
+    from_outside(header, out);
     wiring(header->wiring, out);
     overrides_table(flow, out);
     put_measurements(header, out);

@@ -196,6 +196,13 @@ static void left_out(const fw_process_flow *flow, fw_json *out) {
     fw_json_end(out);
 }
 
+static void from_outside(const fw_recipe_header *header, fw_json *out) {
+    fw_json_list(out, "from_outside");
+    for (int i = 0; i < header->noutside; i++)
+        words(out, NULL, header->outside[i].text);
+    fw_json_end(out);
+}
+
 fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *text) {
     fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
@@ -220,6 +227,7 @@ fw_status fw_recipe_write_json(const fw_process_flow *flow, const fw_recipe_head
     else
         fw_json_truth(out, "manufacturable", flow->manufacturable);
     strings(out, "reasons", flow->reason, flow->nreason);
+    if (header->noutside > 0) from_outside(header, out);
     fw_json_list(out, "overrides");
     for (int i = 0; i < flow->noverride; i++) {
         const fw_process_override *o = &flow->override[i];

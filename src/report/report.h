@@ -44,7 +44,7 @@ typedef struct fw_report_input {
     const char *version;
     const char **assumption; /* (nassumption) sentences */
     int nassumption;
-    const char **outside; /* (noutside) what moves it and is not of the chip: fw_verdict_outside */
+    const fw_verdict_from_outside *outside; /* (noutside) what it needs and the masks do not have */
     int noutside;
     const fw_diags *diags;               /* NULL: none */
     const struct fw_report_hinge *hinge; /* (nhinge) the ladder, per flow */

@@ -265,12 +265,12 @@ static fw_status layout_faults(fw_arena *arena, const fw_layout *layout, fw_repo
 /* beside what is not guaranteed: what the verdict takes for granted, and the chip does not have */
 static fw_status outside(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     if (in->noutside == 0) return FW_OK;
-    const char *more = in->noutside > 1
-                           ? fw_arena_printf(arena, "; and %d more driver%s", in->noutside - 1,
-                                             in->noutside > 2 ? "s" : "")
-                           : "";
+    const fw_verdict_from_outside *first = &in->outside[0];
+    const char *more =
+        in->noutside > 1 ? fw_arena_printf(arena, "; and %d more", in->noutside - 1) : "";
     FW_NEED(more);
-    return add(s, "from outside", fw_arena_printf(arena, "%s [FW-D598]%s", in->outside[0], more));
+    return add(s, "from outside",
+               fw_arena_printf(arena, "%s [FW-D%03d]%s", first->text, first->number, more));
 }
 
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {

@@ -209,8 +209,11 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
             if (variant && variant->flow) fw_text_printf(out, " (%s)", variant->flow);
             fw_text_printf(out, ": %s%s at ", FW_NAMED("comb drive", p->comb));
             fw_text_number(out, p->voltage_V, 4);
-            fw_text_printf(out, " V (%s); the scene asks for up to ",
-                           fw_statics_pull_in_kind_text(p->kind));
+            fw_text_printf(out, " V (%s)%s; the scene asks for up to ",
+                           fw_statics_pull_in_kind_text(p->kind),
+                           in->device->scene[k].ncomb > 1
+                               ? " where all drives of the scene grow together, slowly"
+                               : "");
             fw_text_number(out, p->largest_V, 4);
             fw_text_add(out, " V\n");
         }

@@ -4,6 +4,7 @@
 #include "flexure/flexure.h"
 #include "geometry/segment.h"
 #include <math.h>
+#include <string.h>
 
 fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_input *input,
                                                  int ninput, const double *x) {
@@ -260,43 +261,166 @@ static void change_film(const fw_verdict_fabrication *fabricated, fw_device_air 
 /* a stated place and a drawn wall, whose corners are rounded, need not agree better */
 static const double touches_m = 10e-6;
 
-/* Is the round thing about this point, no larger than the distance, part of what is drawn of the body, and so of the
-   layer? A bead that is held stands in the open. What is not drawn at all is taken to be. */
-static bool is_of_layer(const fw_device *d, const fw_layout *layout, int body, double x_m,
-                        double y_m, double distance_m) {
-    fw_geometry_vec2 at = {x_m, y_m};
+/* where a point of a body is drawn */
+static fw_geometry_vec2 drawn_place(const fw_device *d, const fw_layout *layout, int body,
+                                    double x_m, double y_m) {
+    if (body == FW_GROUND) return (fw_geometry_vec2){x_m, y_m};
+    const fw_device_body *b = &d->body[body];
+    const fw_geometry_vec2 centroid = layout->body[body].centroid;
+    const double c = cos(b->phi_rad), s = sin(b->phi_rad);
+    return (fw_geometry_vec2){(isnan(b->x_m) ? centroid.x : b->x_m) + c * x_m - s * y_m,
+                              (isnan(b->y_m) ? centroid.y : b->y_m) + s * x_m + c * y_m};
+}
+
+/* Does an outline of the body come as near as this? A body of which nothing is drawn is taken to be of the layer. */
+static bool comes_near(const fw_layout *layout, int body, fw_geometry_vec2 at, double distance_m) {
     bool any = false;
-    if (!layout || !layout->drawn) return true;
-    if (body != FW_GROUND) {
-        const fw_device_body *b = &d->body[body];
-        const fw_layout_body_layout *shape = &layout->body[body];
-        const double c = cos(b->phi_rad), s = sin(b->phi_rad);
-        at.x = (isnan(b->x_m) ? shape->centroid.x : b->x_m) + c * x_m - s * y_m;
-        at.y = (isnan(b->y_m) ? shape->centroid.y : b->y_m) + s * x_m + c * y_m;
-    }
     for (int i = 0; i < layout->npiece; i++) {
         const fw_layout_piece *p = &layout->piece[i];
         if (p->body != body || !fw_layout_is_wall(p)) continue;
         any = true;
         for (int k = 0; k < p->contour.count; k++)
-            if (fw_geometry_segment_nearest(&p->contour.segment[k], at, NULL, NULL) <=
-                distance_m + touches_m)
+            if (fw_geometry_segment_nearest(&p->contour.segment[k], at, NULL, NULL) <= distance_m)
                 return true;
     }
     return !any;
 }
 
-/* a hinge without a distance of its own has the gap of its flexure, as made */
+/* Is the first (or second) of the two that touch part of what is drawn of its body, and so of the layer? Of two round
+   things each is about its point and no larger than the distance; a flat face goes through its point, and what it meets
+   has its surface the distance before its own point. A bead that is held stands in the open. *at: where. */
+static bool is_of_layer(const fw_device *d, const fw_layout *layout, const fw_device_contact_use *c,
+                        bool second, fw_geometry_vec2 *at) {
+    const int body = second ? c->body_b : c->body_a;
+    *at = (fw_geometry_vec2){0, 0};
+    if (!layout || !layout->drawn) return true;
+    *at = drawn_place(d, layout, body, second ? c->bx_m : c->ax_m, second ? c->by_m : c->ay_m);
+    if (!c->face) return comes_near(layout, body, *at, c->distance_m + touches_m);
+    if (second) {
+        const double normal = c->face_rad + turned(d, c->body_a);
+        move(&at->x, &at->y, -c->distance_m, normal);
+    }
+    return comes_near(layout, body, *at, touches_m);
+}
+
+static bool is_outside(const fw_device_contact_use *c) {
+    return c->joint == FW_NONE && c->side == FW_CONTACT_OUTSIDE && !isnan(c->distance_m);
+}
+
+static bool is_not_said(const fw_device *d, const fw_layout *layout,
+                        const fw_device_contact_use *c) {
+    fw_geometry_vec2 at;
+    return is_outside(c) && c->undrawn == FW_UNDRAWN_NOT_SAID &&
+           !(is_of_layer(d, layout, c, false, &at) && is_of_layer(d, layout, c, true, &at));
+}
+
+const char *fw_verdict_undrawn_not_said(const fw_device *device, const fw_layout *layout,
+                                        const char *flow) {
+    for (int i = 0; layout && layout->drawn && i < device->nscene; i++)
+        for (int k = 0; k < device->scene[i].ncontact; k++)
+            if (fw_device_in_flow(device->scene[i].flow, flow) &&
+                is_not_said(device, layout, &device->scene[i].contact[k]))
+                return fw_text_name(device->scene[i].contact[k].id);
+    return NULL;
+}
+
+fw_status fw_verdict_undrawn_as(fw_arena *arena, const fw_device *device, fw_device_undrawn undrawn,
+                                const fw_device **as) {
+    fw_device *d = fw_arena_one(arena, fw_device);
+    const size_t s = (size_t)device->nscene;
+    FW_NEED(d);
+    *d = *device;
+    FW_NEED(d->scene = fw_arena_grow(arena, d->scene, s, s, sizeof *d->scene));
+    for (size_t i = 0; i < s; i++) {
+        fw_device_scene *scene = &d->scene[i];
+        const size_t t = (size_t)scene->ncontact;
+        if (t == 0) continue;
+        FW_NEED(scene->contact =
+                    fw_arena_grow(arena, scene->contact, t, t, sizeof *scene->contact));
+        for (size_t k = 0; k < t; k++)
+            if (scene->contact[k].undrawn == FW_UNDRAWN_NOT_SAID)
+                scene->contact[k].undrawn = undrawn;
+    }
+    *as = d;
+    return FW_OK;
+}
+
+static fw_status undrawn_sentence(fw_arena *arena, const fw_device *d,
+                                  const fw_device_contact_use *c, bool second, fw_geometry_vec2 at,
+                                  const char **text) {
+    static const char not_said[] =
+        "it has to be put there from elsewhere, or drawn by masks that you add; judged is that it "
+        "stands where it is stated, and that its edge moves as all edges do (undrawn=\"placed\" or "
+        "\"etched\" says which)";
+    static const char placed[] =
+        "it has to be put there from elsewhere, and what its place is off by comes off what the "
+        "contact leaves";
+    static const char etched[] = "masks that you add have to draw it in the same layer";
+    static const char *const judged[] = {[FW_UNDRAWN_NOT_SAID] = not_said,
+                                         [FW_UNDRAWN_PLACED] = placed,
+                                         [FW_UNDRAWN_ETCHED] = etched};
+    char x[32], y[32];
+    const int body = second ? c->body_b : c->body_a;
+    const double um = 1e-3; /* of coordinates: to a nanometre */
+    FW_NEED(*text = fw_arena_printf(
+                arena, "%s%s: the masks draw nothing of %s at %s(%s, %s) um: %s",
+                FW_NAMED("contact", fw_text_name(c->id)),
+                body == FW_GROUND ? "ground" : fw_text_name(d->body[body].id),
+                c->face ? "" : "its point ",
+                fw_number_text(x, sizeof x, um * nearbyint(1e9 * at.x), 6),
+                fw_number_text(y, sizeof y, um * nearbyint(1e9 * at.y), 6), judged[c->undrawn]));
+    return FW_OK;
+}
+
+fw_status fw_verdict_undrawn(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             fw_verdict_from_outside *list, int *n) {
+    for (int i = 0; i < device->nscene; i++)
+        for (int k = 0; k < 2 * device->scene[i].ncontact; k++) {
+            const fw_device_contact_use *c = &device->scene[i].contact[k / 2];
+            const char *text;
+            fw_geometry_vec2 at;
+            bool said = false;
+            if (!is_outside(c) || is_of_layer(device, layout, c, k % 2, &at)) continue;
+            FW_TRY(undrawn_sentence(arena, device, c, k % 2, at, &text));
+            for (int j = 0; j < *n && !said; j++)
+                said = strcmp(list[j].text, text) == 0;
+            if (!said) list[(*n)++] = (fw_verdict_from_outside){text, 656, c->place};
+        }
+    return FW_OK;
+}
+
+/* A hinge without a distance of its own has the gap of its flexure, as made. What is drawn of two round things, or of a
+   face and what it meets, grows by the edge. */
 static void change_contact(double edge_m, const fw_device *d, const fw_layout *layout,
                            fw_device_contact_use *c) {
     if (isnan(c->distance_m)) return;
-    if (c->joint != FW_NONE || c->side == FW_CONTACT_INSIDE) {
+    if (!is_outside(c)) {
         c->distance_m -= 2.0 * edge_m;
         return;
     }
-    const double drawn_m = c->distance_m;
-    if (is_of_layer(d, layout, c->body_a, c->ax_m, c->ay_m, drawn_m)) c->distance_m += edge_m;
-    if (is_of_layer(d, layout, c->body_b, c->bx_m, c->by_m, drawn_m)) c->distance_m += edge_m;
+    const bool etched = c->undrawn == FW_UNDRAWN_ETCHED;
+    fw_geometry_vec2 at;
+    const bool first = etched || is_of_layer(d, layout, c, false, &at),
+               second = etched || is_of_layer(d, layout, c, true, &at);
+    c->distance_m += (first + second) * edge_m;
+}
+
+/* What is left of a gap, or of round things, is nothing. The distance of a flat face is where what it meets begins, from
+   that one's own point, and may lie on either side of it. */
+static fw_status contact_gone(fw_arena *arena, const fw_device_contact_use *c, double drawn_m,
+                              const char **gone) {
+    char was[32], now[32];
+    if (!(c->distance_m <= 0.0) || c->face) return FW_OK;
+    fw_number_text(was, sizeof was, 1e6 * drawn_m, 4);
+    fw_number_text(now, sizeof now, 1e6 * c->distance_m, 3);
+    FW_NEED(*gone = fw_arena_printf(
+                arena,
+                is_outside(c)
+                    ? "nothing is left of %s%s: its two round things, which touch at %s um "
+                      "as drawn, would touch at %s um: make them larger"
+                    : "the gap of %s%s closes: %s um as drawn, %s um are left: make it wider",
+                FW_NAMED("contact", fw_text_name(c->id)), was, now));
+    return FW_OK;
 }
 
 static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fabricated,
@@ -324,10 +448,9 @@ static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fab
     }
     for (size_t i = 0; i < t; i++) {
         fw_device_contact_use *contact = &s->contact[i];
+        const double drawn_m = contact->distance_m;
         change_contact(fabricated->edge_m, d, layout, contact);
-        if (contact->distance_m <= 0.0)
-            FW_NEED(*gone = fw_arena_printf(arena, "the gap of %s%s closes",
-                                            FW_NAMED("contact", fw_text_name(contact->id))));
+        FW_TRY(contact_gone(arena, contact, drawn_m, gone));
     }
     return FW_OK;
 }
@@ -414,34 +537,6 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     }
     *kept = to;
     return FW_OK;
-}
-
-/* ---- what of a clearance is used ---- */
-
-static double between(double used) {
-    const double least = 1e-3, most = 1e3; /* a thousandth is as good as nothing, and has slopes */
-    return fmin(fmax(used, least), most);
-}
-
-/* Share of what there is to use up by the nearest pair: of a motion, the distance that it has lost over
-   what it may lose; of a required box, what is asked for over what is left. At 1 there is just as
-   much as is asked for. */
-double fw_verdict_search_used_nearest(const fw_verdict_clearance *c) {
-    const fw_clearance_least *l = &c->least;
-    const double target = c->required_m + c->wall_m, most = HUGE_VAL;
-    double used = target / l->m;
-    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
-    if (c->box == FW_NONE && l->start_m <= target) used = most;
-    if (l->m <= 0) used = 1 / l->share;
-    return between(used);
-}
-
-/* By any pair of a motion: what is nearest may have lost nothing of its distance, as fingers of a comb that slide
-   by each other, while others have lost nearly all. by_nearest: distances were found, not bounded */
-double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
-    const bool meet = c->least.m <= 0 && c->least.share > 0;
-    const double nearest = by_nearest || meet ? fw_verdict_search_used_nearest(c) : 0;
-    return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
 }
 
 /* ---- how near stators come as made ----

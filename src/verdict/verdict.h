@@ -229,22 +229,6 @@ typedef struct fw_verdict_fabricated_corner {
     bool undecided; /* it is not accepted, and closer numbers might decide that */
 } fw_verdict_fabricated_corner;
 
-typedef struct fw_verdict_fabricated_hinge {
-    int corner;    /* of those that were run, the tightest */
-    double most;   /* bound on the utilisation at any corner, run or not, numbers included */
-    double sigma;  /* of the nominal utilisation, first order, inputs independent */
-    double *share; /* (ninput) dU/dx sigma_x */
-} fw_verdict_fabricated_hinge;
-
-/* How far edges may lie beyond all that the corners make of them, either way, before something that is accepted is not.
-   Test: test_ranges.c, room_of_edges; tests/cli/test_mask_certificate.py */
-typedef struct fw_verdict_edge_room {
-    const char
-        *says; /* which hinge, requirement or distance decides, and how it goes; NULL: not known */
-    double edge_m;   /* to first order; HUGE_VAL: nothing of it changes with edges */
-    double looked_m; /* how far the corners themselves move edges either way */
-} fw_verdict_edge_room;
-
 typedef struct fw_verdict_fabricated_verdict {
     fw_verdict_fabricated_corner *corner; /* (ncorner) the first is the nominal device */
     int ncorner;
@@ -264,6 +248,7 @@ typedef struct fw_verdict_fabricated_verdict {
     const double *ln;    /* (ncorner x ncheck) of the search that found it, for one that follows */
     int ncheck;
     fw_verdict_edge_room room; /* where it is accepted */
+    bool etched; /* what no mask draws of contacts, and nobody said more of, moves as edges do */
 } fw_verdict_fabricated_verdict;
 
 /* share of a limit that is used, the least and the most of the devices that were run. high
@@ -525,6 +510,11 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
 fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *verdict);
+/* the same; where contacts touch what no mask draws and nobody said whether that is placed or etched, once for either.
+   What neither or both accept is the tighter one's; what one accepts is undecided (FW-D657) */
+fw_status fw_verdict_as_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_verdict_options *options,
+                             fw_verdict_variant_verdict *verdict);
 /* of the hinges of a flow the one that its corners strain most; FW_NONE: none was run */
 int fw_verdict_most_used(const fw_verdict_variant_verdict *verdict);
 /* The same search with other ranges (input, ninput), after fw_verdict_as_fabricated with the same
@@ -590,9 +580,15 @@ fw_status fw_verdict_reason_words(fw_arena *arena, const fw_verdict *verdict, in
 /* why it is rejected, sentences, each once; none where it is not */
 fw_status fw_verdict_rejections(fw_arena *arena, const fw_verdict *verdict, const char ***text,
                                 int *n);
-/* what moves a drawn device and is not of the chip (FW-D598): a sentence for each driver */
+/* what a drawn device needs and its masks do not have: what moves it (FW-D598), a sentence for each driver, and what it
+   touches (FW-D656), one for each contact and body, however many scenes have it */
+typedef struct fw_verdict_from_outside {
+    const char *text;
+    int number; /* FW-Dnnn */
+    fw_place place;
+} fw_verdict_from_outside;
 fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_verdict *verdict,
-                             const char ***text, int *n);
+                             const fw_verdict_from_outside **outside, int *n);
 /* advice_note where no advice was asked for */
 extern const char fw_verdict_not_searched[];
 /* of what is not accepted, where advice is asked for: proposals, each one run, the value of each

@@ -273,10 +273,19 @@ static const char *place_text(char text[32], double x_m) {
     return fw_number_text(text, 32, 1e-3 * nearbyint(1e9 * x_m) + 0.0, 5);
 }
 
-static const char *mend_of(const fw_verdict_clearance *c) {
+static const char *mend_of(fw_arena *arena, const fw_verdict_clearance *c,
+                           const fw_verdict_variant_verdict *v) {
+    const char *beside = c->box == FW_NONE ? v->motion[c->scene_index]->ledger.undecided : NULL;
     if (c->least.given_up && c->low_m > c->required_m)
-        return "that is enough, but so long a scene is followed in parts, each as if the motion "
-               "were off by 10 % at most: shorten the scene, or make bodies that give stiffer";
+        return beside ? fw_arena_printf(
+                            arena,
+                            "that is enough, but the motion may be off by more than the 10 %% "
+                            "that parts of a long scene are followed with, because %s: lower that "
+                            "first (FW-D607)",
+                            beside)
+                      : "that is enough, but so long a scene is followed in parts, each as if the "
+                        "motion were off by 10 % at most: shorten the scene, or make bodies that "
+                        "give stiffer";
     if (c->least.at.tether)
         return "a tether stands first on the frame's nearest side: turn that side from the motion, "
                "widen <die clearance>, or hold the body in another way (<die tethers=\"no\"/>)";
@@ -289,31 +298,23 @@ static const char *mend_of(const fw_verdict_clearance *c) {
                  "scene a <contact>";
 }
 
-static fw_status sentence(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
-                          const char **text) {
-    const fw_clearance_least *l = &c->least;
-    char x[32], y[32], share[32];
-    const char *what = what_happens(arena, c);
-    fw_number_text(share, sizeof share, 100 * c->keep, 3);
-    const char *then = c->box == FW_NONE && (l->m <= 0 || c->keep < 1)
-                           ? fw_arena_printf(arena, "; with %s %% of that motion %s", share,
-                                             c->required_m > 0 ? "they keep what is asked for"
-                                                               : "they would just not meet")
-                           : "";
-    FW_NEED(what && then ? then : NULL);
-    FW_NEED(*text =
-                fw_arena_printf(arena, "%s and %s %s in %s, at (%s, %s) um%s: %s", name_of(l->at.a),
-                                name_of(l->at.b), what, where, place_text(x, l->at.at_a.x),
-                                place_text(y, l->at.at_a.y), then, mend_of(c)));
-    return FW_OK;
-}
-
 static fw_status give_reason(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
                              fw_verdict_variant_verdict *v) {
-    const char *text;
-    const bool unknown = c->least.given_up || c->least.at.bound;
+    const fw_clearance_least *l = &c->least;
+    const bool unknown = l->given_up || l->at.bound;
+    char x[32], y[32], share[32];
     if (c->decision == FW_ACCEPT) return FW_OK;
-    FW_TRY(sentence(arena, c, where, &text));
+    const char *what = what_happens(arena, c), *mend = mend_of(arena, c, v), *then = "", *text;
+    if (c->box == FW_NONE && (l->m <= 0 || c->keep < 1))
+        then = fw_arena_printf(arena, "; with %s %% of that motion %s",
+                               fw_number_text(share, sizeof share, 100 * c->keep, 3),
+                               c->required_m > 0 ? "they keep what is asked for"
+                                                 : "they would just not meet");
+    FW_NEED(what && mend && then ? then : NULL);
+    FW_NEED(text =
+                fw_arena_printf(arena, "%s and %s %s in %s, at (%s, %s) um%s: %s", name_of(l->at.a),
+                                name_of(l->at.b), what, where, place_text(x, l->at.at_a.x),
+                                place_text(y, l->at.at_a.y), then, mend));
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = c->scene,
                                                   .flow = c->flow,
                                                   .number = unknown ? 295 : 294,

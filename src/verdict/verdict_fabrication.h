@@ -56,4 +56,22 @@ fw_status fw_verdict_fabrication_build(fw_arena *arena, const fw_device *device,
                                        const fw_verdict_fabrication *fabricated,
                                        fw_verdict_fabricated_device *out);
 
+/* ---- what the verdict says of the corners ---- */
+
+typedef struct fw_verdict_fabricated_hinge {
+    int corner;    /* of those that were run, the tightest */
+    double most;   /* bound on the utilisation at any corner, run or not, numbers included */
+    double sigma;  /* of the nominal utilisation, first order, inputs independent */
+    double *share; /* (ninput) dU/dx sigma_x */
+} fw_verdict_fabricated_hinge;
+
+/* How far edges may lie beyond all that the corners make of them, either way, before something that is accepted is not.
+   Test: test_ranges.c, room_of_edges; tests/cli/test_mask_certificate.py */
+typedef struct fw_verdict_edge_room {
+    const char
+        *says; /* which hinge, requirement or distance decides, and how it goes; NULL: not known */
+    double edge_m;   /* to first order; HUGE_VAL: nothing of it changes with edges */
+    double looked_m; /* how far the corners themselves move edges either way */
+} fw_verdict_edge_room;
+
 #endif

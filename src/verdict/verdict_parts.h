@@ -279,6 +279,15 @@ enum {
 #define FW_NEAR_TIPPING 0.97 /* both are bounds; what forces may be off by is little beside this */
 
 /* for ranges of v; options are those of the drawn device's verdict */
+/* what contacts of the flow's scenes touch and no mask draws (fabrication.c): the id of the first of which nobody said
+   whether it is placed or etched, or NULL; a copy of the device in which it is said; the sentences of FW-D656, behind
+   what list holds already. Test: test_not_drawn.c */
+const char *fw_verdict_undrawn_not_said(const fw_device *device, const fw_layout *layout,
+                                        const char *flow);
+fw_status fw_verdict_undrawn_as(fw_arena *arena, const fw_device *device, fw_device_undrawn undrawn,
+                                const fw_device **as);
+fw_status fw_verdict_undrawn(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             fw_verdict_from_outside *list, int *n);
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s);

@@ -5,6 +5,86 @@
 #include <math.h>
 #include <string.h>
 
+/* ---- what no mask draws ----
+   A contact may be with something that no mask of the device draws. An object, or a stop that is put there, stands where
+   it is stated; what is etched of the same layer by a mask that somebody adds has an edge that moves as all do. Where
+   the file does not say which, the device is judged as both, which is twice the devices; a trial that is refused as
+   placed is not asked again. Decision 151. Test: test_not_drawn.c */
+
+static double largest_of(const fw_verdict_fabricated_verdict *f) {
+    double most = -HUGE_VAL;
+    for (int i = 0; f && i < f->ncorner * f->ncheck; i++)
+        most = fmax(most, f->ln[i]); /* NaN is passed */
+    return most;
+}
+
+/* one of the two is accepted, or is refused where the other is undecided: reasons of `of` stand, from `first` on */
+static fw_status differ(fw_arena *arena, const char *id, int first,
+                        const fw_verdict_variant_verdict *placed,
+                        const fw_verdict_variant_verdict *etched, fw_verdict_variant_verdict *v) {
+    static const char *const word[] = {
+        [FW_ACCEPT] = "accepted", [FW_REJECT] = "rejected", [FW_INCONCLUSIVE] = "undecided"};
+    const char *flow = v->variant->flow ? v->variant->flow : "this flow", *text;
+    double keep = FW_VERDICT_KEEP_HALF;
+    for (int i = first; i < v->nreason; i++) {
+        if (v->reason[i].decision == FW_REJECT) v->reason[i].decision = FW_INCONCLUSIVE;
+        keep = v->reason[i].keep;
+    }
+    FW_NEED(
+        text = fw_arena_printf(
+            arena,
+            "%s%s touches what no mask of %s draws: put there at its place the device is %s as the "
+            "flow makes it, and etched of the same layer, so that its edge moves as all edges do, "
+            "it "
+            "is %s: say which it is (undrawn=\"placed\" or undrawn=\"etched\"), or leave the "
+            "contact "
+            "more room",
+            FW_NAMED("contact", id), flow, word[placed->decision], word[etched->decision]));
+    v->decision = FW_INCONCLUSIVE;
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "as made",
+                                                  .flow = v->variant->flow,
+                                                  .number = 657,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = keep,
+                                                  .text = text};
+    return FW_OK;
+}
+
+fw_status fw_verdict_as_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_verdict_options *options, fw_verdict_variant_verdict *v) {
+    const char *id = v->ninput > 0 && options->corners != FW_CORNERS_NONE
+                         ? fw_verdict_undrawn_not_said(device, layout, v->variant->flow)
+                         : NULL;
+    const size_t n = (size_t)v->nreason, most = fw_verdict_reasons_most(device, v->nrequirement);
+    const fw_device *as;
+    fw_verdict_variant_verdict etched = *v;
+    FW_TRY(fw_verdict_as_fabricated(arena, device, layout, options, v));
+    const bool quick = options->corners != FW_CORNERS_AUTO;
+    if (!id || !v->fabricated || (quick && v->decision != FW_ACCEPT)) return FW_OK;
+    FW_NEED(etched.reason = fw_arena_grow(arena, etched.reason, n, most, sizeof *etched.reason));
+    FW_TRY(fw_verdict_undrawn_as(arena, device, FW_UNDRAWN_ETCHED, &as));
+    FW_TRY(fw_verdict_as_fabricated(arena, as, layout, options, &etched));
+    if (!etched.fabricated) return FW_OK;
+    etched.fabricated->etched = true;
+    const fw_verdict_variant_verdict placed = *v;
+    const bool same = placed.decision == etched.decision;
+    const bool tighter = largest_of(etched.fabricated) > largest_of(placed.fabricated);
+    const bool worse = fw_verdict_is_worse(etched.decision, placed.decision);
+    if (same ? tighter : worse) *v = etched;
+    if (same) return FW_OK;
+    if (!quick) return differ(arena, id, (int)n, &placed, &etched, v);
+    v->decision = FW_INCONCLUSIVE;
+    return FW_OK;
+}
+
+/* the device as the governing of the two was judged */
+static fw_status as_judged(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                           const fw_device **device) {
+    return v->fabricated && v->fabricated->etched
+               ? fw_verdict_undrawn_as(arena, *device, FW_UNDRAWN_ETCHED, device)
+               : FW_OK;
+}
+
 /* ---- other ranges ----
    The bands that they leave. Theory: docs/theory/measurements.md. */
 
@@ -136,8 +216,10 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
     with.nsuspect = 0;
     fw_arena *scratch = fw_arena_part(arena, 0);
     FW_NEED(scratch);
-    fw_status status =
-        run(scratch, device, layout, options, v, &with, hinge, of_hinge, of_requirement, out);
+    fw_status status = as_judged(scratch, v, &device);
+    if (status == FW_OK)
+        status =
+            run(scratch, device, layout, options, v, &with, hinge, of_hinge, of_requirement, out);
     fw_arena_free(scratch);
     return status;
 }
@@ -156,6 +238,7 @@ fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_l
     fw_verdict_options glance = *options;
     fw_verdict_made *out = &die->made;
     glance.at_a_glance = true; /* the value counts, not the decision */
+    FW_TRY(as_judged(arena, v, &device));
     FW_TRY(fw_verdict_search_begin(arena, device, layout, &glance, v, &s));
     s.told->of = 0; /* who draws them counts them */
     FW_TRY(fw_verdict_search_run(&s, x, FW_NO_CORNER));

@@ -189,7 +189,7 @@ static fw_status as_fabricated(fw_arena *arena, const fw_device *device, const f
     if (options->decision_only && verdict->drawn == FW_REJECT) return FW_OK;
     for (int i = 0; i < verdict->nvariant; i++) {
         fw_verdict_variant_verdict *v = &verdict->variant[i];
-        FW_TRY(fw_verdict_as_fabricated(arena, device, layout, options, v));
+        FW_TRY(fw_verdict_as_made(arena, device, layout, options, v));
         verdict->decision = fw_verdict_worse(verdict->decision, v->decision);
     }
     return FW_OK;

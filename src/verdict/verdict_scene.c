@@ -100,12 +100,16 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
     v->beyond_pull_in = true;
     const char *text =
         p->margin < 1
-            ? fw_arena_printf(arena,
-                              "%s%s asks for up to %s V, beyond the pull-in voltage %s V of "
-                              "%s%s; it is over before the rotor has snapped, and whether "
-                              "that holds on a wafer is not known",
-                              FW_NAMED("scene", scene->name), asked, at,
-                              FW_NAMED("comb drive", p->comb))
+            ? fw_arena_printf(
+                  arena,
+                  "%s%s asks for up to %s V, beyond the pull-in voltage %s V of "
+                  "%s%s%s; %s, and whether that holds on a wafer is not known",
+                  FW_NAMED("scene", scene->name), asked, at, FW_NAMED("comb drive", p->comb),
+                  scene->ncomb > 1 ? " where all drives of the scene grow together" : "",
+                  scene->ncontact > 0
+                      ? "no electrodes touch in it, because it is over before the rotor "
+                        "has snapped or because a contact of the scene holds it off them"
+                      : "it is over before the rotor has snapped")
             : fw_arena_printf(arena,
                               "%s%s asks for up to %s V: %s%s pulls in at %s V, or at "
                               "less: fringe fields that the model leaves out add up to %s %% to "
@@ -422,14 +426,20 @@ bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why) {
    force it also holds what it moves. That it is not of the chip is said (FW-D598). */
 
 fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_verdict *verdict,
-                             const char ***text, int *n) {
-    const int most = verdict->layout && verdict->layout->drawn ? device->ndriver : 0;
-    FW_NEED(*text = fw_arena_alloc(arena, (size_t)most + 1, sizeof **text));
-    for (*n = 0; *n < most; (*n)++) {
+                             const fw_verdict_from_outside **outside, int *n) {
+    const bool drawn = verdict->layout && verdict->layout->drawn;
+    const int drivers = drawn ? device->ndriver : 0;
+    size_t most = (size_t)drivers;
+    fw_verdict_from_outside *list;
+    for (int i = 0; drawn && i < device->nscene; i++)
+        most += 2 * (size_t)device->scene[i].ncontact;
+    FW_NEED(list = fw_arena_array(arena, fw_verdict_from_outside, most));
+    for (*n = 0; *n < drivers; (*n)++) {
         const fw_device_driver *d = &device->driver[*n];
         const bool turns = d->revolute != FW_NONE;
         const char *id = turns ? device->revolute[d->revolute].id : device->joint[d->joint].id;
-        FW_NEED((*text)[*n] = fw_arena_printf(
+        list[*n] = (fw_verdict_from_outside){.number = 598, .place = d->place};
+        FW_NEED(list[*n].text = fw_arena_printf(
                     arena,
                     "%s%s moves and holds %s%s, whatever that takes, and nothing on the chip "
                     "does: the verdict is of a device beside which something else does so; "
@@ -437,7 +447,8 @@ fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_
                     FW_NAMED("driver", fw_text_name(d->id)),
                     fw_text_kind(turns ? "hinge " : "joint ", id), fw_text_name(id)));
     }
-    return FW_OK;
+    *outside = list;
+    return drawn ? fw_verdict_undrawn(arena, device, verdict->layout, list, n) : FW_OK;
 }
 
 /* ---- bodies that bend ---- */

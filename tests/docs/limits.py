@@ -18,6 +18,9 @@ LEAF, THEORY = "docs/gallery/leaf-four-bar/device.xml", "tests/data/theory"
 PORTAL, CART, LEVER = f"{THEORY}/portal.xml", f"{THEORY}/cart.xml", f"{THEORY}/lever.xml"
 REACH = ('x-min="-150 um" x-max="150 um" y-min="-60 um" y-max="60 um" phi-min="-2 deg" phi-max="2 deg"',
          'x-min="-1 um" x-max="1 um" y-min="0 um" y-max="225.5 um" phi-min="0 deg" phi-max="0.01 deg"')
+LATCH = ('<comb-drive id="latch" kind="plate" on="stage" x="0.35 mm" direction="0 deg" gap="13 um" length="200 um" voltage="60 V" law="ramp" '
+         'rise="5 ms"/><contact id="stop" a="stage" a-x="0.35 mm" a-face="0 deg" b="ground" b-x="1.26 mm" b-y="1.5 mm" side="outside" '
+         'distance="0 um" stiffness="500 N/m" damping="1e-2 N s/m"/><air kind="slide" on="stage" gap="20 um"/>')
 
 # beginning of a row: device, what is changed in it (None: nothing), command and options, what the answer must contain
 CASES = {
@@ -42,6 +45,8 @@ CASES = {
     "Friction that depends on speed": (CART, None, "statics --scene rub --json", "left out at rest: friction can hold in a range"),
     "Memory of films of air": (f"{THEORY}/lever.xml", ('gap="2 um" area="0.1 mm^2"', 'gap="300 um" area="0.1 mm^2"'),
                                "simulate --scene film", "outside its validity: gap over"),
+    "Latches by pull-in": (COMB, ('<air kind="slide" on="stage" gap="20 um"/>', LATCH), "check --corners none --advice none",
+                           "no electrodes touch in it, because it is over before.*or because a contact.*FW-D248"),
     "Temperature that varies": (PORTAL, None, "simulate --scene warm", r"the common expansion of 0\.00026 is scaled out"),
     "Breakdown of air at tips": (COMB, None, "recipe", "breaks down between 260 and 351 V"),
     "Stick and slip of cables": ("tests/data/theory/lever.xml", None, "statics --scene rubbed", "friction may hold it anywhere from here"),
