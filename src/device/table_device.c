@@ -224,10 +224,10 @@ static const fw_xml_attribute_row flow_rows[] = {
      .sentence = "Angle of the crystal's [100] from the device's +x in this flow."},
     {"carrier", .kind = FW_KIND_WORD, .words = carriers, .fallback = "none",
      .sentence =
-         "What a device that its flow cuts out of the wafer is put on afterwards: none, so "
-         "that all that is anchored is one conductor; insulating (borosilicate glass), so that "
-         "only what is "
-         "joined in the layer is. A flow that has a carrier of its own says itself what it is."},
+         "What a device that its flow cuts out of the wafer is put on afterwards: none, so that "
+         "all that is anchored is one conductor; insulating (borosilicate glass), so that only "
+         "what is joined in the layer is. A flow that has a carrier of its own says itself what "
+         "it is."},
 };
 static const fw_xml_attribute_row flexure_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for hinges to refer to."},

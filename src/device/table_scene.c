@@ -211,10 +211,8 @@ static const fw_xml_attribute_row contact_rows[] = {
      .sentence =
          "Outside, of what the masks of this device do not draw (which is said by name, FW-D656). "
          "placed: an object that is gripped, or a stop that is put there, with its face at the "
-         "place "
-         "that is stated. etched: masks that you add draw it in the same layer, so that its edge "
-         "moves "
-         "as all edges of a flow do. Of what is drawn it says nothing."},
+         "place that is stated. etched: masks that you add draw it in the same layer, so that its "
+         "edge moves as all edges of a flow do. Of what is drawn it says nothing."},
 };
 
 /* ---- material and surroundings ---- */

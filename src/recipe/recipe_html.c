@@ -311,8 +311,8 @@ static void parting(const fw_process_flow *flow, fw_text *out) {
         s ? fw_arena_printf(
                 out->arena,
                 "no step of this flow parts the wafer into dies, and step %s frees the devices "
-                "while "
-                "it is whole. Water and shaking of a saw tear free devices off: settle before the "
+                "while it is whole. Water and shaking of a saw tear free devices off: settle "
+                "before the "
                 "first wafer how it is parted, with half cuts before step %s that it is broken "
                 "along dry, or by something else that neither wets nor shakes it",
                 s->id, s->id)
