@@ -276,7 +276,9 @@ class Slurm(unittest.TestCase):
         lost = self.rows(stores[1])
         self.assertTrue(2 < len(lost) < share, lost)
         cluster.ask("scontrol", "update", "NodeName=node", "State=DOWN", "Reason=lost")
-        cluster.until(lambda: cluster.ask("squeue", "-h", "-t", "PENDING", "-o", "%i").count(f"{array}_") == 3, 20,
+        # the second one may have come to its end before, on a machine that was busy when the study was measured
+        ended = 1 if len(self.rows(stores[2])) >= 2 * steps // 3 else 0
+        cluster.until(lambda: cluster.ask("squeue", "-h", "-t", "PENDING", "-o", "%i").count(f"{array}_") >= 3 - ended, 20,
                       "the tasks are in the queue again")
         self.assertFalse((out / "study.json").exists())
         cluster.start_node()
