@@ -73,8 +73,8 @@ static fw_status add_row(lot *l, wafer *w, int index) {
 
 /* ---- one reading that was logged twice ---- */
 
-static bool same_number(double a,
-                        double b) { /* but for rounding, as sites in another order have it */
+/* but for rounding, as sites in another order have it */
+static bool same_number(double a, double b) {
     return (isnan(a) && isnan(b)) || fabs(a - b) <= 1e-9 * fmax(fabs(a), fabs(b));
 }
 

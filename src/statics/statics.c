@@ -399,9 +399,8 @@ static fw_status rests_at(fw_arena *arena, const fw_mechanism *m, const fw_devic
     const fw_status status = fw_statics_solve(arena, m, scene, &o, &own, &found);
     *known = status == FW_OK && found;
     if (*known) *from = found->rest_q, *to = found->q;
-    return status == FW_NOMEM || status == FW_CANCELLED || own.failed
-               ? (status == FW_CANCELLED ? status : FW_NOMEM)
-               : FW_OK;
+    if (status == FW_CANCELLED) return status;
+    return status == FW_NOMEM || own.failed ? FW_NOMEM : FW_OK;
 }
 
 fw_status fw_statics_driven_way(fw_arena *arena, const fw_mechanism *m, int driver, double end_s,

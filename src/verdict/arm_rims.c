@@ -308,6 +308,7 @@ static double material_of_cut(const fw_verdict_pierced *body, fw_geometry_vec2 a
 static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, double from,
                         double to, double beyond, double bend[3]) {
     const double least = 1e-3 * (beyond - from), step = (beyond - from) / STATIONS;
+    const double least_cubes = pow(least, 3);
     double area = 0, moment = 0;
     bend[0] = bend[1] = bend[2] = 0;
     for (int i = STATIONS - 1; i >= 0; i--) {
@@ -320,7 +321,7 @@ static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, 
         area += wide * step;
         if (s > to || !(wide > 0)) continue;
         bend[2] +=
-            (12 * here * (to - s) / fmax(cubes, pow(least, 3)) + 3.2 * cut / fmax(wide, least)) *
+            (12 * here * (to - s) / fmax(cubes, least_cubes) + 3.2 * cut / fmax(wide, least)) *
             step;
         bend[0] += here / fmax(wide, least) * step;
         bend[1] += here * (to - s) / fmax(wide, least) * step;

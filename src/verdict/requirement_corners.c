@@ -290,9 +290,9 @@ typedef struct edges {
     const char *says;
 } edges;
 
-/* "lines 0.1 um wider change that by -0.0137 %": a line that is wider by d has each edge moved by d/2 */
-static fw_status keep(edges *e, double room, const char *what, double per_edge,
-                      const char *unit) { /* NULL: a share */
+/* "lines 0.1 um wider change that by -0.0137 %": a line that is wider by d has each edge moved by d/2;
+   unit NULL: a share */
+static fw_status keep(edges *e, double room, const char *what, double per_edge, const char *unit) {
     if (!(room < e->room) && !(isnan(room) && !isnan(e->room))) return FW_OK;
     const double wider = 0.1e-6;
     char change[FW_PROBE_TEXT];
@@ -343,8 +343,8 @@ static fw_status room_of_check(edges *e, int check) {
                    : distance         ? fw_verdict_clearance_counts
                                       : 0.0;
     double slope = s->slope[check * n + e->input] / s->v->input[e->input].edge_m;
-    if (check <
-        hinges) { /* as all corners have it, where that is less; and where hinges differ, where that is more */
+    /* of a hinge as all corners have it, where that is less; and where hinges differ, where that is more */
+    if (check < hinges) {
         const fw_verdict_fabricated_hinge *h = &s->fabricated->hinge[check / (scenes + 1)];
         const double bound = log(h->most);
         most = fmin(most, bound) + log(fw_verdict_band_above(s, check / (scenes + 1)));

@@ -68,8 +68,8 @@ typedef struct fw_verdict_fabricated_hinge {
 /* How far edges may lie beyond all that the corners make of them, either way, before something that is accepted is not.
    Test: test_ranges.c, room_of_edges; tests/cli/test_mask_certificate.py */
 typedef struct fw_verdict_edge_room {
-    const char
-        *says; /* which hinge, requirement or distance decides, and how it goes; NULL: not known */
+    /* which hinge, requirement or distance decides, and how it goes; NULL: not known */
+    const char *says;
     double edge_m;   /* to first order; HUGE_VAL: nothing of it changes with edges */
     double looked_m; /* how far the corners themselves move edges either way */
 } fw_verdict_edge_room;

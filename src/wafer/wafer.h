@@ -82,10 +82,10 @@ typedef struct fw_wafer_variant {
 
 /* how much wider or narrower lines of the plate may be, by what the verdict has looked at */
 typedef struct fw_wafer_width_effect {
-    const char
-        *says; /* which hinge, requirement or distance decides, and how it goes with a width */
-    double
-        left_m; /* before that is not accepted, first order; HUGE_VAL: nothing decides, NaN: not known */
+    /* which hinge, requirement or distance decides, and how it goes with a width */
+    const char *says;
+    /* before that is not accepted, first order; HUGE_VAL: nothing decides, NaN: not known */
+    double left_m;
     double looked_m; /* how far the verdict's corners have gone either way; NaN: not known */
 } fw_wafer_width_effect;
 

@@ -35,8 +35,8 @@ typedef struct fw_wiring_moved {
     int index; /* of the scene; behind the last scene required boxes */
     double m, t_s;
     double start_m, moved_m; /* distance where the motion begins; how far the two go at most */
-    double
-        low_m; /* least that it may be, by what the motion is off by and at all corners of the flow */
+    /* least that it may be, by what the motion is off by and at all corners of the flow */
+    double low_m;
     fw_geometry_vec2 at;
 } fw_wiring_moved;
 
