@@ -300,6 +300,7 @@ static void a_stop_of_no_mask_is_placed_or_etched(void **unused) {
         char xml[2000];
         int both = 0;
         o.data_directory = FW_TEST_SOURCE_DIR;
+        o.verdict.with_advice = false;
         fw_plan *plan = fw_plan_new(&o);
         assert_non_null(plan);
         snprintf(xml, sizeof xml, paddle, row[i].undrawn);
