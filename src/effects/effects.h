@@ -180,7 +180,8 @@ typedef struct fw_effect_ledger {
     int count;
     double left_out; /* sum of the bounds of what auto left out; 0 where the choice was asked for */
     double
-        beside; /* likewise of what no motion has, whatever was asked for; those that are finite */
+        beside; /* likewise of what no motion has, whatever was asked for; where nothing bounds it, and it is
+                      small, twice the share by which it may change forces */
     const char
         *undecided; /* what no motion has, matters and nothing bounds: a sentence; NULL: nothing */
     double undecided_share; /* by which it may change forces */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cables that rub on the eyelets that they bend around. No motion has that: what it may come to, sticking or slipping
-   either way, is in the error of every peak, and statics says within what range friction may hold (statics_friction.c).
+   either way, is in every band, and statics says within what range friction may hold (statics_friction.c).
 
      T_before/T_behind = e^(+-mu beta) at most, at an eyelet that bends the cable by beta
 
@@ -181,7 +181,7 @@ static fw_status beside(const fw_effect_case *c, double *share) {
 
 const fw_effect_row fw_effect_eyelet_friction = {
     .id = "eyelet-friction",
-    .summary = "cables that rub on the eyelets they bend around; in the error of the motion",
+    .summary = "cables that rub on the eyelets they bend around; in every band, in no motion",
     .called_for = called_for,
     .bound = bound,
     .add = fw_effects_add_nothing,

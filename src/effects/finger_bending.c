@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fingers of combs bend towards each other where the rotor stands aside, and pull it aside the more. No motion has that:
-   what it may come to is in the error of every peak. Theory: docs/theory/effects/finger-bending.md.
+   what it may come to is in every band. Theory: docs/theory/effects/finger-bending.md.
    Test: test_pull_in.c, tests/cli/test_effects.py, tests/docs/theory_effects.py */
 #include "base/constants.h"
 #include "effects/effect.h"
@@ -148,7 +148,7 @@ static fw_status beside(const fw_effect_case *c, double *share) {
 
 const fw_effect_row fw_effect_finger_bending = {
     .id = "finger-bending",
-    .summary = "fingers of combs that bend towards each other; in the error of the motion",
+    .summary = "fingers of combs that bend towards each other; in every band, in no motion",
     .called_for = called_for,
     .bound = bound,
     .add = fw_effects_add_nothing,

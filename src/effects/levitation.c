@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Electrodes over a carrier are lifted, and then face each other over less of their depth. No motion has that: what it may
-   come to is in the error of every peak, and how far they rise is judged beside the motion
+   come to is in every band, and how far they rise is judged beside the motion
    (verdict/verdict_out_of_plane.c). Theory: docs/theory/effects/levitation.md. */
 #include "base/constants.h"
 #include "effects/effect.h"
@@ -147,7 +147,7 @@ static fw_status beside(const fw_effect_case *c, double *share) {
 
 const fw_effect_row fw_effect_levitation = {
     .id = "levitation",
-    .summary = "electrodes that a carrier below lifts; in the error of the motion",
+    .summary = "electrodes that a carrier below lifts; in every band, in no motion",
     .called_for = called_for,
     .bound = bound,
     .add = fw_effects_add_nothing,

@@ -166,8 +166,9 @@ static fw_status explain(const fw_effect_case *c, fw_effect_entry *entry, double
 }
 
 /* What no motion has: its bound stands beside what was left out. Where there is none it must be small: the share below
-   which the closed forms of hinges may be off as well (verdict/decision.c). */
-static const double fw_beside_small = 0.029;
+   which the closed forms of hinges may be off as well (verdict/decision.c). Twice the share by which forces may change
+   is then in its place, since what comes suddenly goes twice as far as at rest. */
+static const double fw_beside_small = 0.029, fw_beside_times = 2;
 
 static fw_status set_aside(const fw_effect_case *c, fw_effect_entry *entry,
                            fw_effect_ledger *ledger) {
@@ -181,15 +182,21 @@ static fw_status set_aside(const fw_effect_case *c, fw_effect_entry *entry,
         if (isfinite(e->bound)) {
             ledger->beside += e->bound;
             fw_percent_text(text, sizeof text, e->bound);
-            FW_NEED(e->reason =
-                        fw_arena_printf(c->arena, "%s; at most %s %%, in the error of every peak",
-                                        e->reason, text));
+            FW_NEED(e->reason = fw_arena_printf(c->arena, "%s; at most %s %%, in every band",
+                                                e->reason, text));
             continue;
         }
         FW_TRY(rows[i]->beside(c, &share));
-        if (!(share > fw_beside_small)) continue;
-        ledger->undecided = e->reason;
-        ledger->undecided_share = fmax(ledger->undecided_share, share);
+        if (share > fw_beside_small) {
+            ledger->undecided = e->reason;
+            ledger->undecided_share = fmax(ledger->undecided_share, share);
+            continue;
+        }
+        ledger->beside += fw_beside_times * share;
+        fw_percent_text(text, sizeof text, fw_beside_times * share);
+        FW_NEED(e->reason = fw_arena_printf(
+                    c->arena, "%s: twice what it changes of forces, %s %%, is in every band",
+                    e->reason, text));
     }
     return FW_OK;
 }

@@ -169,6 +169,8 @@ fw_status fw_verdict_hinge_beam(fw_arena *arena, const fw_mechanism_hinge *hinge
 
 /* error of a model, relative, where nothing bounds it (fw_verdict_motion_model_error) */
 extern const double fw_verdict_model_not_known;
+double fw_verdict_motion_beside(const fw_dynamics_motion *motion);
+double fw_verdict_motion_beside_rad(const fw_dynamics_motion *motion);
 
 /* ---- verdict_strain.c: the largest value of what is followed along a motion: a strain, a force ---- */
 

@@ -110,6 +110,10 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                          ? 0.0
                          : out->angle_error_rad / c->limit_angle_rad +
                                (strain->between + strain_error(motion)) / out->strain_limit;
+    const double beside = fw_verdict_motion_beside(motion);
+    if (isfinite(numeric)) /* angles have it in their errors: it counts once */
+        numeric -= fmin(fw_verdict_motion_beside_rad(motion) / c->limit_angle_rad,
+                        beside * out->utilisation);
     const bool lost = monitor->hinge[k].lost;
     double moved = lost ? fw_verdict_model_not_known : fw_verdict_motion_model_error(by->m, motion);
     double bent = fw_verdict_bending_counted(motion);
@@ -128,13 +132,13 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     double less =
         usual || combs_pull(motion) ? 0 : lasting - fw_verdict_motion_lasting_below(by->m);
     double more = usual ? 0 : lasting - fw_verdict_motion_lasting_above(by->m);
-    double up = fmax(moved - more, 0) + bent, down = fmax(moved - less, 0);
-    double stays = fmin(down, lasting);
+    double up = fmax(moved - more, 0) + beside + bent, down = fmax(moved - less, 0) + beside;
+    double stays = fmin(down, lasting + beside);
     double share = out->utilisation > 0 ? 1 / out->utilisation : 0, kept = least * share;
     double above = e->above_anywhere + fmax(most * share - 1, 0) * (1 + e->above_anywhere + up);
     if (rings) above = fmax(above, e->above);
     /* bodies give as they do whatever computes the hinges */
-    out->lasting = fmin(up - bent, lasting) + bent + above;
+    out->lasting = fmin(up - bent, lasting + beside) + bent + above;
     const double stated = by->hinge->stated_less;
     out->lasting_low = stays + stated + bent + e->strain_anywhere;
     if (out->utilisation > 0) out->lasting_low += 1 - kept;

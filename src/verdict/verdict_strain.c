@@ -511,12 +511,10 @@ double fw_verdict_motion_lasting_below(const fw_mechanism *m) {
    acceptance; forces that it changes by a share may change what they do by twice as much. */
 const double fw_verdict_model_not_known = 0.5;
 
-double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
+static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     const fw_statics_level_step *s = x->level;
     double usual = fw_verdict_model_error.motion, common = fw_verdict_motion_lasting_error(m),
            off = 0, largest = 0;
-    if (x->ledger.undecided)
-        return fmin(1, fmax(fw_verdict_model_not_known, 2 * x->ledger.undecided_share));
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common) + (s ? s->blows : 0);
     if (s && s->unknown) return fw_verdict_model_not_known;
     if (!s || s->why_not || m->nhinge == 0) return usual;
@@ -529,4 +527,25 @@ double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_mo
     double computed = fmax(largest > 0 ? off / largest : 0, s->relative) + common;
     bool swings = x->loads && !x->loads->quasi_static;
     return s->used == FW_HINGE_REVOLUTE && swings ? fmax(usual, computed) : computed;
+}
+
+double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
+    const double level = level_error(m, x);
+    if (!x->ledger.undecided) return level;
+    return fmin(1, fmax(level, fmax(fw_verdict_model_not_known, 2 * x->ledger.undecided_share)));
+}
+
+/* What effects that no motion has may change of a strain, over what is seen, of which it is at most 1/(1 - that). Errors of
+   peak angles and of probes have it; a strip that is pulled or bent aside may not turn at all. A hundredfold is as
+   unknown as more. */
+double fw_verdict_motion_beside(const fw_dynamics_motion *x) {
+    const double most = 100, share = x->ledger.beside;
+    return share < 1 ? fmin(share / (1 - share), most) : most;
+}
+
+/* rad: the part of it in every peak's error_rad */
+double fw_verdict_motion_beside_rad(const fw_dynamics_motion *x) {
+    const double out = x->ledger.left_out + x->ledger.beside,
+                 all = out > 0 ? fw_dynamics_motion_left_out(x) : 0;
+    return isfinite(all) && out > 0 ? all * x->ledger.beside / out : 0;
 }
