@@ -109,8 +109,10 @@ static const fw_xml_attribute_row revolute_rows[] = {
     {"damping", D_TURNING_C, ELASTIC, .fallback = "from the flexure's material, else 0",
      .sentence = "Torque per angular velocity."},
     {"free-angle", TURNS, .fallback = "0 deg",
-     .sentence = "phi_b - phi_a at which the joint's angle is 0 and its spring at rest; a flexure "
-                 "is at rest where it is drawn."},
+     .sentence =
+         "phi_b - phi_a at which the joint's angle is 0 and its spring at rest. A flexure is made "
+         "at rest as it is "
+         "drawn: state the difference of phi as drawn, where bodies do not lie alike (FW-D622)."},
     {"hinge", REF(FW_SPACE_FLEXURE), .fallback = "an ideal pivot",
      .sentence =
          "The flexure that it is; stiffness, damping and limit then come from its geometry."},

@@ -107,8 +107,12 @@ static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int on
     }
     fw_diag_error(d->diags, 128, d->device->revolute[joint[0]].place,
                   "the base at ground %s%s cannot reach the frame on any side without crossing "
-                  "a moving part; move the ground hinges to the rim of the mechanism",
-                  FW_NAMED("hinge", d->device->revolute[joint[0]].id));
+                  "a moving part; move the ground hinges to the rim of the mechanism%s",
+                  FW_NAMED("hinge", d->device->revolute[joint[0]].id),
+                  n == 2 ? ". These two have one base between them, which nothing that moves may "
+                           "cross: put both on one side of what they hold, or add a third ground "
+                           "hinge, with which each stands on a base of its own"
+                         : "");
     fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint[0]));
     fault.body[fault.nbody++] = FW_GROUND;
     fault.joint[fault.njoint++] = joint[0];

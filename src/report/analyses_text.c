@@ -281,7 +281,7 @@ static void friction(const fw_mechanism *m, const fw_statics_friction_range *f, 
         far = i % 3 == 2 ? far : fmax(far, f->q[i]);
     const fw_report_magnitude length = fw_report_magnitude_of(FW_MEASURE_LENGTH, far);
     fw_text_printf(out,
-                   "\nfriction may hold it anywhere from here%s\n"
+                   "\nfriction may hold it anywhere within this of the places above%s\n"
                    "  centre of           x %-2s           y %-2s        phi deg\n",
                    f->first_order ? " (first order)" : "", length.unit, length.unit);
     for (int b = 0; b < m->nbody; b++)
