@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/session.h"
 #include "base/output.h"
-#include "continuum/device_deck.h"
+#include "continuum/continuum.h"
 #include "plan/ladder.h"
 #include <math.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the mechanism as the engine has it to solids. */
-#include "continuum/device_deck.h"
+#include "continuum/continuum.h"
 #include "continuum/solver.h"
 #include "effects/effects.h"
 #include "mechanism/mechanism.h"

@@ -3,7 +3,6 @@
    and its row in the table at the end. docs/theory/flexure-errors.md. */
 #include "base/constants.h"
 #include "continuum/continuum.h"
-#include "continuum/device_deck.h"
 #include "flexure/beam.h"
 #include "plan/ladder.h"
 #include <math.h>

@@ -114,7 +114,7 @@ double fw_quantity_law_pumps(const fw_quantity_law *law, bool squared, double en
                              double omega_per_s, double damping, double share);
 double fw_quantity_law_root_mean_square(const fw_quantity_law *law, double end_s);
 
-/* of a coordinate: where it begins, and the farthest from there of 501 looks; false: it stays */
+/* of a coordinate: where it begins, and the farthest from there of its breaks and 2001 looks; false: it stays */
 bool fw_quantity_law_goes(const fw_quantity_law *law, double end_s, double *from, double *to);
 
 typedef struct fw_quantity_law_load { /* law NULL: there from the start on */
@@ -122,13 +122,46 @@ typedef struct fw_quantity_law_load { /* law NULL: there from the start on */
     double size;
     bool squared; /* of a voltage, by whose square it acts */
     double from; /* value of the law at which it does nothing: of a coordinate, where that begins */
+    bool
+        coordinate; /* what it prescribes goes where it says, and what hangs on it is left behind */
 } fw_quantity_law_load;
-/* as fw_quantity_law_swing, of the sum of loads; a jump counts half a sample late, by 7.5 degrees of the mode at most.
-   Test: test_time_law.c swings_of_several */
-double fw_quantity_law_swing_of_all(const fw_quantity_law_load *load, int n, double end_s,
-                                    double omega_per_s, double damping);
+
+/* Between breaks of any of them all laws of loads are smooth; a step of at most step_s sees them there, infinite where
+   all are straight. FW_OK or FW_NOMEM */
+typedef struct fw_quantity_law_pieces {
+    double *end_s, *step_s; /* (n) ascending, the last end is that of the scene */
+    int n;
+} fw_quantity_law_pieces;
+fw_status fw_quantity_law_pieces_of(fw_arena *arena, const fw_quantity_law_load *load, int n,
+                                    double end_s, fw_quantity_law_pieces *pieces);
+
+enum { FW_QUANTITY_OSCILLATORS = 24 };
+typedef struct fw_quantity_law_oscillator {
+    double omega_per_s, damping, start_per_s; /* damping: share of the critical one, < 1 */
+    const double *size;                       /* of every load, in place of its own */
+} fw_quantity_law_oscillator;
+
+/* What is looked at: row i is the sum of by[i * oscillators + k] q_k less that of less[i * loads + j] (f_j - from_j) */
+typedef struct fw_quantity_law_seen {
+    const double *by, *less;
+    double *most, *rest; /* (n) the largest |row|; (2n) for its own use */
+    int n;
+} fw_quantity_law_seen;
+/* q'' + 2 damping w q' + w^2 q = w^2 sum of size_j (f_j - from_j) of every oscillator, from q = 0 and q' = start_per_s on.
+   Exact steps of what is straight between 24 samples to a period of the fastest, or of what laws are made of, 12 where all
+   laws are straight; of one oscillator alone such a piece is one step between its first and its last period. Between samples
+   the cubic through values and rates: 1e-4 of a swing at most. Returns the steps that it took; -1: beyond 4e6, most is not
+   known. Test: test_time_law.c swings_of_several */
+double fw_quantity_law_swings_of(const fw_quantity_law_load *load, int n,
+                                 const fw_quantity_law_pieces *pieces,
+                                 const fw_quantity_law_oscillator *oscillator, int oscillators,
+                                 fw_quantity_law_seen *seen);
+/* of loads of these sizes no |q| is larger than that, from rest, whatever w is; infinite: nothing bounds a law */
+double fw_quantity_law_bound_of(const fw_quantity_law_load *load, const double *size, int n,
+                                double end_s);
 /* Something may come again while a mode still rings by what came before: loads that do not all have one course, a
-   law of more than two breaks, or one without any that rests between two changes (2000 samples) */
+   law of more than two breaks, or one that rests between two changes (2000 samples). Of a coordinate, which leaves what
+   hangs on it behind whenever its rate changes, two such changes, the start among them */
 bool fw_quantity_law_come_again(const fw_quantity_law_load *load, int n, double end_s);
 
 /* ---- steps that see all of it (stride.c) ---- */

@@ -18,6 +18,7 @@
    Bulirsch, 2.1. Test: test_stride.c */
 #include "quantity/law_kind.h"
 #include "base/constants.h"
+#include "base/sort.h"
 #include <math.h>
 
 enum {
@@ -308,4 +309,56 @@ double fw_quantity_law_stride(const fw_quantity_law_strides *strides, double fac
     for (; i < strides->n && strides->t_s[i] - t_s < most; i++)
         most = fmin(most, fmax(0, strides->t_s[i] - t_s) + factor * strides->most_s[i]);
     return most;
+}
+
+/* ---- pieces of several laws, and what sees them ---- */
+
+/* longest step that sees a law from `from` to `to`, which no break lies between; fast: all of its strides */
+static double step_for(const fw_quantity_law_load *load, const fw_quantity_law_strides *fast,
+                       double from, double to) {
+    const double per_period = 24,
+                 share = 0.125; /* a stride is 2.1 rad of what the law is made of */
+    const double own_Hz = fw_quantity_law_wave_of(load->law).fastest_Hz;
+    double least = own_Hz > 0 ? 1 / (per_period * own_Hz) : (double)INFINITY;
+    if (fw_quantity_law_is_straight(load->law)) return (double)INFINITY;
+    for (int i = 0; i < fast->n; i++)
+        if (fast->t_s[i] < to && (i + 1 == fast->n || fast->t_s[i + 1] > from))
+            least = fmin(least, share * fast->most_s[i]);
+    return fmin(load->squared ? 0.5 * least : least, to - from);
+}
+
+static int compact(double *at, int n) {
+    int kept = 0;
+    for (int i = 0; i < n; i++)
+        if (kept == 0 || at[i] > at[kept - 1]) at[kept++] = at[i];
+    return kept;
+}
+
+fw_status fw_quantity_law_pieces_of(fw_arena *arena, const fw_quantity_law_load *load, int n,
+                                    double end_s, fw_quantity_law_pieces *to) {
+    size_t all = 1;
+    int count = 0;
+    for (int i = 0; i < n; i++)
+        all += (size_t)fw_quantity_law_breaks_of(load[i].law, end_s, NULL, 0);
+    FW_NEED(to->end_s = fw_arena_array(arena, double, all));
+    FW_NEED(to->step_s = fw_arena_array(arena, double, all));
+    for (int i = 0; i < n; i++)
+        count +=
+            fw_quantity_law_breaks_of(load[i].law, end_s, to->end_s + count, (int)all - 1 - count);
+    to->end_s[count++] = end_s;
+    fw_sort_doubles(to->end_s, (size_t)count);
+    to->n = compact(to->end_s, count);
+    for (int k = 0; k < to->n; k++)
+        to->step_s[k] = (double)INFINITY;
+    for (int i = 0; i < n; i++) {
+        fw_quantity_law_strides fast = {0};
+        if (load[i].law && !(fw_quantity_law_wave_of(load[i].law).fastest_Hz > 0) &&
+            !fw_quantity_law_is_straight(load[i].law))
+            FW_TRY(fw_quantity_law_look(arena, load[i].law, load[i].coordinate, end_s, to->end_s,
+                                        to->n - 1, &fast));
+        for (int k = 0; k < to->n; k++)
+            to->step_s[k] = fmin(to->step_s[k],
+                                 step_for(&load[i], &fast, k ? to->end_s[k - 1] : 0, to->end_s[k]));
+    }
+    return FW_OK;
 }

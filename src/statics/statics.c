@@ -404,14 +404,14 @@ static fw_status rests_at(fw_arena *arena, const fw_mechanism *m, const fw_devic
 }
 
 fw_status fw_statics_driven_way(fw_arena *arena, const fw_mechanism *m, int driver, double end_s,
-                                double *way) {
+                                double *way, bool *known) {
+    enum { HALVINGS = 6 };
     static const double ends[2] = {0, 1};
     const fw_device_scene still = {.name = "(none)", .duration_s = 1};
     const size_t n = (size_t)m->ndriver;
     fw_mechanism held = *m;
     double *value, turned = 1;
     const double *from, *to;
-    bool known;
     FW_NEED(held.driver = fw_arena_grow(arena, m->driver, n, n, sizeof *held.driver));
     FW_NEED(value = fw_arena_array(arena, double, 2 * n));
     for (int i = 0; i < m->ndriver; i++) {
@@ -424,23 +424,43 @@ fw_status fw_statics_driven_way(fw_arena *arena, const fw_mechanism *m, int driv
         held.driver[i].law = (fw_quantity_law){
             .kind = &fw_quantity_law_table, .table_t_s = ends, .table_value = at, .ntable = 2};
     }
-    FW_TRY(rests_at(arena, &held, &still, &from, &to, &known));
-    for (int i = 0; known && i < 3 * m->nbody; i++)
+    FW_TRY(rests_at(arena, &held, &still, &from, &to, known));
+    for (int k = 0; !*known && k < HALVINGS; k++) { /* it comes so far in motion alone */
+        double *at = value + 2 * driver;
+        at[1] = 0.5 * (at[0] + at[1]), turned *= 0.5;
+        FW_TRY(rests_at(arena, &held, &still, &from, &to, known));
+    }
+    for (int i = 0; *known && i < 3 * m->nbody; i++)
         way[i] = (to[i] - from[i]) / turned;
     return FW_OK;
 }
 
-fw_status fw_statics_heated_way(fw_arena *arena, const fw_mechanism *m,
-                                const fw_device_temperature *heat, double *way) {
-    fw_device_temperature steady = *heat;
-    fw_device_scene still = {.name = "(none)", .duration_s = 1}, heated = still;
+/* of a still scene that has something more, against one that has not */
+static fw_status way_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *held,
+                        double *way, bool *known) {
+    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
     const double *rest, *from, *to;
-    bool known[2];
-    steady.law = NULL;
-    heated.temperature = &steady, heated.ntemperature = 1;
-    FW_TRY(rests_at(arena, m, &still, &rest, &from, &known[0]));
-    FW_TRY(rests_at(arena, m, &heated, &rest, &to, &known[1]));
-    for (int i = 0; known[0] && known[1] && i < 3 * m->nbody; i++)
+    bool there[2];
+    FW_TRY(rests_at(arena, m, &still, &rest, &from, &there[0]));
+    FW_TRY(rests_at(arena, m, held, &rest, &to, &there[1]));
+    *known = there[0] && there[1];
+    for (int i = 0; *known && i < 3 * m->nbody; i++)
         way[i] = to[i] - from[i];
     return FW_OK;
+}
+
+fw_status fw_statics_heated_way(fw_arena *arena, const fw_mechanism *m,
+                                const fw_device_temperature *heat, double *way, bool *known) {
+    fw_device_temperature steady = *heat;
+    const fw_device_scene heated = {
+        .name = "(none)", .duration_s = 1, .temperature = &steady, .ntemperature = 1};
+    steady.law = NULL;
+    return way_of(arena, m, &heated, way, known);
+}
+
+fw_status fw_statics_stressed_way(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_device_scene *scene, double *way, bool *known) {
+    const fw_device_scene stressed = {
+        .name = "(none)", .duration_s = 1, .stress = scene->stress, .nstress = scene->nstress};
+    return way_of(arena, m, &stressed, way, known);
 }

@@ -108,12 +108,15 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
                            const fw_device_scene *scene, const fw_statics_static_options *options,
                            fw_diags *diags, const fw_statics **statics);
 
-/* How far one unit of a driver, or a heat as if it were there from the start on, holds every body from where it rests,
-   way (3 nbody), zeroed by the caller */
+/* How far one unit of a driver, a heat, or the stress of a scene, as if they were there from the start on, hold every body
+   from where it rests, way (3 nbody), zeroed by the caller. Of a driver by the straight way to its farthest value, or to
+   the nearest half, quarter, ... of it at which an equilibrium is found. *known false: there is none, and way is 0 */
 fw_status fw_statics_driven_way(fw_arena *arena, const fw_mechanism *mechanism, int driver,
-                                double end_s, double *way);
+                                double end_s, double *way, bool *known);
 fw_status fw_statics_heated_way(fw_arena *arena, const fw_mechanism *mechanism,
-                                const fw_device_temperature *heat, double *way);
+                                const fw_device_temperature *heat, double *way, bool *known);
+fw_status fw_statics_stressed_way(fw_arena *arena, const fw_mechanism *mechanism,
+                                  const fw_device_scene *scene, double *way, bool *known);
 
 /* ---- pull_in.c ---- */
 

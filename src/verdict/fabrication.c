@@ -512,40 +512,13 @@ fw_status fw_verdict_fabrication_build(fw_arena *arena, const fw_device *device,
     return FW_OK;
 }
 
-/* ---- what of a device that was made is kept and compared: how it was shaken ---- */
-
-fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
-                                 const fw_verdict_shaken **kept) {
-    const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1;
-    fw_verdict_shaken *to;
-    *kept = NULL;
-    if (!v->shaken) return FW_OK;
-    FW_NEED(to = fw_arena_grow(arena, v->shaken, scenes, scenes, sizeof *to));
-    for (size_t i = 0; i < scenes; i++) {
-        const size_t n = (size_t)to[i].n;
-        FW_NEED(to[i].factor = fw_arena_grow(arena, to[i].factor, 2 * h, 2 * h, sizeof(double)));
-        if (n == 0) continue;
-        FW_NEED(to[i].mode = fw_arena_grow(arena, to[i].mode, n, n, sizeof *to[i].mode));
-        for (size_t k = 0; k < n; k++) {
-            fw_verdict_shaken_mode *mode = &to[i].mode[k];
-            const size_t loads = (size_t)mode->nload;
-            FW_NEED(mode->share = fw_arena_grow(arena, mode->share, h, h, sizeof(double)));
-            if (loads == 0) continue;
-            FW_NEED(mode->load =
-                        fw_arena_grow(arena, mode->load, loads, loads, sizeof *mode->load));
-        }
-    }
-    *kept = to;
-    return FW_OK;
-}
-
 /* ---- how near stators come as made ----
    Breakdown asks for the least gap between electrodes that any device of the flow has. At corners that were run the
    distance lost, from where the motion begins to the least that it may be, is known. At others it is a product of what
    each input alone does to it, as every estimate there (verdict_corners.c), with the error that estimates were seen to
    have:  lost <= lost_0 exp(sum over inputs of max(g (low - x_0), g (high - x_0)) + error),  g = d ln lost/dx.
-   In: corners of a search, m. Out: v->stator[].low_m. Range: corners with a motion. Test: Breakdown
-   in tests/cli/test_effects.py. Source: docs/theory/wiring.md, 4. */
+   In: corners of a search, m. Out: v->stator[].low_m. Range: corners with a motion; where one
+   has none nothing may be left of the gap. Test: test_made.c, Breakdown in tests/cli/test_effects.py. Source: docs/theory/wiring.md, 4. */
 
 fw_status fw_verdict_stators_keep(fw_arena *arena, const fw_verdict_variant_verdict *now,
                                   fw_verdict_fabricated_corner *corner) {
@@ -567,6 +540,7 @@ static double lost_at(const fw_verdict_search *s, int point, const fw_wiring_mov
     return most;
 }
 
+/* NaN: at a corner that a slope would be made of it is not known */
 static double lost_unrun(const fw_verdict_search *s, const fw_wiring_moved *of) {
     const double none = lost_at(s, 0, of);
     double ln = s->fabricated->error;
@@ -577,17 +551,23 @@ static double lost_unrun(const fw_verdict_search *s, const fw_wiring_moved *of) 
         const double off = s->fabricated->corner[point].x[like] - s->v->input[like].nominal,
                      scale = like < i ? in->edge_m / s->v->input[like].edge_m : 1,
                      slope = scale * log(lost_at(s, point, of) / none) / off;
+        if (isnan(slope)) return slope;
         ln += fmax(slope * (in->low - in->nominal), slope * (in->high - in->nominal));
     }
     return none * exp(ln);
 }
 
+/* where it is not known what is lost nothing may be left of the gap */
 void fw_verdict_stators_made(const fw_verdict_search *s, fw_verdict_variant_verdict *v) {
     for (int k = 0; k < v->nstator; k++) {
         fw_wiring_moved *to = &v->stator[k];
-        double most = s->first > 0 && !s->fabricated->all ? lost_unrun(s, to) : (double)NAN;
-        for (int p = 0; p < s->fabricated->ncorner; p++)
+        double most = s->first > 0 && !s->fabricated->all ? lost_unrun(s, to) : 0;
+        bool unknown = isnan(most);
+        for (int p = 0; p < s->fabricated->ncorner; p++) {
+            unknown = unknown || isnan(lost_at(s, p, to));
             most = fmax(most, lost_at(s, p, to));
+        }
+        if (unknown) to->low_m = fmin(to->low_m, 0);
         if (most > 0) to->low_m = fmin(to->low_m, to->start_m - most);
     }
 }

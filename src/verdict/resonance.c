@@ -16,7 +16,7 @@
    square. Where that may be reached from rest within the scene frequencies in between belong to the range.
    Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
    Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance
-   What comes again while a mode rings counts likewise, all that acts together (fw_verdict_loads_on).
+   What comes again while a mode rings counts likewise (ringing.c).
    Loads that make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
 #include "base/constants.h"
 #include "geometry/segment.h"
@@ -37,6 +37,7 @@ typedef struct shakings { /* of one scene, those that go to and fro */
     shaking *item;
     int n;
     bool again; /* something comes while a mode may still ring by what came before */
+    fw_quantity_law_pieces pieces; /* of all that acts, where it does */
     double end_s;
 } shakings;
 
@@ -74,7 +75,7 @@ static fw_status find_laws(fw_arena *arena, const fw_mechanism *m, const fw_devi
         for (int i = 0; i < s->ntemperature; i++)
             take_law(to, s->temperature[i].law, as ? FW_LAW_OF_LOAD : FW_LAW_OF_COORDINATE);
     }
-    return fw_verdict_comes_again(arena, m, s, &to->again);
+    return fw_verdict_comes_again(arena, m, s, &to->again, &to->pieces);
 }
 
 /* ---- about which pose: what of a scene does not go to and fro ---- */
@@ -124,142 +125,9 @@ static fw_status modes_about(fw_arena *arena, const fw_mechanism *m, const fw_de
     return status == FW_NOMEM || own.failed ? FW_NOMEM : FW_OK;
 }
 
-/* ---- how far each mode swings, and bends what ---- */
-
-/* how a hinge is bent: its turn, and what its ends are displaced by over its length, which strains it by 3/2 of the
-   same turn */
-static double bend_of(const fw_mechanism_hinge *h, double turn, double x_m, double y_m) {
-    return fabs(turn) + (h->law.length_m > 0 ? 1.5 * hypot(x_m, y_m) / h->law.length_m : 0);
-}
-
-/* by a small displacement u about the pose q */
-static double bent_by(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
-                      const double *u) {
-    const fw_mechanism_pin *p = &m->pin[h->pin];
-    const int body[2] = {p->body_a, p->body_b};
-    const double local[2][2] = {{p->ax_m, p->ay_m}, {p->bx_m, p->by_m}};
-    double turn = 0, x = 0, y = 0;
-    for (int i = 0; i < 2; i++) {
-        const int b = body[i];
-        if (b == FW_GROUND) continue;
-        const double sign = i ? 1 : -1;
-        const fw_geometry_vec2 arm =
-            fw_geometry_vec_rotate((fw_geometry_vec2){local[i][0], local[i][1]}, q[3 * b + 2]);
-        turn += sign * u[3 * b + 2];
-        x += sign * (u[3 * b] - arm.y * u[3 * b + 2]);
-        y += sign * (u[3 * b + 1] + arm.x * u[3 * b + 2]);
-    }
-    return bend_of(h, turn, x, y);
-}
-
-/* between two poses, exactly */
-static double bent_between(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *from,
-                           const double *to) {
-    const fw_mechanism_pin *p = &m->pin[h->pin];
-    double turn = 0;
-    if (p->body_a != FW_GROUND) turn -= to[3 * p->body_a + 2] - from[3 * p->body_a + 2];
-    if (p->body_b != FW_GROUND) turn += to[3 * p->body_b + 2] - from[3 * p->body_b + 2];
-    const fw_geometry_vec2 before = fw_mechanism_pin_opened(p, from),
-                           after = fw_mechanism_pin_opened(p, to);
-    return bend_of(h, turn, after.x - before.x, after.y - before.y);
-}
-
-static double moved_by(const double *u, int b, double unit_m) {
-    return hypot(u[3 * b], u[3 * b + 1]) + unit_m * fabs(u[3 * b + 2]);
-}
-
-/* largest modal speed over w of every mode: in the scene, and in the last period of its frequency */
-static void see_swings(const fw_mechanism *m, const fw_statics_modes *modes,
-                       const fw_dynamics_motion *motion, int k, double swings[2]) {
-    const fw_statics_mode *mode = &modes->mode[k];
-    const double w = mode->omega_rad_per_s, late = motion->end_s - 2 * FW_PI / w;
-    swings[0] = swings[1] = 0;
-    for (int r = 0; r < motion->nsample; r++) {
-        const double *v = motion->v + (size_t)r * 3 * (size_t)m->nbody;
-        double speed = 0;
-        for (int b = 0; b < m->nbody; b++) {
-            const double *u = mode->shape + 3 * b, *of = v + 3 * b;
-            speed += m->body[b].mass_kg * (u[0] * of[0] + u[1] * of[1]) +
-                     m->body[b].inertia_kg_m2 * u[2] * of[2];
-        }
-        const double now = fabs(speed) / (mode->modal_mass_kg_m2 * w);
-        swings[0] = fmax(swings[0], now);
-        if (motion->t_s[r] >= late || r + 2 >= motion->nsample) swings[1] = fmax(swings[1], now);
-    }
-}
-
-/* S of every hinge, and how far every body goes (nhinge + nbody) */
-static void see_most(const fw_mechanism *m, const fw_dynamics_motion *motion, double unit_m,
-                     double *most) {
-    const size_t n = 3 * (size_t)m->nbody;
-    for (int r = 1; r < motion->nsample; r++) {
-        const double *from = motion->q, *to = motion->q + (size_t)r * n;
-        for (int h = 0; h < m->nhinge; h++)
-            most[h] = fmax(most[h], bent_between(m, &m->hinge[h], from, to));
-        for (int b = 0; b < m->nbody; b++) {
-            const double u[3] = {to[3 * b] - from[3 * b], to[3 * b + 1] - from[3 * b + 1],
-                                 to[3 * b + 2] - from[3 * b + 2]};
-            most[m->nhinge + b] = fmax(most[m->nhinge + b], moved_by(u, 0, unit_m));
-        }
-    }
-}
-
-/* what hardly moves beside the others is moved by them */
-static double largest_of(const double *x, int n) {
-    double most = 0;
-    for (int i = 0; i < n; i++)
-        most = fmax(most, x[i]);
-    return most;
-}
-
-static fw_status put_shares(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                            bool again, const fw_statics_modes *modes,
-                            const fw_dynamics_motion *motion, fw_verdict_shaken *to) {
-    const double hardly = 1e-3, rings = 0.03;
-    const int nh = m->nhinge;
-    fw_verdict_acting by;
-    double *most = fw_arena_array(arena, double, (size_t)(nh + m->nbody));
-    FW_NEED(most);
-    if (again) FW_TRY(fw_verdict_acting_of(arena, m, s, motion->loads, &by));
-    see_most(m, motion, modes->unit_length_m, most);
-    const double bends = largest_of(most, nh), goes = largest_of(most + nh, m->nbody);
-    for (int k = 0; k < modes->count && k < MODES_SHAKEN; k++) {
-        const fw_statics_mode *mode = &modes->mode[k];
-        double swings[2];
-        if (!(mode->stiffness_per_s2 > 0) || !mode->shape) continue;
-        see_swings(m, modes, motion, k, swings);
-        fw_verdict_shaken_mode *out = &to->mode[to->n];
-        FW_NEED(out->share = fw_arena_array(arena, double, (size_t)nh + 1));
-        for (int h = 0; h < nh; h++)
-            if (most[h] > hardly * bends)
-                out->share[h] =
-                    swings[0] * bent_by(m, &m->hinge[h], modes->q, mode->shape) / most[h];
-        for (int b = 0; b < m->nbody; b++)
-            if (most[nh + b] > hardly * goes)
-                out->share[nh] =
-                    fmax(out->share[nh],
-                         swings[0] * moved_by(mode->shape, b, modes->unit_length_m) / most[nh + b]);
-        if (!(largest_of(out->share, nh + 1) > hardly)) continue;
-        out->number = k;
-        out->omega = mode->omega_rad_per_s;
-        out->damping = fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: 0 */
-        out->late = swings[0] > 0 ? swings[1] / swings[0] : 0;
-        to->n++;
-        if (!again || !(largest_of(out->share, nh + 1) > rings)) continue;
-        FW_NEED(out->load = fw_arena_array(arena, fw_quantity_law_load,
-                                           (size_t)fw_verdict_loads_most(m, s)));
-        out->nload = fw_verdict_loads_on(
-            m, s, &by, modes->q, mode->shape, mode->stiffness_per_s2,
-            mode->modal_mass_kg_m2 * mode->stiffness_per_s2 * swings[0], out->load);
-    }
-    return FW_OK;
-}
-
 /* ---- what a mode may do more or less ---- */
 
-typedef struct answer {
-    double up, down;
-} answer;
+typedef fw_verdict_answer answer;
 
 /* r of one law over [low, high]; of what is of another stiffness there, a load moves it the more, too */
 static answer answers_to(const shaking *by, double end_s, const fw_verdict_shaken_mode *mode,
@@ -287,44 +155,58 @@ static answer answers_to(const shaking *by, double end_s, const fw_verdict_shake
     return r;
 }
 
-/* the same of loads that come again, together, over how far the mode swings: more or less than as computed */
-static answer answers_again(const fw_verdict_shaken_mode *mode, double low, double high,
-                            double end_s, bool softer) {
-    const double as_computed = fw_quantity_law_swing_of_all(mode->load, mode->nload, end_s,
-                                                            mode->omega, mode->damping),
-                 n = fmin(2 + ceil((high - low) * end_s / 0.5), 400);
-    answer r = {1, 1};
-    for (double k = 0; as_computed > 0 && k < n; k++) {
-        const double at = low + (high - low) * k / (n - 1),
-                     now = fw_quantity_law_swing_of_all(mode->load, mode->nload, end_s, at,
-                                                        mode->damping),
-                     by_stiffness = softer ? mode->omega * mode->omega / (at * at) : 1;
-        if (!(now >= 0)) continue;
-        r.up = fmax(r.up, 1 + now * by_stiffness - as_computed);
-        r.down = fmin(r.down, 1 + now * by_stiffness - as_computed);
+/* of what comes again, and of each law that goes to and fro; to: rows, of every hinge and body */
+static fw_status answers_of(fw_arena *arena, const shakings *by, const fw_verdict_shaken *shaken,
+                            int k, bool softer, int rows, answer *to) {
+    const fw_verdict_shaken_mode *mode = &shaken->mode[k];
+    FW_TRY(fw_verdict_rings_again(arena, &by->pieces, by->end_s, shaken, k, rows, softer, to));
+    for (int j = 0; j < by->n; j++) {
+        const answer now = answers_to(&by->item[j], by->end_s, mode, mode->low, mode->high, softer);
+        for (int i = 0; i < rows; i++) {
+            const double share = fw_verdict_bends_most(mode->bends[i]);
+            to[i].up = fmax(to[i].up, 1 + share * (now.up - 1));
+            to[i].down = fmin(to[i].down, 1 - share * (1 - now.down));
+        }
     }
-    return r;
+    return FW_OK;
 }
 
-static answer answers_of(const shakings *by, const fw_verdict_shaken_mode *mode, double low,
-                         double high, bool softer) {
-    answer r = {1, 1};
-    if (mode->nload > 0) r = answers_again(mode, low, high, by->end_s, softer);
-    for (int i = 0; i < by->n; i++) {
-        const answer now = answers_to(&by->item[i], by->end_s, mode, low, high, softer);
-        r = (answer){fmax(r.up, now.up), fmin(r.down, now.down)};
-    }
-    return r;
-}
-
-static void add_answer(const fw_verdict_shaken_mode *mode, answer r, double end_s, int nhinge,
-                       double *factor, double *late) {
-    for (int h = 0; h <= nhinge; h++) {
-        factor[2 * h] += mode->share[h] * (r.up - 1);
-        factor[2 * h + 1] = fmax(0, factor[2 * h + 1] - mode->share[h] * (1 - r.down));
-    }
+static double late_of(const fw_verdict_shaken_mode *mode, const answer *r, double end_s, int nhinge,
+                      int rows) {
     const double phase = fmax(mode->high - mode->omega, mode->omega - mode->low) * end_s;
-    *late += mode->share[nhinge] * mode->late * fmin(r.up + 1, r.up - 1 + phase);
+    double most = 0;
+    for (int i = nhinge; i < rows; i++)
+        most = fmax(most, fmin(r[i].up - 1 + 2 * fw_verdict_bends_most(mode->bends[i]),
+                               r[i].up - 1 + phase * fw_verdict_bends_most(mode->bends[i])));
+    return mode->late * most;
+}
+
+/* All modes that lie elsewhere one by one, and where one share moves them all; of what moves the body that is worst off
+   counts */
+static fw_status add_answers(fw_arena *arena, const fw_mechanism *m, const shakings *by,
+                             const fw_verdict_shaken *shaken, bool softer, double *factor,
+                             double *late) {
+    const int nh = m->nhinge, rows = nh + m->nbody;
+    answer *sum = fw_arena_array(arena, answer, 2 * (size_t)rows), *now = sum + rows;
+    FW_NEED(sum);
+    for (int i = 0; i < rows; i++)
+        sum[i] = (answer){1, 1};
+    for (int k = 0; k < shaken->n; k++) {
+        FW_TRY(answers_of(arena, by, shaken, k, softer, rows, now));
+        for (int i = 0; i < rows; i++) {
+            sum[i].up += now[i].up - 1;
+            sum[i].down = fmax(0, sum[i].down - (1 - now[i].down));
+        }
+        *late += late_of(&shaken->mode[k], now, by->end_s, nh, rows);
+    }
+    FW_TRY(
+        fw_verdict_rings_again(arena, &by->pieces, by->end_s, shaken, FW_NONE, rows, softer, now));
+    for (int i = 0; i < rows; i++) {
+        double *to = factor + 2 * (i < nh ? i : nh);
+        to[0] = fmax(to[0], fmax(sum[i].up, now[i].up));
+        to[1] = fmin(to[1], fmax(0, fmin(sum[i].down, now[i].down)));
+    }
+    return FW_OK;
 }
 
 /* where the modes of `other`, at rest, lie elsewhere: the scene passes there */
@@ -355,7 +237,7 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     if (!modes) FW_TRY(modes_about(arena, m, &still, false, 0.03, &modes));
     if (!modes) return FW_OK;
     FW_NEED(to->mode = fw_arena_array(arena, fw_verdict_shaken_mode, MODES_SHAKEN));
-    FW_TRY(put_shares(arena, m, s, by->again, modes, motion, to));
+    FW_TRY(fw_verdict_swings(arena, m, s, by->again, modes, motion, MODES_SHAKEN, to));
     for (int k = 0; k < to->n; k++) {
         const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
         to->mode[k].low = to->mode[k].omega * (1 - off - 0.5 * bodies);
@@ -481,10 +363,7 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
     fw_verdict_shaken *to = &v->shaken[scene];
     shakings by;
     FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, &by, to));
-    for (int k = 0; k < to->n; k++)
-        add_answer(&to->mode[k],
-                   answers_of(&by, &to->mode[k], to->mode[k].low, to->mode[k].high, false),
-                   by.end_s, m->nhinge, to->factor, &to->late);
+    FW_TRY(add_answers(arena, m, &by, to, false, to->factor, &to->late));
     return v->corner ? FW_OK : may_pump(arena, m, scene, &by, bodies, v);
 }
 
@@ -495,12 +374,7 @@ fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *m, int s
     for (int h = 0; h <= m->nhinge; h++)
         factor[2 * h] = factor[2 * h + 1] = 1;
     *late = 0;
-    for (int k = 0; k < shaken->n; k++)
-        add_answer(
-            &shaken->mode[k],
-            answers_of(&by, &shaken->mode[k], shaken->mode[k].low, shaken->mode[k].high, true),
-            by.end_s, m->nhinge, factor, late);
-    return FW_OK;
+    return add_answers(arena, m, &by, shaken, true, factor, late);
 }
 
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *m, int scene, bool *shaken) {
@@ -546,10 +420,31 @@ static fw_status may_meet(fw_arena *arena, int scene, double by, fw_verdict_vari
     return FW_OK;
 }
 
+/* what rings besides is not known where nobody knows what of it is in which mode */
+static fw_status may_ring(fw_arena *arena, int scene, fw_verdict_variant_verdict *v) {
+    const fw_device_scene *s = &v->mechanism->device->scene[scene];
+    const char *what = v->shaken[scene].unknown;
+    if (!what) return FW_OK;
+    return fw_verdict_scene_reason(
+        v, s, 642, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
+        fw_arena_printf(arena,
+                        "in %s%s something comes while modes still ring by what came before, and "
+                        "how they ring is not known, since no equilibrium was found at which %s "
+                        "holds the device: let it go less far, or all come at once",
+                        FW_NAMED("scene", s->name), what));
+}
+
 /* and electrodes come nearer to each other */
 static void may_come_near(int scene, double by, fw_verdict_variant_verdict *v) {
     for (int k = 0; k < v->nstator; k++)
         if (v->stator[k].index == scene) v->stator[k].low_m -= (by - 1) * v->stator[k].moved_m;
+}
+
+static double largest_of(const double *x, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
 }
 
 /* v->shaken; a warning, and a reason where what does not meet may then meet */
@@ -568,6 +463,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
         if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
         FW_TRY(may_meet(arena, i, f[2 * nh], v));
+        FW_TRY(may_ring(arena, i, v));
         may_come_near(i, f[2 * nh], v);
         most = largest_of(f, 2 * nh + 2);
         if (!(most > told) || brief) continue;

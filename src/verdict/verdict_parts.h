@@ -123,42 +123,51 @@ fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device
                                   int number, fw_verdict_decision decision, double keep,
                                   const char *text);
 
-/* a mode that swings in a scene whose law goes to and fro */
+/* what bends a hinge: its turn, and 3/2 of what its ends are displaced by over its length; or moves a body, its turn by a
+   length */
+typedef struct fw_verdict_bends {
+    double turn, x, y;
+} fw_verdict_bends;
+double fw_verdict_bends_most(fw_verdict_bends b);
+/* a mode that swings in a scene whose law goes to and fro, or where something comes again */
 typedef struct fw_verdict_shaken_mode {
     int number;                       /* from 0 */
     double omega, damping, low, high; /* rad/s; where it may lie */
-    double *
-        share; /* (nhinge + 1) what of a hinge's bending, last of a body's way, it does as computed */
-    double late; /* how far it still swings at the end, over how far it ever does */
-    /* of what comes again (nload): its modal force over mass and omega^2 and how far the mode
-       swings, whatever omega is */
-    fw_quantity_law_load *load;
-    int nload;
+    /* (nhinge + nbody) what it does as computed of the most that a hinge is bent, a body is moved; 0: that hardly is */
+    fw_verdict_bends *bends;
+    double late;  /* how far it still swings at the end, over how far it ever does */
+    double start; /* modal speed at the start, over how far it swings, 1/s */
+    /* (nload) where something comes again: modal forces over mass and omega^2 and how far it swings; NULL: it hardly does */
+    double *size;
 } fw_verdict_shaken_mode;
 struct fw_verdict_shaken {
     fw_verdict_shaken_mode *mode; /* (n) */
     int n;
+    /* where something comes again: all that acts, of which the last `ways` have no force but hold hinges and bodies as
+       `way` says, per unit of the law (ways x (nhinge + nbody)) */
+    fw_quantity_law_load *load;
+    fw_verdict_bends *way;
+    int nload, ways;
+    const char *unknown; /* what holds the device nowhere that was found; NULL: all is known */
     /* (2 x (nhinge + 1)) on what bends each hinge, last on what moves: upwards >= 1, downwards <= 1 */
     double *factor;
     double late; /* what of a largest way may be there at the end besides, for phases run apart */
 };
-/* decision.c: beside what a scene states of itself: the elements of its motion, and how far one unit of each driver that
-   moves, then of each heat, holds every body from where it rests (rows of 3 nbody) */
-typedef struct fw_verdict_acting {
-    const fw_effects_loads *loads;
-    const double *way;
-} fw_verdict_acting;
-fw_status fw_verdict_acting_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                               const fw_effects_loads *loads, fw_verdict_acting *by);
-/* All that acts in a scene, by laws, and by a mode's shape u about the pose q the modal force of each over `unit`; square:
-   of its omega. shape NULL: the laws alone. load: fw_verdict_loads_most; returns how many there are */
-int fw_verdict_loads_most(const fw_mechanism *m, const fw_device_scene *s);
-int fw_verdict_loads_on(const fw_mechanism *m, const fw_device_scene *s,
-                        const fw_verdict_acting *by, const double *q, const double *shape,
-                        double square, double unit, fw_quantity_law_load *load);
-/* does something of it come while a mode may still ring by what came before? */
+typedef struct fw_verdict_answer { /* times as much as computed: up >= 1, down <= 1 */
+    double up, down;
+} fw_verdict_answer;
+/* ringing.c: to->mode, of at most most_modes, without low and high, and what acts where something comes again */
+fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                            bool again, const struct fw_statics_modes *modes,
+                            const fw_dynamics_motion *motion, int most_modes,
+                            fw_verdict_shaken *to);
+/* to (rows = nhinge + nbody): what comes again does to all while a mode, or all (FW_NONE) by one share, lie elsewhere */
+fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *pieces,
+                                 double end_s, const fw_verdict_shaken *shaken, int mode, int rows,
+                                 bool softer, fw_verdict_answer *to);
+/* does something of it come while a mode may still ring by what came before? pieces: only where it does */
 fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                                 bool *again);
+                                 bool *again, fw_quantity_law_pieces *pieces);
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);

@@ -2,7 +2,7 @@
 /* The reference six-bar of solid flexures against geometrically exact beams in the loop (hinge
    tables, section 2.5): driven by the beams' rotations of AB, EF and CD it must return the loads
    and the platform's position. Needs CalculiX; skipped without. */
-#include "continuum/device_deck.h"
+#include "continuum/continuum.h"
 #include "shapes.h"
 #include "statics/statics.h"
 #include "test.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/verdict.h"
+#include "verdict/verdict_parts.h"
 #include "test.h"
 
 /* one arm on a leaf and one on an arc, a load and a turn; not drawn */
@@ -624,11 +625,31 @@ static void drawn_only_when_asked(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* a stator whose gap loses 1 um as made nominally and 2 um where one edge is at its end; then nothing is known of what it loses there,
+   and so nothing of a corner that is not run */
+static void what_is_not_known_leaves_no_gap(void **state) {
+    (void)state;
+    fw_wiring_moved drawn = {.stator = "c", .start_m = 10e-6, .low_m = 9e-6}, nominal = drawn, off = drawn;
+    const fw_verdict_fabrication_input input = {.nominal = 0, .low = -1, .high = 1, .edge_m = 1e-6};
+    const double x[] = {0, -1};
+    fw_verdict_fabricated_corner corner[] = {{.stator = &nominal, .nstator = 1, .x = x}, {.stator = &off, .nstator = 1, .x = x + 1}};
+    fw_verdict_fabricated_verdict fabricated = {.corner = corner, .ncorner = 2};
+    fw_verdict_variant_verdict v = {.input = &input, .ninput = 1, .stator = &drawn, .nstator = 1};
+    const fw_verdict_search s = {.v = &v, .fabricated = &fabricated, .first = 2, .slope_point = {1}};
+    off.low_m = 8e-6;
+    fw_verdict_stators_made(&s, &v);
+    assert_near(drawn.low_m, 8e-6, 1e-7);
+    corner[1].nstator = 0;
+    fw_verdict_stators_made(&s, &v);
+    assert_near(drawn.low_m, 0, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_made_follows_the_edges),
         cmocka_unit_test(pieces_keep_the_widths_of_what_is_left),
         cmocka_unit_test(a_crystal_has_a_modulus_too),
+        cmocka_unit_test(what_is_not_known_leaves_no_gap),
         cmocka_unit_test(no_corner_is_worse),
         cmocka_unit_test(each_hinge_has_its_own_corner),
         cmocka_unit_test(a_requirement_holds_at_every_corner),

@@ -1,0 +1,508 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What comes again while a mode still rings. All that a scene puts on its modes acts together (7a of docs/theory/verdict.md):
+   of every mode its modal force, the law of each, and what a unit of it bends hinges and moves bodies by. Of hinge or body i,
+   b_ki by how far mode k swings in the motion, c_ij where what is prescribed by law j holds it at rest, S_i the most of the
+   motion,
+
+     A_i = max over time of |sum of b_ki q_k + sum of (c_ij - sum of b_ki p_kj) f_j|/S_i
+
+   q_k the oscillator, p_kj its part of law j: the modes ring, and what they leave out is where it rests. A_i(w) - A_i as
+   computed widens by one mode that lies elsewhere, for all that do; and of all together where all lie lower, or higher, by
+   one share, since then what rings in one may meet what rings in another.
+
+   In: the motion, modes, loads. Out: answers of hinges and bodies. Range: small motions; modes that bend or move by a
+   hundredth of what does most. Error: frequencies half a radian apart at the end. Cost: steps of fw_quantity_law_swings_of for
+   each. Test: test_effects.py Resonance */
+#include "geometry/segment.h"
+#include "statics/statics.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+/* beside what a scene states of itself: the elements of its motion, and how far one unit of each driver that moves, then of
+   each heat, then the stress of layers, holds every body from where it rests (rows of 3 nbody) */
+typedef struct acting {
+    const fw_effects_loads *loads;
+    const double *way;
+    int ways; /* the last ones of loads_on */
+} acting;
+
+/* ---- what loads do to a mode ----
+   The modal force of everything that a scene puts on a mode, at a law of 1: forces, torques, shaking and weight by the mode's
+   shape u; voltages (whose law acts by its square) and tendons by what their elements say at the pose, f . w with w the
+   ports' way by u. Drivers, heat and stress have no force: where they hold the device at rest, x, is found as an equilibrium, and
+   u . M x omega^2 is the modal force that would. In: shapes and poses in SI. Range: small motions, as modes are; of what
+   goes far the way to its farthest value stands for all. Test: test_effects.py,
+   test_what_comes_again_whatever_drives_it */
+
+static double with_masses(const fw_mechanism *m, const double *u, double ax, double ay) {
+    double sum = 0;
+    for (int b = 0; b < m->nbody; b++)
+        sum += m->body[b].mass_kg * (u[3 * b] * ax + u[3 * b + 1] * ay);
+    return sum;
+}
+
+/* how many there are at most; by NULL: laws alone */
+static int loads_most(const fw_mechanism *m, const fw_device_scene *s, const acting *by) {
+    return s->nforce + s->ntorque + s->nbase + s->ncomb + s->ntendon + s->ntemperature +
+           m->ndriver + 3 + (by && by->loads ? by->loads->nelement : 0);
+}
+
+enum { PORTS = 64 };
+
+/* of an element without its law */
+static double element_on(const fw_effects_force_element *from, const double *q,
+                         const double *shape) {
+    fw_effects_force_element e = *from;
+    double p[3 * PORTS], w[3 * PORTS], f[3 * PORTS], still[3 * PORTS] = {0}, sum = 0;
+    bool on[PORTS];
+    if (e.ports > PORTS || e.switches > PORTS || !e.class_->slope) return 0;
+    for (int i = 0; i < PORTS; i++)
+        on[i] = true;
+    e.laws = 0, e.law[0] = NULL;
+    fw_effects_element_place_ports(&e, q, shape, p, w);
+    const fw_effects_port_state state = {.load = 1, .p = p, .w = still, .on = on, .still = true};
+    e.class_->slope(&e, &state, f);
+    for (int i = 0; i < 3 * e.ports; i++)
+        sum += f[i] * w[i];
+    return isfinite(sum) ? sum : 0;
+}
+
+/* combs and tendons: shape NULL: their laws alone */
+static int elements_on(const fw_device_scene *s, const acting *by, const double *q,
+                       const double *shape, double unit, fw_quantity_law_load *load) {
+    int n = 0;
+    for (int i = 0; !shape && i < s->ncomb; i++)
+        if (s->comb[i].voltage_V != 0)
+            load[n++] = (fw_quantity_law_load){s->comb[i].law, 1, true, 0, false};
+    for (int i = 0; !shape && i < s->ntendon; i++) {
+        const fw_device_tendon *t = &s->tendon[i];
+        if (!(isnan(t->pull_N) ? t->draw_m == 0 : t->pull_N == 0))
+            load[n++] = (fw_quantity_law_load){t->law, 1, false, 0, false};
+    }
+    for (int i = 0; shape && by->loads && i < by->loads->nelement; i++) {
+        const fw_effects_force_element *e = &by->loads->element[i];
+        load[n++] =
+            (fw_quantity_law_load){e->laws > 0 ? e->law[0] : NULL, element_on(e, q, shape) / unit,
+                                   e->class_->electrodes, 0, false};
+    }
+    return n;
+}
+
+static int laws_of(const fw_mechanism *m, const fw_device_scene *s, fw_quantity_law_load *load) {
+    int n = 0;
+    double from, to;
+    for (int i = 0; i < m->ndriver; i++)
+        if (fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to))
+            load[n++] = (fw_quantity_law_load){&m->driver[i].law, 1, false, from, true};
+    for (int i = 0; i < s->ntemperature; i++)
+        if (s->temperature[i].change_K != 0)
+            load[n++] = (fw_quantity_law_load){s->temperature[i].law, 1, false, 0, false};
+    if (s->nstress > 0) load[n++] = (fw_quantity_law_load){.size = 1};
+    return n;
+}
+
+/* *unknown: what of it holds the device nowhere that was found; NULL: all is known */
+static fw_status acting_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                           const fw_effects_loads *loads, acting *by, const char **unknown) {
+    const int size = 3 * m->nbody;
+    double from, to, *way;
+    bool known = true;
+    *by = (acting){.loads = loads};
+    *unknown = NULL;
+    FW_NEED(by->way = way = fw_arena_array(
+                arena, double, (size_t)size *(size_t)(m->ndriver + s->ntemperature + 1)));
+    for (int i = 0; i < m->ndriver; i++) {
+        if (!fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to)) continue;
+        FW_TRY(fw_statics_driven_way(arena, m, i, s->duration_s, way + size * by->ways++, &known));
+        if (!known) *unknown = "a driver";
+    }
+    for (int i = 0; i < s->ntemperature; i++) {
+        if (s->temperature[i].change_K == 0) continue;
+        FW_TRY(
+            fw_statics_heated_way(arena, m, &s->temperature[i], way + size * by->ways++, &known));
+        if (!known) *unknown = "heat";
+    }
+    if (s->nstress > 0)
+        FW_TRY(fw_statics_stressed_way(arena, m, s, way + size * by->ways++, &known));
+    if (!known && !*unknown) *unknown = "the stress of a layer";
+    return FW_OK;
+}
+
+static int loads_on(const fw_mechanism *m, const fw_device_scene *s, const acting *by,
+                    const double *q, const double *shape, double square, double unit,
+                    fw_quantity_law_load *load) {
+    int n = 0;
+    for (int i = 0; i < s->nforce; i++) {
+        const fw_device_force *f = &s->force[i];
+        if (f->body == FW_GROUND) continue;
+        const double *u = shape ? shape + 3 * f->body : NULL;
+        const fw_geometry_vec2 arm =
+            fw_geometry_vec_rotate((fw_geometry_vec2){f->x_m, f->y_m}, u ? q[3 * f->body + 2] : 0);
+        const double sum =
+            !u ? 1 : f->fx_N * (u[0] - arm.y * u[2]) + f->fy_N * (u[1] + arm.x * u[2]);
+        load[n++] = (fw_quantity_law_load){.law = f->law, .size = sum / unit};
+    }
+    for (int i = 0; i < s->ntorque; i++)
+        if (s->torque[i].body != FW_GROUND)
+            load[n++] = (fw_quantity_law_load){
+                .law = s->torque[i].law,
+                .size =
+                    shape ? s->torque[i].value_Nm * shape[3 * s->torque[i].body + 2] / unit : 1};
+    for (int i = 0; i < s->nbase; i++)
+        if (s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0)
+            load[n++] = (fw_quantity_law_load){
+                .law = s->base[i].law,
+                .size =
+                    shape ? -with_masses(m, shape, s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) /
+                                unit
+                          : 1};
+    if (s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0)
+        load[n++] = (fw_quantity_law_load){
+            .size = shape ? with_masses(m, shape, s->gx_m_per_s2, s->gy_m_per_s2) / unit : 1};
+    n += elements_on(s, by, q, shape, unit, load + n);
+    const int laws = laws_of(m, s, load + n);
+    for (int i = 0; shape && i < laws; i++) {
+        const double *way = by->way + (size_t)i * 3 * (size_t)m->nbody;
+        double sum = 0;
+        for (int b = 0; b < m->nbody; b++)
+            sum += m->body[b].mass_kg *
+                       (shape[3 * b] * way[3 * b] + shape[3 * b + 1] * way[3 * b + 1]) +
+                   m->body[b].inertia_kg_m2 * shape[3 * b + 2] * way[3 * b + 2];
+        load[n + i].size = sum * square / unit;
+    }
+    return n + laws;
+}
+
+fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                                 bool *again, fw_quantity_law_pieces *pieces) {
+    fw_quantity_law_load *load =
+        fw_arena_array(arena, fw_quantity_law_load, (size_t)loads_most(m, s, NULL));
+    FW_NEED(load);
+    int n = loads_on(m, s, NULL, NULL, NULL, 1, 1, load);
+    /* velocities that a scene begins with ring on as what comes at once does (fw_verdict_shaken_mode.start) */
+    if (s->ninitial > 0) load[n++] = (fw_quantity_law_load){.size = 1};
+    *again = fw_quantity_law_come_again(load, n, s->duration_s);
+    return *again ? fw_quantity_law_pieces_of(arena, load, n, s->duration_s, pieces) : FW_OK;
+}
+
+/* ---- how far each mode swings, and bends what ---- */
+
+/* how a hinge is bent: its turn, and what its ends are displaced by over its length, which strains it by 3/2 of the
+   same turn */
+typedef fw_verdict_bends bent;
+
+static bent bend_of(const fw_mechanism_hinge *h, double turn, double x_m, double y_m) {
+    const double by = h->law.length_m > 0 ? 1.5 / h->law.length_m : 0;
+    return (bent){turn, by * x_m, by * y_m};
+}
+
+double fw_verdict_bends_most(fw_verdict_bends b) {
+    return fabs(b.turn) + hypot(b.x, b.y);
+}
+
+/* by a small displacement u about the pose q */
+static bent bent_by(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
+                    const double *u) {
+    const fw_mechanism_pin *p = &m->pin[h->pin];
+    const int body[2] = {p->body_a, p->body_b};
+    const double local[2][2] = {{p->ax_m, p->ay_m}, {p->bx_m, p->by_m}};
+    double turn = 0, x = 0, y = 0;
+    for (int i = 0; i < 2; i++) {
+        const int b = body[i];
+        if (b == FW_GROUND) continue;
+        const double sign = i ? 1 : -1;
+        const fw_geometry_vec2 arm =
+            fw_geometry_vec_rotate((fw_geometry_vec2){local[i][0], local[i][1]}, q[3 * b + 2]);
+        turn += sign * u[3 * b + 2];
+        x += sign * (u[3 * b] - arm.y * u[3 * b + 2]);
+        y += sign * (u[3 * b + 1] + arm.x * u[3 * b + 2]);
+    }
+    return bend_of(h, turn, x, y);
+}
+
+/* between two poses, exactly */
+static double bent_between(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *from,
+                           const double *to) {
+    const fw_mechanism_pin *p = &m->pin[h->pin];
+    double turn = 0;
+    if (p->body_a != FW_GROUND) turn -= to[3 * p->body_a + 2] - from[3 * p->body_a + 2];
+    if (p->body_b != FW_GROUND) turn += to[3 * p->body_b + 2] - from[3 * p->body_b + 2];
+    const fw_geometry_vec2 before = fw_mechanism_pin_opened(p, from),
+                           after = fw_mechanism_pin_opened(p, to);
+    return fw_verdict_bends_most(bend_of(h, turn, after.x - before.x, after.y - before.y));
+}
+
+static double moved_by(const double *u, int b, double unit_m) {
+    return hypot(u[3 * b], u[3 * b + 1]) + unit_m * fabs(u[3 * b + 2]);
+}
+
+/* largest modal speed over w of every mode: in the scene, and in the last period of its frequency; *start: at the start,
+   with its sign */
+static void see_swings(const fw_mechanism *m, const fw_statics_modes *modes,
+                       const fw_dynamics_motion *motion, int k, double swings[2], double *start) {
+    const fw_statics_mode *mode = &modes->mode[k];
+    const double w = mode->omega_rad_per_s, late = motion->end_s - 2 * FW_PI / w;
+    swings[0] = swings[1] = *start = 0;
+    for (int r = 0; r < motion->nsample; r++) {
+        const double *v = motion->v + (size_t)r * 3 * (size_t)m->nbody;
+        double speed = 0;
+        for (int b = 0; b < m->nbody; b++) {
+            const double *u = mode->shape + 3 * b, *of = v + 3 * b;
+            speed += m->body[b].mass_kg * (u[0] * of[0] + u[1] * of[1]) +
+                     m->body[b].inertia_kg_m2 * u[2] * of[2];
+        }
+        const double now = fabs(speed) / (mode->modal_mass_kg_m2 * w);
+        if (r == 0) *start = speed / mode->modal_mass_kg_m2;
+        swings[0] = fmax(swings[0], now);
+        if (motion->t_s[r] >= late || r + 2 >= motion->nsample) swings[1] = fmax(swings[1], now);
+    }
+}
+
+/* S of every hinge, and how far every body goes (nhinge + nbody) */
+static void see_most(const fw_mechanism *m, const fw_dynamics_motion *motion, double unit_m,
+                     double *most) {
+    const size_t n = 3 * (size_t)m->nbody;
+    for (int r = 1; r < motion->nsample; r++) {
+        const double *from = motion->q, *to = motion->q + (size_t)r * n;
+        for (int h = 0; h < m->nhinge; h++)
+            most[h] = fmax(most[h], bent_between(m, &m->hinge[h], from, to));
+        for (int b = 0; b < m->nbody; b++) {
+            const double u[3] = {to[3 * b] - from[3 * b], to[3 * b + 1] - from[3 * b + 1],
+                                 to[3 * b + 2] - from[3 * b + 2]};
+            most[m->nhinge + b] = fmax(most[m->nhinge + b], moved_by(u, 0, unit_m));
+        }
+    }
+}
+
+/* what hardly moves beside the others is moved by them */
+static double largest_of(const double *x, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
+
+/* of hinge or body i */
+static bent seen_by(const fw_mechanism *m, const fw_statics_modes *modes, const double *u, int i) {
+    if (i < m->nhinge) return bent_by(m, &m->hinge[i], modes->q, u);
+    const double *of = u + 3 * (i - m->nhinge);
+    return (bent){modes->unit_length_m * of[2], of[0], of[1]};
+}
+
+/* over what does it most; what hardly does beside the others is moved by them */
+static void put_bends(const fw_mechanism *m, const fw_statics_modes *modes, const double *u,
+                      double unit, const double *most, bent *to) {
+    const double hardly = 1e-3;
+    const int nh = m->nhinge;
+    const double bends = largest_of(most, nh), goes = largest_of(most + nh, m->nbody);
+    for (int i = 0; i < nh + m->nbody; i++) {
+        if (!(most[i] > hardly * (i < nh ? bends : goes))) continue;
+        const bent of = seen_by(m, modes, u, i);
+        const double by = unit / most[i];
+        to[i] = (bent){by * of.turn, by * of.x, by * of.y};
+    }
+}
+
+fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                            bool again, const fw_statics_modes *modes,
+                            const fw_dynamics_motion *motion, int most_modes,
+                            fw_verdict_shaken *to) {
+    const double hardly = 1e-3, rings = 0.01;
+    const int rows = m->nhinge + m->nbody;
+    acting by = {0};
+    double *most = fw_arena_array(arena, double, (size_t)rows);
+    FW_NEED(most);
+    see_most(m, motion, modes->unit_length_m, most);
+    if (again) {
+        FW_TRY(acting_of(arena, m, s, motion->loads, &by, &to->unknown));
+        FW_NEED(to->way = fw_arena_array(arena, bent, (size_t)rows * (size_t)by.ways));
+        to->ways = by.ways;
+        for (int j = 0; j < by.ways; j++)
+            put_bends(m, modes, by.way + (size_t)j * 3 * (size_t)m->nbody, 1, most,
+                      to->way + (size_t)j * (size_t)rows);
+    }
+    for (int k = 0; k < modes->count && k < most_modes; k++) {
+        const fw_statics_mode *mode = &modes->mode[k];
+        double swings[2], start, share = 0;
+        if (!(mode->stiffness_per_s2 > 0) || !mode->shape) continue;
+        see_swings(m, modes, motion, k, swings, &start);
+        fw_verdict_shaken_mode *out = &to->mode[to->n];
+        FW_NEED(out->bends = fw_arena_array(arena, bent, (size_t)rows));
+        put_bends(m, modes, mode->shape, swings[0], most, out->bends);
+        for (int i = 0; i < rows; i++)
+            share = fmax(share, fw_verdict_bends_most(out->bends[i]));
+        if (!(share > hardly)) continue;
+        out->number = k;
+        out->omega = mode->omega_rad_per_s;
+        out->damping = fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: 0 */
+        out->late = swings[1] / swings[0];
+        out->start = start / swings[0];
+        to->n++;
+        if (!again || !(share > rings)) continue;
+        FW_NEED(to->load =
+                    fw_arena_array(arena, fw_quantity_law_load, (size_t)loads_most(m, s, &by)));
+        to->nload = loads_on(m, s, &by, modes->q, mode->shape, mode->stiffness_per_s2,
+                             mode->modal_mass_kg_m2 * mode->stiffness_per_s2 * swings[0], to->load);
+        FW_NEED(out->size = fw_arena_array(arena, double, (size_t)to->nload + 1));
+        for (int j = 0; j < to->nload; j++)
+            out->size[j] = to->load[j].size;
+    }
+    return FW_OK;
+}
+
+/* ---- what they may do more or less ---- */
+
+typedef struct rings { /* of several modes at once */
+    const fw_quantity_law_pieces *pieces;
+    const fw_verdict_shaken *shaken;
+    const fw_verdict_shaken_mode *mode[FW_QUANTITY_OSCILLATORS];
+    int n, rows;
+    bool softer; /* what is of another stiffness: loads move it the more */
+    double *size, *by, *less;
+    fw_quantity_law_seen seen;
+} rings;
+
+static fw_status make_room(fw_arena *arena, int modes, rings *r) {
+    const size_t rows = 3 * (size_t)r->rows, loads = (size_t)r->shaken->nload;
+    FW_NEED(r->size = fw_arena_array(arena, double, (size_t)modes *loads));
+    FW_NEED(r->by = fw_arena_array(arena, double, rows *(size_t)modes));
+    FW_NEED(r->less = fw_arena_array(arena, double, rows *loads));
+    FW_NEED(r->seen.most = fw_arena_array(arena, double, 3 * rows));
+    r->seen.rest = r->seen.most + rows;
+    return FW_OK;
+}
+
+static double part_of(bent b, int i) {
+    return i == 0 ? b.turn : i == 1 ? b.x : b.y;
+}
+
+/* what a row sees of the modes, and has less of what is prescribed */
+static void put_rows(rings *r) {
+    const fw_verdict_shaken *s = r->shaken;
+    r->seen.by = r->by, r->seen.less = r->less, r->seen.n = 3 * r->rows;
+    for (int i = 0; i < r->seen.n; i++) {
+        for (int k = 0; k < r->n; k++)
+            r->by[i * r->n + k] = part_of(r->mode[k]->bends[i / 3], i % 3);
+        for (int j = 0; j < s->ways; j++) {
+            const int load = s->nload - s->ways + j;
+            double less = -part_of(s->way[j * r->rows + i / 3], i % 3);
+            for (int k = 0; k < r->n; k++)
+                less += r->by[i * r->n + k] * r->mode[k]->size[load];
+            r->less[i * s->nload + load] = less;
+        }
+    }
+}
+
+/* A of every hinge and body with all frequencies `times` as high, each within its own error. Returns the steps, or -1 */
+static double answers_at(rings *r, double times, double *answer) {
+    const fw_verdict_shaken *s = r->shaken;
+    fw_quantity_law_oscillator o[FW_QUANTITY_OSCILLATORS];
+    for (int k = 0; k < r->n; k++) {
+        const fw_verdict_shaken_mode *mode = r->mode[k];
+        const double at = fmin(fmax(times * mode->omega, mode->low), mode->high),
+                     soft = r->softer ? mode->omega * mode->omega / (at * at) : 1;
+        double *size = r->size + k * s->nload;
+        for (int j = 0; j < s->nload; j++)
+            size[j] = mode->size[j] * (j < s->nload - s->ways ? soft : 1);
+        o[k] = (fw_quantity_law_oscillator){at, mode->damping, mode->start, size};
+    }
+    const double steps = fw_quantity_law_swings_of(s->load, s->nload, r->pieces, o, r->n, &r->seen);
+    const double *most = r->seen.most;
+    for (int i = 0; i < r->rows; i++)
+        answer[i] = most[3 * i] + hypot(most[3 * i + 1], most[3 * i + 2]);
+    return steps;
+}
+
+/* what takes too long to follow is as large as its laws allow */
+static void as_allowed(const rings *r, double end_s, fw_verdict_answer *to) {
+    const fw_verdict_shaken *s = r->shaken;
+    double *bound = r->seen.most;
+    for (int i = 0; i < r->rows; i++)
+        bound[i] = 0;
+    for (int k = 0; k < r->n; k++) {
+        const fw_verdict_shaken_mode *mode = r->mode[k];
+        const double most = fw_quantity_law_bound_of(s->load, mode->size, s->nload, end_s) +
+                            fabs(mode->start) / mode->low;
+        for (int i = 0; i < r->rows; i++)
+            if (fw_verdict_bends_most(mode->bends[i]) > 0)
+                bound[i] += 2 * most * fw_verdict_bends_most(mode->bends[i]);
+    }
+    for (int i = 0; i < r->rows; i++)
+        to[i] = (fw_verdict_answer){1 + bound[i], 0};
+}
+
+/* to: more or less than as computed, 1 where it does as much */
+static fw_status ring(fw_arena *arena, rings *r, double end_s, fw_verdict_answer *to) {
+    const double most_steps = 4e6, fewest = 40;
+    double low = 1, high = 1, width = 0;
+    double *as_computed = fw_arena_array(arena, double, 2 * (size_t)r->rows);
+    FW_NEED(as_computed);
+    double *now = as_computed + r->rows;
+    for (int k = 0; k < r->n; k++) {
+        const fw_verdict_shaken_mode *mode = r->mode[k];
+        low = fmin(low, mode->low / mode->omega), high = fmax(high, mode->high / mode->omega);
+        width = fmax(width, mode->high - mode->low);
+    }
+    put_rows(r);
+    for (int i = 0; i < r->rows; i++)
+        to[i] = (fw_verdict_answer){1, 1};
+    const double steps = answers_at(r, 1, as_computed),
+                 n = fmin(2 + ceil(width * end_s / 0.5), fmax(fewest, most_steps / fmax(steps, 1)));
+    if (steps < 0) as_allowed(r, end_s, to);
+    for (double k = 0; steps >= 0 && k < n; k++) {
+        if (answers_at(r, low + (high - low) * k / (n - 1), now) < 0) {
+            as_allowed(r, end_s, to);
+            return FW_OK;
+        }
+        for (int i = 0; i < r->rows; i++) {
+            to[i].up = fmax(to[i].up, 1 + now[i] - as_computed[i]);
+            to[i].down = fmin(to[i].down, 1 + now[i] - as_computed[i]);
+        }
+    }
+    return FW_OK;
+}
+
+fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *pieces,
+                                 double end_s, const fw_verdict_shaken *shaken, int mode, int rows,
+                                 bool softer, fw_verdict_answer *to) {
+    rings r = {.pieces = pieces, .shaken = shaken, .rows = rows, .softer = softer};
+    for (int i = 0; i < rows; i++)
+        to[i] = (fw_verdict_answer){1, 1};
+    for (int k = 0; k < shaken->n; k++)
+        if ((mode == FW_NONE || mode == k) && shaken->mode[k].size)
+            r.mode[r.n++] = &shaken->mode[k];
+    if (r.n < (mode == FW_NONE ? 2 : 1)) return FW_OK;
+    FW_TRY(make_room(arena, r.n, &r));
+    return ring(arena, &r, end_s, to);
+}
+
+/* ---- what of a device that was made is kept and compared ---- */
+
+fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                 const fw_verdict_shaken **kept) {
+    const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1,
+                 rows = (size_t)v->nhinge + (size_t)v->mechanism->nbody;
+    fw_verdict_shaken *to;
+    *kept = NULL;
+    if (!v->shaken) return FW_OK;
+    FW_NEED(to = fw_arena_grow(arena, v->shaken, scenes, scenes, sizeof *to));
+#define KEEP(what, count)                                                                          \
+    if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
+    for (size_t i = 0; i < scenes; i++) {
+        fw_verdict_shaken *of = &to[i];
+        const size_t n = (size_t)of->n, loads = (size_t)of->nload;
+        KEEP(of->factor, 2 * h);
+        if (n == 0) continue;
+        KEEP(of->mode, n);
+        KEEP(of->load, loads);
+        KEEP(of->way, (size_t)of->ways * rows);
+        for (size_t k = 0; k < n; k++) {
+            KEEP(of->mode[k].bends, rows);
+            KEEP(of->mode[k].size, loads);
+        }
+    }
+#undef KEEP
+    *kept = to;
+    return FW_OK;
+}
