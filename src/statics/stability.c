@@ -215,7 +215,23 @@ static double travelled(looker *k) {
     return most;
 }
 
-/* the way to the stable equilibrium; without one, that of a tenth of a radian or length */
+/* what goes furthest on the way in w->step: a body's centre, or, in scaled lengths, what turns */
+static void name_mover(looker *k) {
+    const fw_multibody_model *m = k->w.model;
+    double most = 0, turns = 0;
+    int mover = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *u = k->w.step + 3 * b;
+        const double way = hypot(u[0], u[1]);
+        if (way > most) most = way, mover = b;
+        turns = fmax(turns, fabs(u[2]));
+    }
+    k->out->way_m = most * m->scale.length_m;
+    if (most > turns) k->out->goes = fw_text_name(k->w.mechanism->body[mover].id);
+}
+
+/* The way to the stable equilibrium; without one, that of a tenth of a radian or length. Descent that rests where it began,
+   or at any other place that is unstable, found none. */
 static fw_status fall(looker *k, double *way) {
     fw_statics_equilibrium *w = &k->w;
     const fw_multibody_model *m = w->model;
@@ -228,6 +244,7 @@ static fw_status fall(looker *k, double *way) {
     fw_status status = fw_statics_equilibrium_descend(w, &left);
     if (status == FW_SOLVER) return FW_OK;
     FW_TRY(status);
+    if (w->reduced.value[0] < -w->reduced.zero[0]) return FW_OK;
     double *angle, *q;
     FW_NEED(q = fw_arena_array(w->arena, double, n));
     FW_NEED(k->out->angle_rad = angle = fw_arena_array(w->arena, double, pins));
@@ -238,6 +255,7 @@ static fw_status fall(looker *k, double *way) {
     for (size_t i = 0; i < n; i++)
         w->step[i] = w->y[i] - k->where[i];
     *way = sqrt(product(m, w->step, w->step));
+    name_mover(k);
     return FW_OK;
 }
 
@@ -276,7 +294,11 @@ static fw_status say(looker *k, fw_diags *diags) {
                    FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)),
                    fw_number_text(at, sizeof at, 1e3 * out->t_s, 4), FW_NAMED("body", out->body),
                    fw_number_text(fold, sizeof fold, 1e3 / out->rate_per_s, 3));
-    if (out->pin != FW_NONE)
+    if (out->goes)
+        fw_text_printf(&text, ", and moves to an equilibrium with %s%s displaced by %s um",
+                       FW_NAMED("body", out->goes),
+                       fw_number_text(turned, sizeof turned, 1e6 * out->way_m, 4));
+    else if (out->pin != FW_NONE)
         fw_text_printf(
             &text, ", and moves to an equilibrium with %s%s turned by %s deg",
             FW_NAMED("joint", w->mechanism->pin[out->pin].id),
