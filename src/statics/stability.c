@@ -5,8 +5,9 @@
    friction left out, as in statics). A disturbance grows by e^G, G = integral of sqrt(max(0, -mu)) dt, by the trapezoidal
    rule: without damping, which would only slow it. It is reported where G is at least 2 and the
    motion has moved along the unstable mode phi by less than a tenth of the way to the stable
-   equilibrium u_s that descent reaches from there: max_t |phi^T M (u(t) - u)| < 0.1 |u_s - u|_M, so
-   that a motion that falls, or swings through, is not. mu is linear in the loads along a straight
+   equilibrium u_s that descent reaches from there: max_t |phi^T M (u(t) - u)| < 0.1 |u_s - u|_M, t
+   from the last look before the first unstable one on, so that a motion that falls, or swings
+   through, is not, and one that came to rest before it became unstable is. mu is linear in the loads along a straight
    path of equilibria: with mu_0 of the same mode without them the share that it would bear is
    mu_0/(mu_0 - mu). Units: scaled. Valid where statics is; a motion between instants is taken as
    straight and moved onto the joints. Cost: 30 n^3 per instant, n = 3 nbody, and 10 to 30 of them
@@ -41,6 +42,7 @@ typedef struct looker {
     int pieces;
     bool vary; /* some law does within a piece */
     double lowest, growth;
+    double since_s; /* the last look before the first that is unstable, or the start */
     double t_s, piece_s, *where, *shape; /* of the lowest: u and its mode (n) */
     fw_statics_stability *out;
 } looker;
@@ -143,6 +145,14 @@ static fw_status let_settle(looker *k) {
     return FW_OK;
 }
 
+/* stable, or above 0 within round-off */
+static bool stands(looker *k, double t_s) {
+    const fw_statics_reduced *r = &k->w.reduced;
+    if (r->dof > 0 && r->value[0] < -r->zero[0]) return false;
+    if (k->growth == 0) k->since_s = t_s;
+    return true;
+}
+
 /* stands for weight_s of the scene */
 static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     fw_statics_equilibrium *w = &k->w;
@@ -153,11 +163,11 @@ static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     fw_status status = fw_statics_equilibrium_evaluate(w);
     if (status == FW_SOLVER) return FW_OK; /* nothing is known there */
     FW_TRY(status);
-    if (w->reduced.dof == 0 || w->reduced.value[0] >= -w->reduced.zero[0]) return FW_OK;
+    if (stands(k, t_s)) return FW_OK;
     status = let_settle(k);
     if (status == FW_SOLVER) return FW_OK;
     FW_TRY(status);
-    if (w->reduced.value[0] >= -w->reduced.zero[0]) return FW_OK;
+    if (stands(k, t_s)) return FW_OK;
     double lowest = w->reduced.value[0];
     k->growth += sqrt(-lowest) * weight_s / w->model->scale.time_s;
     if (lowest >= k->lowest) return FW_OK;
@@ -202,11 +212,13 @@ static double product(const fw_multibody_model *m, const double *x, const double
     return sum;
 }
 
-/* how far the motion goes along the mode, from where it is most unstable */
+/* how far the motion goes along the mode, from where it is most unstable; what it did before it became unstable at all
+   is over */
 static double travelled(looker *k) {
     const fw_multibody_model *m = k->w.model;
     double *u = k->w.step, most = 0;
     for (int row = 0; row < k->motion->nsample; row++) {
+        if (k->motion->t_s[row] < k->since_s) continue;
         place(k, k->motion->t_s[row], u);
         for (int i = 0; i < m->nq; i++)
             u[i] -= k->where[i];

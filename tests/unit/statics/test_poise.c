@@ -176,6 +176,28 @@ static void between_electrodes(void **state) {
     fw_arena_free(f.arena);
 }
 
+/* thrown aside while it is stable, at rest again when the load comes: what it did before has no part in where it stays */
+static void what_it_did_before(void **state) {
+    (void)state;
+    const fw_quantity_law late = {.kind = &fw_quantity_law_step, .start_s = 30, .end_s = (double)INFINITY},
+                          pulse = {.kind = &fw_quantity_law_step, .end_s = 0.2};
+    for (int i = 0; i < 2; i++) {
+        fixture f = begin();
+        rig r = rig_mast(&f, 1, 40, 80);
+        fw_device_force both[2] = {r.scene.force[0], r.scene.force[0]};
+        both[0].law = &late;
+        both[1].law = &pulse, both[1].fx_N = i * 40, both[1].fy_N = 0;
+        r.scene.force = both;
+        r.scene.nforce = 2;
+        r.m.pin[0].damping_Nms_per_rad = 2 * sqrt(40 * mast_inertia);
+        r.scene.duration_s = 30.3;
+        const fw_statics_stability *p = find(&f, &r, 101);
+        assert_non_null(p);
+        assert_near(p->t_s, 30, 0.31);
+        fw_arena_free(f.arena);
+    }
+}
+
 /* of mechanisms without symmetry none stays where it is unstable */
 static void mechanisms_without_symmetry(void **state) {
     (void)state;
@@ -209,6 +231,7 @@ int main(void) {
         cmocka_unit_test(it_moves_along_the_symmetry),
         cmocka_unit_test(column),
         cmocka_unit_test(between_electrodes),
+        cmocka_unit_test(what_it_did_before),
         cmocka_unit_test(mechanisms_without_symmetry),
         cmocka_unit_test(too_large),
     };
