@@ -260,8 +260,8 @@ static void pull_in(const fw_statics_pull_in *p, fw_text *out) {
         fw_text_number(out, p->margin, 4);
     } else
         fw_text_add(out, " V");
-    fw_text_add(
-        out, "; all drives grow together, slowly\n  fringe fields that are not counted add up to ");
+    fw_text_printf(out, "; all drives grow together, slowly\n  %s may add up to ",
+                   fw_statics_pull_in_fringe_text(p));
     fw_text_number(out, 100 * p->fringe, 2);
     fw_text_add(out, " % of the pull and lower it by about half of that\n");
     if (!(p->fingers > 1e-3)) return;

@@ -230,17 +230,19 @@ static void pull_ins(fw_report_page *page) {
             if (!v->pull_in[k]) continue;
             if (!any)
                 fw_text_add(
-                    out, "<div class=\"wide\"><table><caption>Pull-in: the voltage at which a comb "
-                         "drive loses its equilibrium when all drives of the scene grow together, "
-                         "slowly; a voltage that is switched on suddenly does so earlier. Margin: "
-                         "the pull-in voltage over the largest voltage of the scene. Fringe "
-                         "fields, which the model leaves out, lower it by about half of their "
-                         "share.</caption><thead><tr><th "
-                         "scope=\"col\">Scene</th><th scope=\"col\">Flow</th><th scope=\"col\">"
-                         "Comb</th><th scope=\"col\" class=\"n\">Pull-in</th><th scope=\"col\">"
-                         "Kind</th><th scope=\"col\" class=\"n\">Scene asks for</th><th "
-                         "scope=\"col\" class=\"n\">Margin</th><th scope=\"col\" class=\"n\">"
-                         "Fringe</th></tr></thead><tbody>\n");
+                    out,
+                    "<div class=\"wide\"><table><caption>Pull-in: the voltage at which a comb "
+                    "drive loses its equilibrium when all drives of the scene grow together, "
+                    "slowly; a voltage that is switched on suddenly does so earlier. Margin: "
+                    "the pull-in voltage over the largest voltage of the scene. Fringe: "
+                    "what fringe fields may add to the pull that are not in it, all of them "
+                    "where they are left out, else what surfaces near or below change of them; "
+                    "it lowers the voltage by about half of that.</caption><thead><tr><th "
+                    "scope=\"col\">Scene</th><th scope=\"col\">Flow</th><th scope=\"col\">"
+                    "Comb</th><th scope=\"col\" class=\"n\">Pull-in</th><th scope=\"col\">"
+                    "Kind</th><th scope=\"col\" class=\"n\">Scene asks for</th><th "
+                    "scope=\"col\" class=\"n\">Margin</th><th scope=\"col\" class=\"n\">"
+                    "Fringe</th></tr></thead><tbody>\n");
             any = true;
             pull_in_row(out, flow, page->in->device->scene[k].name, v->pull_in[k]);
         }

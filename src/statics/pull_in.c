@@ -105,6 +105,7 @@ static void report_comb(seeker *k, const fw_effects_force_element *e, double s, 
     out->margin = sqrt(s);
     out->voltage_V = out->largest_V * out->margin;
     out->fringe = fw_effects_comb_fringe(c);
+    out->fringe_counted = c->edge != NULL;
 }
 
 /* stable up to s, with the pose q there (NULL: as it stands); named is the drive whose formula
@@ -270,6 +271,17 @@ static double largest_factor(const fw_statics_path *path) {
     return most;
 }
 
+static const char *why_it_ends(const fw_statics_equilibrium *w, const fw_statics_path *path) {
+    if (path->count >= FW_PULL_POINTS)
+        return "the path of equilibria is too long to be followed further";
+    return fw_multibody_switch_count(w->model) > 0
+               ? "the path of equilibria ends without a limit point: a stop, cable or contact "
+                 "takes "
+                 "hold or lets go there"
+               : "the path of equilibria could not be followed further, and no limit point was "
+                 "found on it";
+}
+
 /* from the equilibrium without voltage, evaluated; the unit of s is raised until something is found
    or the path ends otherwise */
 static fw_status follow(seeker *k) {
@@ -295,9 +307,7 @@ static fw_status follow(seeker *k) {
         if (!path->complete)
             return nothing_found(k, largest_factor(path) * w->drive_unit,
                                  path->q + (size_t)(path->count - 1) * (size_t)w->model->nq,
-                                 w->invalid ? w->why
-                                            : "the path of equilibria ends without a limit point: "
-                                              "a stop or cable lets go there, or it is too long");
+                                 w->invalid ? w->why : why_it_ends(w, path));
     }
     return nothing_found(k, (double)INFINITY, NULL, "no voltage takes the stiffness");
 }
@@ -319,7 +329,11 @@ static fw_status seek(seeker *k, const fw_mechanism *mechanism, const fw_effect_
         return nothing_found(k, 0, NULL, "there is no equilibrium without voltage either");
     FW_TRY(status);
     if (w->reduced.dof == 0)
-        return nothing_found(k, (double)INFINITY, NULL, "joints and drivers hold everything");
+        return nothing_found(k, (double)INFINITY, NULL,
+                             mechanism->nhinge > 0 && w->ledger.hinge.used == FW_HINGE_REVOLUTE
+                                 ? "flexures are taken as pins, and pins, joints and drivers hold "
+                                   "everything; what flexures give is not in it"
+                                 : "joints and drivers hold everything");
     if (w->reduced.value[0] <= w->reduced.zero[0])
         return nothing_found(k, 0, NULL, "nothing holds the mechanism even without voltage");
     w->lead = FW_LEAD_DRIVES;
@@ -328,6 +342,11 @@ static fw_status seek(seeker *k, const fw_mechanism *mechanism, const fw_effect_
     if (status == FW_OK) status = follow(k);
     return status == FW_SOLVER ? nothing_found(k, 0, NULL, "its equations could not be evaluated")
                                : status;
+}
+
+const char *fw_statics_pull_in_fringe_text(const fw_statics_pull_in *p) {
+    return p->fringe_counted ? "what surfaces near or below it change of the fringe fields"
+                             : "fringe fields that the model leaves out";
 }
 
 double fw_statics_pull_in_margin(const fw_statics_pull_in *p) {
@@ -386,10 +405,11 @@ static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags
     const fw_statics_pull_in *out = k->out;
     char at[32], asked[32], part[32];
     fw_diag_warning(diags, 248, out->place,
-                    "%s%s may pull in: %s%s does so at %s V without fringe fields that "
+                    "%s%s may pull in: %s%s does so at %s V without %s, which "
                     "may add up to %s %% to its pull%s, and the scene asks for up to %s V",
                     FW_NAMED("scene", scene), FW_NAMED("comb drive", out->comb),
                     fw_number_text(at, sizeof at, out->voltage_V, 5),
+                    fw_statics_pull_in_fringe_text(out),
                     fw_number_text(part, sizeof part, 100 * out->fringe, 2),
                     out->fingers > 0.01 ? " and with stiff fingers" : "",
                     fw_number_text(asked, sizeof asked, out->largest_V, 5));

@@ -11,6 +11,8 @@
 static const double fw_longest_step = 0.5; /* rad, or scaled lengths */
 /* beyond this the mechanism runs away: no load of a scene turns a part five times around */
 static const double fw_far = 32;
+/* an unstable equilibrium is left by a twentieth, or by less down to this: rad, or scaled lengths */
+static const double fw_least_escape = 1e-6;
 enum { FW_NEWTON_STEPS = 400, FW_ESCAPES = 20 };
 
 /* M^1/2 times the step, with the least shift of 0 and powers of 4, of the largest stiffness over mass, that leaves no negative
@@ -94,25 +96,34 @@ static bool line_search(fw_statics_equilibrium *w, const double *from, const dou
     return false;
 }
 
-/* an equilibrium that is no minimum is left along its most unstable mode, to the side where the
-   energy falls more; false: stable, or indifferent */
+/* a pose so far along the mode from the equilibrium, to the side where the energy is less; 0: neither can be had */
+static double side_of(fw_statics_equilibrium *w, double far, double *to) {
+    const fw_statics_reduced *r = &w->reduced;
+    double best = (double)INFINITY, size, length = 0;
+    for (int side = 1; side >= -1; side -= 2) {
+        for (int i = 0; i < r->n; i++)
+            to[i] = w->y[i] + side * far * r->shape[i];
+        if (!fw_statics_equilibrium_close(w, to)) continue;
+        double energy = fw_statics_equilibrium_energy(w, to, &size);
+        if (energy < best - 1e-12 * size) best = energy, length = side * far;
+    }
+    return length;
+}
+
+/* An equilibrium that is no minimum is left along its most unstable mode, to the side where the
+   energy falls more: by a twentieth, or where no element of force has a formula on either side so
+   far away (electrodes stand nearer) by a quarter of that, and so on; false: stable, or indifferent */
 static bool escape(fw_statics_equilibrium *w, double *to) {
     const fw_statics_reduced *r = &w->reduced;
     if (r->modes == 0 || r->value[0] >= -r->zero[0]) return false;
-    const double *u = w->y;
-    double most = 0, best = (double)INFINITY, size, length = 0;
+    double most = 0, length = 0;
     for (int i = 0; i < r->n; i++)
         most = fmax(most, fabs(r->shape[i]));
-    for (int side = 1; side >= -1; side -= 2) {
-        for (int i = 0; i < r->n; i++)
-            to[i] = u[i] + side * 0.05 / most * r->shape[i];
-        if (!fw_statics_equilibrium_close(w, to)) continue;
-        double energy = fw_statics_equilibrium_energy(w, to, &size);
-        if (energy < best - 1e-12 * size) best = energy, length = side * 0.05 / most;
-    }
+    for (double far = 0.05; length == 0 && far > fw_least_escape; far /= 4)
+        length = side_of(w, far / most, to);
     if (length == 0) return false;
     for (int i = 0; i < r->n; i++)
-        to[i] = u[i] + length * r->shape[i];
+        to[i] = w->y[i] + length * r->shape[i];
     return fw_statics_equilibrium_close(w, to);
 }
 

@@ -5,8 +5,9 @@
    friction left out, as in statics). A disturbance grows by e^G, G = integral of sqrt(max(0, -mu)) dt, by the trapezoidal
    rule: without damping, which would only slow it. It is reported where G is at least 2 and the
    motion has moved along the unstable mode phi by less than a tenth of the way to the stable
-   equilibrium u_s that descent reaches from there: max_t |phi^T M (u(t) - u)| < 0.1 |u_s - u|_M, so
-   that a motion that falls, or swings through, is not. mu is linear in the loads along a straight
+   equilibrium u_s that descent reaches from there: max_t |phi^T M (u(t) - u)| < 0.1 |u_s - u|_M, t
+   from the last look before the first unstable one on, so that a motion that falls, or swings
+   through, is not, and one that came to rest before it became unstable is. mu is linear in the loads along a straight
    path of equilibria: with mu_0 of the same mode without them the share that it would bear is
    mu_0/(mu_0 - mu). Units: scaled. Valid where statics is; a motion between instants is taken as
    straight and moved onto the joints. Cost: 30 n^3 per instant, n = 3 nbody, and 10 to 30 of them
@@ -41,6 +42,7 @@ typedef struct looker {
     int pieces;
     bool vary; /* some law does within a piece */
     double lowest, growth;
+    double since_s; /* the last look before the first that is unstable, or the start */
     double t_s, piece_s, *where, *shape; /* of the lowest: u and its mode (n) */
     fw_statics_stability *out;
 } looker;
@@ -143,6 +145,14 @@ static fw_status let_settle(looker *k) {
     return FW_OK;
 }
 
+/* stable, or above 0 within round-off */
+static bool stands(looker *k, double t_s) {
+    const fw_statics_reduced *r = &k->w.reduced;
+    if (r->dof > 0 && r->value[0] < -r->zero[0]) return false;
+    if (k->growth == 0) k->since_s = t_s;
+    return true;
+}
+
 /* stands for weight_s of the scene */
 static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     fw_statics_equilibrium *w = &k->w;
@@ -153,11 +163,11 @@ static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     fw_status status = fw_statics_equilibrium_evaluate(w);
     if (status == FW_SOLVER) return FW_OK; /* nothing is known there */
     FW_TRY(status);
-    if (w->reduced.dof == 0 || w->reduced.value[0] >= -w->reduced.zero[0]) return FW_OK;
+    if (stands(k, t_s)) return FW_OK;
     status = let_settle(k);
     if (status == FW_SOLVER) return FW_OK;
     FW_TRY(status);
-    if (w->reduced.value[0] >= -w->reduced.zero[0]) return FW_OK;
+    if (stands(k, t_s)) return FW_OK;
     double lowest = w->reduced.value[0];
     k->growth += sqrt(-lowest) * weight_s / w->model->scale.time_s;
     if (lowest >= k->lowest) return FW_OK;
@@ -202,11 +212,13 @@ static double product(const fw_multibody_model *m, const double *x, const double
     return sum;
 }
 
-/* how far the motion goes along the mode, from where it is most unstable */
+/* how far the motion goes along the mode, from where it is most unstable; what it did before it became unstable at all
+   is over */
 static double travelled(looker *k) {
     const fw_multibody_model *m = k->w.model;
     double *u = k->w.step, most = 0;
     for (int row = 0; row < k->motion->nsample; row++) {
+        if (k->motion->t_s[row] < k->since_s) continue;
         place(k, k->motion->t_s[row], u);
         for (int i = 0; i < m->nq; i++)
             u[i] -= k->where[i];
@@ -215,7 +227,23 @@ static double travelled(looker *k) {
     return most;
 }
 
-/* the way to the stable equilibrium; without one, that of a tenth of a radian or length */
+/* what goes furthest on the way in w->step: a body's centre, or, in scaled lengths, what turns */
+static void name_mover(looker *k) {
+    const fw_multibody_model *m = k->w.model;
+    double most = 0, turns = 0;
+    int mover = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *u = k->w.step + 3 * b;
+        const double way = hypot(u[0], u[1]);
+        if (way > most) most = way, mover = b;
+        turns = fmax(turns, fabs(u[2]));
+    }
+    k->out->way_m = most * m->scale.length_m;
+    if (most > turns) k->out->goes = fw_text_name(k->w.mechanism->body[mover].id);
+}
+
+/* The way to the stable equilibrium; without one, that of a tenth of a radian or length. Descent that rests where it began,
+   or at any other place that is unstable, found none. */
 static fw_status fall(looker *k, double *way) {
     fw_statics_equilibrium *w = &k->w;
     const fw_multibody_model *m = w->model;
@@ -228,6 +256,7 @@ static fw_status fall(looker *k, double *way) {
     fw_status status = fw_statics_equilibrium_descend(w, &left);
     if (status == FW_SOLVER) return FW_OK;
     FW_TRY(status);
+    if (w->reduced.value[0] < -w->reduced.zero[0]) return FW_OK;
     double *angle, *q;
     FW_NEED(q = fw_arena_array(w->arena, double, n));
     FW_NEED(k->out->angle_rad = angle = fw_arena_array(w->arena, double, pins));
@@ -238,6 +267,7 @@ static fw_status fall(looker *k, double *way) {
     for (size_t i = 0; i < n; i++)
         w->step[i] = w->y[i] - k->where[i];
     *way = sqrt(product(m, w->step, w->step));
+    name_mover(k);
     return FW_OK;
 }
 
@@ -276,7 +306,11 @@ static fw_status say(looker *k, fw_diags *diags) {
                    FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)),
                    fw_number_text(at, sizeof at, 1e3 * out->t_s, 4), FW_NAMED("body", out->body),
                    fw_number_text(fold, sizeof fold, 1e3 / out->rate_per_s, 3));
-    if (out->pin != FW_NONE)
+    if (out->goes)
+        fw_text_printf(&text, ", and moves to an equilibrium with %s%s displaced by %s um",
+                       FW_NAMED("body", out->goes),
+                       fw_number_text(turned, sizeof turned, 1e6 * out->way_m, 4));
+    else if (out->pin != FW_NONE)
         fw_text_printf(
             &text, ", and moves to an equilibrium with %s%s turned by %s deg",
             FW_NAMED("joint", w->mechanism->pin[out->pin].id),

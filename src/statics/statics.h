@@ -140,8 +140,10 @@ typedef struct fw_statics_pull_in {
     double largest_V; /* of it in the scene */
     double margin;    /* voltage over largest; below 1 the scene's equilibrium does not exist */
     double where[3];  /* of its rotor: along, across (m), tilt (rad) */
-    /* of its pull, relative, that is left out at most (fw_effects_comb_fringe) */
+    /* of its pull, relative, that is left out at most (fw_effects_comb_fringe): all of the fringe fields, or where these
+       are counted what stands near or below may change of them */
     double fringe;
+    bool fringe_counted;
     /* V of the comb whose own fingers bend most easily: below that they surely do not snap by themselves; infinite
        without combs. And (voltage of the scene over it)^2, the largest of any comb */
     double fingers_V, fingers;
@@ -153,6 +155,8 @@ typedef struct fw_statics_pull_in {
 /* margin below which it may not hold: fringe fields, which are left out, raise the force by up to `fringe`, and it goes
    with V^2; fingers that bend add to what gives, so that 1/V^2 adds up: sqrt((1 + fringe)/(1 - (1 + fringe) fingers)) */
 double fw_statics_pull_in_margin(const fw_statics_pull_in *p);
+/* what adds up to `fringe`, for a sentence: "fringe fields that the model leaves out", or what changes those in it */
+const char *fw_statics_pull_in_fringe_text(const fw_statics_pull_in *p);
 /* the fingers of a comb may snap by themselves */
 bool fw_statics_pull_in_fingers_snap(const fw_statics_pull_in *p);
 /* what electrodes that touched have to do with the static pull-in voltage, a sentence; NULL:
@@ -414,6 +418,8 @@ typedef struct fw_statics_stability {
     double *angle_rad; /* (npin) of the stable equilibrium that it would fall to, under the loads of
                           t_s; NULL: none was found */
     int pin;           /* with the largest of them, or FW_NONE */
+    double way_m;      /* of the centre of the body that goes furthest there, from where it stays */
+    const char *goes;  /* that body, where that is more than what bodies turn; else NULL */
     double share;      /* of the loads that it would bear, by the eigenvalues with and without them;
                           0: it does not stand without them either */
     const char *text;  /* all that in a sentence */

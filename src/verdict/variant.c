@@ -338,6 +338,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.trace = seen[0] || watch[0].things ? fw_verdict_clearance_trace : NULL;
         motion.like = v->like ? v->like[i] : NULL;
         motion.effects.like = motion.like ? &motion.like->ledger : NULL;
+        const int first = v->nreason;
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, scene, v->motion[i]);
@@ -354,6 +355,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
             FW_TRY(fw_verdict_requirements_of_scene(m, (int)i, saw->probe,
                                                     looser ? looser->probe : NULL, v));
         }
+        fw_verdict_unstable_leaves_open(v, (int)i, first);
         if (v->motion[i] && v->motion[i]->ended) warn_ended(scene, v->motion[i], diags);
     }
     return FW_OK;

@@ -38,6 +38,11 @@ size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
                            const fw_dynamics_motion_options *options, fw_diags *diags,
                            fw_verdict_variant_verdict *v);
+/* Where a reason from `first` on says that the scene stays on an unstable equilibrium (FW-D259): what is required of its
+   motion has no value, and why is fw_verdict_unstable_there; a clearance that it keeps is undecided, since what falls
+   from there comes nearer */
+extern const char fw_verdict_unstable_there[];
+void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, int first);
 /* a warning where bodies give enough to count (FW-D510) */
 void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags);
@@ -193,7 +198,7 @@ fw_status fw_verdict_bent(fw_arena *arena, const fw_device *device, fw_verdict_v
 /* Such a motion is that of another device: reasons from `first` on, requirements and what meets in scenes are left open
    where they reject. What the drawing, required poses and the plane's other side say holds all the same. */
 void fw_verdict_bent_leaves_open(fw_verdict_variant_verdict *v, int first);
-/* the masks contradict the motion: no value of a number, of a load or of a flexure mends that. *why: what does */
+/* verdict_run.c: the masks contradict the motion: no value of a number, of a load or of a flexure mends that. *why: what does */
 bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why);
 
 /* ---- verdict_requirement.c: what the device is for ---- */

@@ -499,9 +499,9 @@ static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_ver
     return FW_OK;
 }
 
-/* a motion that ended where a formula does has its own reason */
+/* a motion that ended where a formula does, or rests on what is unstable, has its own reason */
 static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
-    return r->measure && !v->motion[r->scene_index];
+    return r->measure && (!v->motion[r->scene_index] || r->why == fw_verdict_unstable_there);
 }
 
 /* By what a mode that lies elsewhere may do more or less (resonance.c): of how far it goes to and fro. A final value may

@@ -253,6 +253,25 @@ static bool decided_by_drawing(const fw_device *device, const fw_layout *layout,
     return false;
 }
 
+bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why) {
+    for (int i = 0; verdict->layout && i < verdict->layout->nmissing; i++)
+        if (verdict->layout->missing[i].number == 130) {
+            *why = "a joint, a spring or a stop that is never drawn is in the motion, and no "
+                   "change of a "
+                   "number makes the design accepted with it: draw what does its work";
+            return true;
+        }
+    for (int i = 0; i < verdict->nvariant; i++)
+        for (int k = 0; k < verdict->variant[i].nreason; k++)
+            if (verdict->variant[i].reason[k].number == 622) {
+                *why = "flexures are bent where the masks draw them at rest, and the motion is not "
+                       "that of "
+                       "what is made: state their free-angle first";
+                return true;
+            }
+    return false;
+}
+
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device, const fw_verdict_options *asked,
                          fw_diags *diags, fw_verdict *verdict, const fw_layout **layout) {
     const fw_layout *judged;

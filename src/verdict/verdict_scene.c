@@ -14,6 +14,7 @@
        it does not with voltages lower by the model's own error,
      - it asks for more than the static pull-in voltage and is over before the rotor has snapped, or
        it would touch with voltages higher by what fringe fields can do: inconclusive,
+     - what holds it up to its voltages was not found: inconclusive,
      - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else
        inconclusive,
      - nothing says what its model of the hinges is off by, or the strain of a hinge is not known at an
@@ -112,10 +113,10 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
                       : "it is over before the rotor has snapped")
             : fw_arena_printf(arena,
                               "%s%s asks for up to %s V: %s%s pulls in at %s V, or at "
-                              "less: fringe fields that the model leaves out add up to %s %% to "
-                              "its pull",
+                              "less: %s may add up to %s %% to its pull",
                               FW_NAMED("scene", scene->name), asked,
-                              FW_NAMED("comb drive", p->comb), at, part);
+                              FW_NAMED("comb drive", p->comb), at,
+                              fw_statics_pull_in_fringe_text(p), part);
     return fw_verdict_scene_reason(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
 }
 
@@ -132,12 +133,10 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
     char part[32];
     const char *text = fw_arena_printf(
         arena,
-        "%s%s may throw the rotor of %s%s to its stator (dynamic pull-in): it does so "
-        "in "
-        "a run with the fringe fields that the model leaves out, which add up to %s %% to the "
-        "pull",
+        "%s%s may throw the rotor of %s%s to its stator (dynamic pull-in): it does so in a run "
+        "with %s, which may add up to %s %% to the pull",
         FW_NAMED("scene", scene->name), FW_NAMED("comb drive", p->comb),
-        fw_number_text(part, sizeof part, 100 * p->fringe, 2));
+        fw_statics_pull_in_fringe_text(p), fw_number_text(part, sizeof part, 100 * p->fringe, 2));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);
     v->beyond_pull_in = true;
@@ -157,6 +156,20 @@ static fw_status fingers_snap(fw_arena *arena, const fw_device_scene *scene,
                         fw_number_text(times, sizeof times, sqrt(p->fingers), 3)));
 }
 
+/* what holds it at the voltages of the scene was not found: where it runs all the same, what it rests on is not known */
+static fw_status not_found(fw_arena *arena, const fw_device_scene *scene,
+                           const fw_statics_pull_in *p, fw_verdict_variant_verdict *v) {
+    char at[32], asked[32];
+    return fw_verdict_scene_reason(
+        v, scene, 249, FW_INCONCLUSIVE, share_for(p),
+        fw_arena_printf(arena,
+                        "the pull-in voltage of %s%s is not known: %s%s is stable up to %s V of "
+                        "the %s V that the scene asks for; then %s",
+                        FW_NAMED("scene", scene->name), FW_NAMED("comb drive", p->comb),
+                        fw_number_text(at, sizeof at, p->voltage_V, 4),
+                        fw_number_text(asked, sizeof asked, p->largest_V, 4), p->why));
+}
+
 static fw_status judge_pull_in(fw_arena *arena, const fw_device_scene *scene,
                                const fw_statics_pull_in *p, const fw_dynamics_motion *motion,
                                const fw_dynamics_motion_options *options, fw_diags *diags,
@@ -166,6 +179,7 @@ static fw_status judge_pull_in(fw_arena *arena, const fw_device_scene *scene,
         FW_TRY(fingers_snap(arena, scene, p, v));
         if (p->margin >= 1) return FW_OK;
     }
+    if (p->kind == FW_PULL_IN_NONE && p->margin < 1) return not_found(arena, scene, p, v);
     if (p->kind != FW_PULL_IN_NONE && p->margin < fw_statics_pull_in_margin(p))
         return beyond(arena, scene, p, v);
     return may_be_thrown(arena, scene, p, motion, options, diags, v);
@@ -273,6 +287,27 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     FW_TRY(judge_strains(arena, scene, v->motion[i], v));
     FW_TRY(judge_reliability(scene, &own, v));
     return judge_stability(arena, scene, v->motion[i], diags, v);
+}
+
+const char fw_verdict_unstable_there[] =
+    "in its scene the device stays on an unstable equilibrium, which what is made leaves";
+
+void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, int first) {
+    bool unstable = false;
+    for (int i = first; i < v->nreason; i++)
+        unstable = unstable || v->reason[i].number == 259;
+    for (int k = 0; unstable && k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        if (r->scene_index != scene || !r->measure) continue;
+        r->value = r->low = r->high = r->margin = (double)NAN;
+        r->utilisation = r->utilisation_low = r->utilisation_high = (double)NAN;
+        r->rings = 0, r->open = NULL;
+        r->decision = FW_INCONCLUSIVE;
+        r->why = fw_verdict_unstable_there;
+    }
+    for (int i = 0; unstable && i < v->nclearance; i++)
+        if (v->clearance[i].scene_index == scene && v->clearance[i].decision == FW_ACCEPT)
+            v->clearance[i].decision = FW_INCONCLUSIVE;
 }
 
 /* ---- what is not in the masks ----
@@ -400,25 +435,6 @@ void fw_verdict_bent_leaves_open(fw_verdict_variant_verdict *v, int first) {
         if (v->clearance[i].scene_index != FW_NONE &&
             fw_verdict_is_worse(v->clearance[i].decision, FW_INCONCLUSIVE))
             v->clearance[i].decision = FW_INCONCLUSIVE;
-}
-
-bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why) {
-    for (int i = 0; verdict->layout && i < verdict->layout->nmissing; i++)
-        if (verdict->layout->missing[i].number == 130) {
-            *why = "a joint, a spring or a stop that is never drawn is in the motion, and no "
-                   "change of a "
-                   "number makes the design accepted with it: draw what does its work";
-            return true;
-        }
-    for (int i = 0; i < verdict->nvariant; i++)
-        for (int k = 0; k < verdict->variant[i].nreason; k++)
-            if (verdict->variant[i].reason[k].number == 622) {
-                *why = "flexures are bent where the masks draw them at rest, and the motion is not "
-                       "that of "
-                       "what is made: state their free-angle first";
-                return true;
-            }
-    return false;
 }
 
 /* ---- what moves it from outside ----

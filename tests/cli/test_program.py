@@ -300,6 +300,51 @@ class Plan(InTemporary):
         self.assertEqual({r["code"] for r in verdict["reasons"]}, {"FW-D294", "FW-D538"})
         self.assertGreater(verdict["hinges"][0]["peak_angle_rad"], 1)
 
+    STAGE = """<device xmlns="urn:flexwright:device:1" name="stage"><material ref="silicon-100" thickness="20 um"/>
+<limits safety-factor="2"/><flow ref="al-masked-rie" carrier="insulating"/><die tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="6 um"/>
+<mechanism><body id="mass" x="0 mm" y="0 mm" plate-width="1.2 mm" plate-height="1.2 mm"/>%s</mechanism>
+<probe id="x" kind="displacement" on="mass" direction="0 deg"/>%s<scene name="cold" duration="1 ms">%s<temperature change="%s K"/></scene></device>"""
+    LEAVES = "".join(f'<revolute id="{name}" a="ground" a-x="{x} mm" a-y="{y} mm" b="mass" b-x="{x} mm" b-y="{y} mm" hinge="leaf" axis="{axis} deg"/>'
+                     for name, x, y, axis in (("A", -.45, -.83, 0), ("B", .45, -.83, 0), ("C", -.45, .83, 180), ("D", .45, .83, 180)))
+
+    def test_electrodes_hold_nothing_on_an_unstable_equilibrium(self):
+        """Leaves between two sides of the frame bear their own stress up to 4 pi^2 E I/L^2 each, at a temperature below that of their
+        making by (pi w/L)^2/(3 alpha) or so: colder, the stage goes aside by micrometres, and its symmetry alone keeps it where the
+        motion has it. Electrodes stand in the scene that are nearer than where descent looks first"""
+        sides = ((".6", 0, "right"), ("-.6", 180, "left"))
+        plates = "".join(f'<comb-drive id="{id_}" kind="plate" on="mass" x="{x} mm" direction="{d} deg" gap="10 um" length="0.9 mm" voltage="5 V"/>'
+                         for x, d, id_ in sides)
+        combs = "".join(f'<comb-drive id="{id_}" kind="comb" on="mass" x="{float(x) * 1.0667:.4g} mm" direction="{d} deg" fingers="10" gap="10 um" '
+                        'overlap="30 um" length="60 um" voltage="5 V"/>' for x, d, id_ in sides)
+        required = '<require probe="x" measure="peak" max="0.5 um"/>'
+
+        def checked(drives, change, more=""):
+            done = run("check", "-", "--json", "--corners", "none", "--advice", "none", input=self.STAGE % (self.LEAVES, more, drives, change))
+            return done, json.loads(done.stdout)
+        for drives, more in ((plates, ""), (combs, required)):
+            done, verdict = checked(drives, -110, more)
+            self.assertEqual((done.returncode, verdict["verdict"]), (4, "inconclusive"), done.stderr)
+            reason, = verdict["reasons"]
+            self.assertEqual((reason["code"], reason["scene"], reason["verdict"]), ("FW-D259", "cold", "inconclusive"))
+            aside = float(re.search(r"equilibrium with body mass displaced by ([0-9.]+) um", reason["text"])[1])
+            self.assertTrue(1.5 < aside < 3, aside)  # in um, not what round-off turns a joint by
+            self.assertNotIn("nothing holds", done.stderr)  # pull-in is looked for from where it goes
+            for c in verdict["clearances"]:
+                self.assertEqual(c["verdict"], "inconclusive")
+        asked, = verdict["requirements"]
+        self.assertEqual((asked["verdict"], asked["value"]), ("inconclusive", None))
+        self.assertIn("unstable", asked["why"])
+        self.assertEqual(checked(plates, -90)[1]["verdict"], "accept")
+
+        def pull_in(change, *more):
+            return run("statics", "-", *more, input=self.STAGE % (self.LEAVES, "", plates, change)).stdout.partition("pull-in:")[2]
+        counted = "what surfaces near or below it change of the fringe fields"
+        self.assertRegex(pull_in(-90), f"\\(fold\\)[^~]*{counted} may add")
+        self.assertRegex(pull_in(-100), "no limit point was found on it")  # it has no stop or cable that might let go
+        bare = pull_in(-90, "--effects", "none")
+        self.assertRegex(bare, "flexures are taken as pins.*what flexures give is not in it")
+        self.assertIn("fringe fields that the model leaves out may add", bare)
+
     def test_another_start_than_the_stated_one_is_not_accepted(self):
         def started(velocity):
             device = self.arm(f'<scene name="thrown" duration="5 ms"><initial body="arm" {velocity}/></scene>')

@@ -147,6 +147,57 @@ static void column(void **state) {
     }
 }
 
+/* electrodes beside what leaves its equilibrium: the mast leans by acos(k/(P l)) = sqrt(2 (P/k - 1)) or so, within their
+   gap. Descent may not begin beyond them, and may not take the place where it stands for the one behind */
+static void between_electrodes(void **state) {
+    (void)state;
+    const double k = 40, load = k * (1 + 1e-5);
+    fixture f = begin();
+    rig r = rig_mast(&f, 1, k, load);
+    fw_device_comb comb[2];
+    for (int i = 0; i < 2; i++)
+        comb[i] = (fw_device_comb){.id = i ? "left" : "right",
+                                   .kind = FW_ELECTRODES_PLATE,
+                                   .body_a = FW_GROUND,
+                                   .body_b = 0,
+                                   .by_m = 0.6,
+                                   .direction_rad = i * acos(-1.0),
+                                   .gap_m = 0.02,
+                                   .length_m = 0.1,
+                                   .depth_m = 0.01,
+                                   .voltage_V = 1e-3};
+    r.scene.comb = comb;
+    r.scene.ncomb = 2;
+    r.scene.duration_s = 200;
+    const fw_statics_stability *p = find(&f, &r, 2);
+    assert_non_null(p);
+    assert_non_null(p->angle_rad);
+    assert_relative(fabs(p->angle_rad[0]), leaning(k, load), 1e-3);
+    fw_arena_free(f.arena);
+}
+
+/* thrown aside while it is stable, at rest again when the load comes: what it did before has no part in where it stays */
+static void what_it_did_before(void **state) {
+    (void)state;
+    const fw_quantity_law late = {.kind = &fw_quantity_law_step, .start_s = 30, .end_s = (double)INFINITY},
+                          pulse = {.kind = &fw_quantity_law_step, .end_s = 0.2};
+    for (int i = 0; i < 2; i++) {
+        fixture f = begin();
+        rig r = rig_mast(&f, 1, 40, 80);
+        fw_device_force both[2] = {r.scene.force[0], r.scene.force[0]};
+        both[0].law = &late;
+        both[1].law = &pulse, both[1].fx_N = i * 40, both[1].fy_N = 0;
+        r.scene.force = both;
+        r.scene.nforce = 2;
+        r.m.pin[0].damping_Nms_per_rad = 2 * sqrt(40 * mast_inertia);
+        r.scene.duration_s = 30.3;
+        const fw_statics_stability *p = find(&f, &r, 101);
+        assert_non_null(p);
+        assert_near(p->t_s, 30, 0.31);
+        fw_arena_free(f.arena);
+    }
+}
+
 /* of mechanisms without symmetry none stays where it is unstable */
 static void mechanisms_without_symmetry(void **state) {
     (void)state;
@@ -179,6 +230,8 @@ int main(void) {
         cmocka_unit_test(rising_load),
         cmocka_unit_test(it_moves_along_the_symmetry),
         cmocka_unit_test(column),
+        cmocka_unit_test(between_electrodes),
+        cmocka_unit_test(what_it_did_before),
         cmocka_unit_test(mechanisms_without_symmetry),
         cmocka_unit_test(too_large),
     };
