@@ -80,11 +80,22 @@ typedef struct section {      /* of a tangent t and its normal n to the left, bo
     double bend, twist, both; /* turns per length about n and t by moments: 1/(N m^2) */
     double slide;             /* 1/(k G A), k = 5/6 */
     double warp_m;            /* how far an end that cannot warp is felt */
+    double warped_m;          /* strain that such an end puts on a twist per length, at most */
 } section;
 
 /* G J of a section that is sheared more easily one way: the same function of a rectangle whose height is
    scaled by the root of the moduli. Warping: (q^2 - p^2)^2/(q^2 + p^2)^2 p^3 q^3/144, that of a thin strip
-   and none of a square. Source: Lekhnitskii, Theory of Elasticity of an Anisotropic Body, 1963, 42 and 46 */
+   and none of a square; the true one of a square is a fiftieth of p^6/144. Source: Lekhnitskii, Theory of Elasticity of
+   an Anisotropic Body, 1963, 42 and 46.
+   Where an end cannot warp, a twist theta per length strains it by theta max|phi|/l, l^2 = E Gamma/(G J), with phi
+   Saint-Venant's function of the rectangle and Gamma the integral of its square. Both vanish towards a square, and
+
+     max|phi|/l <= p (3 G/E)^(1/2),   p the shorter side: 0.68 of that for a square, 0.71 to 0.81 up to q = 3 p,
+                                      all of it for a thin strip,
+
+   so that the corner's strain stays finite and grows no faster than the side. In: moduli by direction, sides, SI. Valid
+   for any q/p; Vlasov's decay, which for a square puts 2.5 times as much on the end as warping that is free of the
+   twist. Test: test_out_of_plane.c warping_of_rectangles (series by quadrature, and bars of CalculiX clamped at an end) */
 static section section_at(const stuff *m, double psi_rad, double curvature_per_m, double width_m,
                           double depth_m) {
     soft e = soft_at(m, psi_rad);
@@ -97,7 +108,8 @@ static section section_at(const stuff *m, double psi_rad, double curvature_per_m
                      .twist = 1 / GJ,
                      .both = e.twists / I,
                      .slide = 1.2 * e.wall / (w * h),
-                     .warp_m = sqrt(warping / (e.bend * GJ))};
+                     .warp_m = sqrt(warping / (e.bend * GJ)),
+                     .warped_m = fmin(w, h * ratio) * sqrt(3 * e.bend / e.wall)};
 }
 
 /* ---- the strip ---- */
@@ -237,18 +249,17 @@ fw_status fw_flexure_out_of_plane_of(fw_arena *arena, const fw_flexure_input *in
 
 /* What a section bears: kappa = M/EI bends the depth, theta = T/GJ twists it. The largest strain there is at most
 
-     2 (kappa h/2 + theta w h/(4 l)) + theta p/2,     p = min(w, h)
+     2 (kappa h/2 + theta p (3 G/E)^(1/2)) + theta p/2,     p = min(w, h)
 
-   bending at the faces; warping that a root restrains, E theta (w h/4)/l with the sectorial coordinate of a thin rectangle
-   at its corner, l as in `warps`; half of a shear that is theta p at most; twice the first two, since a fillet concentrates
-   what bends and warps a strip. At least it is kappa h/2 of a straight strip, and two thirds of that whatever the shape of
+   bending at the faces; warping that a root restrains, as in `section_at`; half of a shear that is theta p at most; twice
+   the first two, since a fillet concentrates what bends and warps a strip. At least it is kappa h/2 of a straight strip, and two thirds of that whatever the shape of
    the stress over the depth (a stress that is the same all over each half). Strains of a crystal are stress over youngs_Pa.
    In: (Fz, Mx, My) about the pin in the flexure's frame, n of them, the first at rest, the others amplitudes that ring
    either way. Out: sure[0] of the first alone, sure[1] at most of all. Error: the factor 2 is an assumption, above what
    charts have for plates bent at shoulders with fillets from a twentieth of the width on; what the flexure's length and the
    plates' stiffness are off by is not in it. Cost: 16 sections a piece. Source: Timoshenko and Goodier, art. 109; Vlasov,
    Thin-Walled Elastic Beams 1961 (warping); Peterson's Stress Concentration Factors, bending of flat bars across.
-   Test: test_out_of_plane.c strain_of_a_cantilever */
+   Test: test_out_of_plane.c strain_of_a_cantilever, warping_of_rectangles */
 fw_status fw_flexure_across_strain(fw_arena *arena, const fw_flexure_input *in,
                                    const fw_flexure_result *closed_form, const double (*wrench)[3],
                                    int n, double strain[2]) {
@@ -283,8 +294,7 @@ fw_status fw_flexure_across_strain(fw_arena *arena, const fw_flexure_input *in,
                 const bool straight = !(fabs(q->curvature_per_m) > 0);
                 strain[0] = fmax(strain[0], fabs(M) * face * (straight ? 1 : halves));
             }
-            const double warped = is.warp_m > 0 ? twists * w * h / (4 * is.warp_m) : 0;
-            const double here = 2 * (bends + warped) + 0.5 * twists * fmin(w, h);
+            const double here = 2 * (bends + twists * is.warped_m) + 0.5 * twists * fmin(w, h);
             if (!(here <= strain[1])) strain[1] = isnan(here) ? (double)INFINITY : here;
         }
     }
