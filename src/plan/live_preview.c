@@ -6,6 +6,7 @@
 #include "plan/stages.h"
 #include "report/report.h"
 #include <string.h>
+#include <time.h>
 
 /* a preview shows all of a motion */
 enum { WANTED = FW_WANTED_FIGURES | FW_WANTED_ENERGIES, NO_MATERIAL = 225 /* FW-D225 */ };
@@ -131,18 +132,19 @@ static void outcome(fw_design *d, fw_status status, fw_report_preview *in) {
     in->provisional = in->provisional && could;
 }
 
-/* status: of what was tried last */
-static fw_status compose(fw_design *d, fw_status status, bool rates, fw_text *out) {
+/* status: of what was tried last; device: the plan's, or the same one as another text has it */
+static fw_status compose(fw_design *d, const fw_device *device, fw_status status, bool rates,
+                         fw_text *out) {
     fw_plan *plan = d->plan;
     fw_report_left_out left_out[LEFT_OUT_MOST];
     bool judged = d->done & FW_DONE_JUDGED, moved = d->done & FW_DONE_SIMULATED;
-    fw_report_preview in = {.status = plan->device ? "ok" : "invalid",
+    fw_report_preview in = {.status = device ? "ok" : "invalid",
                             .left_out = left_out,
                             .nleft_out = leave_out(plan, judged, left_out),
                             .rates = rates,
                             .diags = &plan->diags,
                             .file = plan->source_file,
-                            .device = plan->device,
+                            .device = device,
                             .read_s = d->read_s,
                             .judge_s = d->judge_s,
                             .simulate_s = d->simulate_s};
@@ -164,7 +166,7 @@ static fw_status compose(fw_design *d, fw_status status, bool rates, fw_text *ou
 
 fw_status fw_plan_design_preview_json(fw_design *design, fw_text *out) {
     if (design->done & FW_DONE_SIMULATED) FW_TRY(fw_plan_design_know(design, WANTED));
-    return compose(design, FW_OK, false, out);
+    return compose(design, design->plan->device, FW_OK, false, out);
 }
 
 /* ---- the request ---- */
@@ -176,6 +178,7 @@ static bool hopeless(int status) {
 }
 
 typedef struct work {
+    const fw_device *device;
     fw_status status;
     bool rates;
     fw_text *out;
@@ -183,7 +186,7 @@ typedef struct work {
 
 static fw_status document(fw_design *d, void *argument) {
     const work *w = argument;
-    return compose(d, w->status, w->rates, w->out);
+    return compose(d, w->device, w->status, w->rates, w->out);
 }
 
 /* so many rows that a page can still take them: fewer of a mechanism with hundreds of bodies */
@@ -223,7 +226,8 @@ static fw_status look(fw_design *d, int status, fw_plan_live_request *request, b
         if (hopeless(moved)) status = moved;
     }
     if (hopeless(status)) return (fw_status)status;
-    return (fw_status)fw_plan_design_run(d, document, &(work){(fw_status)status, rates, out});
+    return (fw_status)fw_plan_design_run(d, document,
+                                         &(work){d->plan->device, (fw_status)status, rates, out});
 }
 
 /* ---- what the former preview read ---- */
@@ -239,6 +243,7 @@ void fw_plan_live_shown_free(fw_plan_live *live) {
     fw_design_free(live->shown.kept.design);
     json_decref(live->shown.options);
     json_decref(live->shown.lab);
+    json_decref(live->shown.held);
     live->shown = (struct fw_plan_live_shown){.options = NULL};
 }
 
@@ -269,13 +274,112 @@ static void keep_shown(fw_plan_live *live, const fw_plan_live_request *r, fw_des
     live->shown.full = r->full;
 }
 
+/* ---- what was held, as text ---- */
+
+/* Who lets a slider go has its value written into the text and asks what that text gives: the device that was judged
+   with the value held. Its answer is composed anew, of the description as the new text has it, and nothing is judged
+   again: a tenth of the cost. Only of an answer that the very last request has got, and once. Test: test_live_kept.c,
+   which compares with the answer of somebody who asks for the first time. */
+
+/* Of two texts: are they the same but for numbers in some lines? Then everything in the other lines has its place in
+   both, and nothing that is said of these lines names another unit or element. changed(line) is called for each line that
+   is another one; false from it: they are not. */
+static bool but_for_numbers(const char *a, const char *b, bool (*changed)(const fw_plan *, int),
+                            const fw_plan *plan) {
+    static const char number[] = "0123456789.+-eE";
+    for (int line = 1;; line++) {
+        size_t n = strcspn(a, "\n"), m = strcspn(b, "\n"), same = 0, behind = 0;
+        while (same < n && same < m && a[same] == b[same])
+            same++;
+        while (behind < n - same && behind < m - same && a[n - 1 - behind] == b[m - 1 - behind])
+            behind++;
+        size_t left = n - same - behind, right = m - same - behind;
+        if (strspn(a + same, number) < left || strspn(b + same, number) < right) return false;
+        if (left + right > 0 && !changed(plan, line)) return false;
+        if (!a[n] || !b[m]) return a[n] == b[m];
+        a += n + 1, b += m + 1;
+    }
+}
+
+/* does the answer say nothing of this line? */
+static bool nothing_said_of(const fw_plan *plan, int line) {
+    for (size_t i = 0; i < plan->diags.count; i++)
+        if (plan->diags.item[i].place.line == line &&
+            fw_text_same(plan->diags.item[i].place.file, plan->source_file))
+            return false;
+    for (int i = 0; plan->layout && i < plan->layout->nmissing; i++)
+        if (plan->layout->missing[i].place.line == line) return false;
+    return true;
+}
+
+/* would the text of the last answer, with what it held written into it, be that of the request? */
+static fw_status is_written(const fw_plan *plan, fw_plan_live_request *r, json_t *held,
+                            bool *same) {
+    fw_device_text_change *change =
+        fw_arena_array(r->arena, fw_device_text_change, json_object_size(held));
+    const char *path;
+    json_t *value;
+    int n = 0;
+    FW_NEED(change);
+    json_object_foreach(held, path, value) change[n++] = (fw_device_text_change){
+        .kind = FW_CHANGE_SET, .path = path, .value = json_string_value(value)};
+    fw_diags silent = fw_diags_new(r->arena);
+    fw_text text = fw_text_new(r->arena);
+    fw_status status = fw_device_edit(r->arena, plan->source_file, plan->source,
+                                      plan->source_length, change, n, &silent, &text);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    *same = status == FW_OK && text.length == r->length &&
+            memcmp(text.data, r->text, r->length) == 0 &&
+            but_for_numbers(plan->source, r->text, nothing_said_of, plan);
+    return FW_OK;
+}
+
+/* *done false: nothing was written */
+static fw_status answer_held(fw_plan_live *live, fw_plan_live_request *r, bool rates, fw_text *out,
+                             bool *done) {
+    json_t *held = live->shown.held;
+    live->shown.held = NULL; /* whatever becomes of it */
+    if (!held) return FW_OK;
+    fw_design *d = live->shown.kept.design;
+    const fw_device *device = NULL;
+    bool same = false;
+    fw_status status = FW_OK;
+    if (json_object_size(r->set) == 0 && rates == live->shown.rates &&
+        alike(live->shown.options, r->options) && alike(live->shown.lab, r->lab))
+        status = is_written(d->plan, r, held, &same);
+    json_decref(held);
+    if (status == FW_OK && same) status = fw_plan_same_packs(d->plan, &same);
+    if (status != FW_OK || !same) return status;
+    fw_plan other = *d->plan;
+    other.arena = r->arena;
+    other.diags = fw_diags_new(r->arena);
+    other.source = r->text, other.source_length = r->length;
+    clock_t start = clock();
+    status = fw_plan_device_again(&other, r->arena, NULL, 0, &other.diags, &device);
+    if (status != FW_OK) return fw_plan_is_final(status) ? status : FW_OK;
+    d->read_s = (double)(clock() - start) / CLOCKS_PER_SEC;
+    *done = true;
+    return (fw_status)fw_plan_design_run(d, document, &(work){device, FW_OK, rates, out});
+}
+
+/* ---- a request ---- */
+
+static void hold(fw_plan_live *live, const fw_plan_live_request *r, bool rates) {
+    const fw_design *d = live->shown.kept.design;
+    if (json_object_size(r->set) == 0 || !(d->done & FW_DONE_JUDGED)) return;
+    live->shown.held = json_incref(r->set);
+    live->shown.rates = rates;
+}
+
 static fw_status preview(fw_plan_live *live, fw_plan_live_request *request, fw_text *out) {
     const json_t *rates = json_object_get(request->root, "rates");
     fw_design *design = live->shown.kept.design;
     int read = FW_STATUS_OK;
-    bool taken;
+    bool taken = false;
     if (rates && !json_is_null(rates) && !json_is_boolean(rates))
         return fw_plan_live_wrong(request, "true or false is needed for", "rates");
+    FW_TRY(answer_held(live, request, json_is_true(rates), out, &taken));
+    if (taken) return FW_OK;
     FW_TRY(take_shown(live, request, &taken));
     if (!taken) {
         fw_plan_live_shown_free(live);
@@ -287,8 +391,11 @@ static fw_status preview(fw_plan_live *live, fw_plan_live_request *request, fw_t
     fw_status status = look(design, read, request, json_is_true(rates), out);
     if (!kept)
         fw_design_free(design);
-    else if (status != FW_OK || fw_arena_peak(design->plan->arena) > KEPT_MOST)
+    else if ((status != FW_OK && status != FW_CANCELLED) ||
+             fw_arena_peak(design->plan->arena) > KEPT_MOST)
         fw_plan_live_shown_free(live);
+    else if (status == FW_OK)
+        hold(live, request, json_is_true(rates));
     return status;
 }
 

@@ -21,6 +21,8 @@ struct fw_plan_live_shown { /* the design of the last preview, read and nothing 
     fw_plan_kept kept;      /* design NULL: none */
     json_t *options, *lab;  /* of its request; NULL: it had none */
     bool full;              /* options.detail */
+    json_t *held;           /* what its request set, while its text has not been asked for; NULL */
+    bool rates;             /* of its request */
 };
 
 struct fw_plan_live {

@@ -93,11 +93,11 @@ static bool said_of_others(const fw_plan *plan) {
     return false;
 }
 
-/* the packs and layer tables; names of files in the data directory have a slash, and no other input has one */
-static fw_status same_packs(const fw_plan *plan, bool *same) {
+/* names of files in the data directory have a slash, and no other input has one */
+fw_status fw_plan_same_packs(const fw_plan *plan, bool *same) {
     fw_mark mark = fw_arena_mark(plan->arena);
     fw_diags silent = fw_diags_new(plan->arena);
-    *same = true;
+    *same = plan->ndrawing == 0;
     for (int i = 1; i < plan->ninput && *same; i++) {
         const fw_plan_input_file *input = &plan->input[i];
         const char *path;
@@ -119,8 +119,8 @@ static fw_status same_packs(const fw_plan *plan, bool *same) {
 
 fw_status fw_plan_replace_source(fw_plan *plan, const char *xml, size_t n, bool *same) {
     char *copy;
-    *same = n <= FW_PLAN_FILE_MOST && !said_of_others(plan) && plan->ndrawing == 0;
-    if (*same) FW_TRY(same_packs(plan, same));
+    *same = n <= FW_PLAN_FILE_MOST && !said_of_others(plan);
+    if (*same) FW_TRY(fw_plan_same_packs(plan, same));
     if (!*same) return FW_OK;
     plan->diags = fw_diags_new(plan->arena);
     FW_NEED(copy = fw_arena_strndup(plan->arena, xml, n));

@@ -23,6 +23,8 @@ fw_status fw_plan_load_again(fw_plan *plan, const fw_device_set *set, int nset, 
 /* Another text of n bytes, which are copied, in place of the description of a plan that was read and nothing else, before
    fw_plan_load_again. *same false: files that are not the description are others by now, or something was said of them */
 fw_status fw_plan_replace_source(fw_plan *plan, const char *xml, size_t n, bool *same);
+/* have the packs and layer tables that a plan was read with the same bytes on disk? *same false also where it names drawings */
+fw_status fw_plan_same_packs(const fw_plan *plan, bool *same);
 void fw_plan_free_steps(fw_plan *plan); /* of a wafer's sweeps */
 /* a description that names the same packs in place of the one before, and its variants of them */
 fw_status fw_plan_take_device(fw_plan *plan, const fw_device *device);

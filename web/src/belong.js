@@ -51,13 +51,30 @@ export class Shown {
     }
 }
 
+let holding = 0; // what is shown is being changed, and looked at when all of it is
+let due = false;
+
+/** Many results are taken at once, and every part is marked once. */
+export function together(change) {
+    holding++;
+    try {
+        change();
+    } finally {
+        holding--;
+        if (!holding && due) look();
+    }
+}
+
 /** Marks every part anew; whoever changes the input or shows a result calls it, before anything else happens. */
 function look() {
+    due = holding > 0;
+    if (due) return;
     const time = performance.now();
+    const here = inputKey();
     let next = Infinity;
     const elements = new Set();
     for (const shown of all) {
-        const now = shown.present();
+        const now = shown.present === inputKey ? here : shown.present();
         if (shown.now !== undefined && shown.now !== now) {
             left.delete(shown.now); // to the end of the list
             left.set(shown.now, time);
@@ -66,7 +83,7 @@ function look() {
         elements.add(shown.element);
     }
     while (left.size > LEFT_MOST) left.delete(left.keys().next().value);
-    const here = inputKey(); // nothing is waited for any more: what is former now stays so
+    // nothing is waited for any more: what is former now stays so
     const over = state.answered === here || state.cancelled === here;
     for (const element of elements) next = Math.min(next, mark(element, over ? Infinity : time));
     clearTimeout(timer);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The design: text of the editor, changes to it by way of the server, previews of it.
+import { alike } from "./alike.js";
 import { newest, post } from "./api.js";
-import { begin, inputKey, look, mayChange } from "./belong.js";
+import { begin, inputKey, look, mayChange, together } from "./belong.js";
 import { announce } from "./dom.js";
 import { emit, on, state } from "./store.js";
 
@@ -102,6 +103,7 @@ const preview = newest(
     ({ body }, signal) => post("/api/preview", body, { signal }),
     take,
     (error, input) => {
+        rest?.();
         if (error.lost) return;
         wrong(input, [{ severity: "error", code: error.body?.error?.code ?? null, message: error.message, line: 0, column: 0 }]);
         emit("answer");
@@ -111,6 +113,7 @@ const preview = newest(
         words: "Computing the motion and the verdict",
         given: (input, why) => {
             if (why !== "cancelled" || input.key !== inputKey()) return;
+            rest?.();
             state.cancelled = input.key;
             emit("answer");
             look();
@@ -124,21 +127,64 @@ function wrong(input, diagnostics) {
     state.cancelled = null;
 }
 
+// what two answers of one device need not have in common: a slider that was let go is asked about once more, as text
+const OWN = { cost: true, parameters: true, diagnostics: true, motion: { stats: true } };
+
 function take(answer, input) {
     const diagnostics = answer.diagnostics ?? [];
     const shown = answer.marks?.length > 0 && answer.bodies?.length > 0; // a layout that cannot be made
     const good = answer.status === "ok" || (answer.status === "failed" && shown);
     if (!good && !diagnostics.length) diagnostics.push({ severity: "error", code: null, message: answer.message ?? "this design cannot be computed", line: 0, column: 0 });
-    wrong(input, diagnostics);
-    if (good) {
-        state.preview = answer;
-        state.previewOf = input.key;
-        emit("preview", answer);
-        requestAnimationFrame(() => setTimeout(() => {
-            state.latency.push(performance.now() - input.since);
-            if (state.latency.length > 400) state.latency.shift();
-        }));
+    if (!good) {
+        rest?.(); // of the answer before it, whose picture is there
+        return told(answer, input, diagnostics);
     }
+    const first = state.preview === null;
+    state.same = !first && alike(answer, state.preview, OWN) ? state.preview : null;
+    state.preview = answer;
+    state.previewOf = input.key;
+    together(() => emit("picture", answer));
+    const mine = (rest = () => {
+        if (rest !== mine) return; // a newer picture is there, and its rest is to come
+        rest = null;
+        together(() => {
+            emit("preview", answer);
+            told(answer, input, diagnostics);
+        });
+    });
+    if (first || inputKey() === toldOf) rest();
+    afterFrame(() => {
+        state.latency.push(performance.now() - input.since);
+        if (state.latency.length > 400) state.latency.shift();
+        mine();
+    });
+}
+
+// The picture first: what is read, lists and curves, comes in the frame behind it. Until then it is of the former input, and marked so.
+let rest = null; // shows it
+let toldOf = null; // input of the answer that all of the page showed last
+
+/** Where the input is what the lists are of, the picture and they come together before anything is painted: all of the page is of one answer. */
+function back() {
+    if (rest && inputKey() === toldOf) rest();
+}
+
+const FRAME_MOST_MS = 100; // a window that nobody sees draws no frames
+
+function afterFrame(f) {
+    let done = false;
+    const once = () => {
+        if (done) return;
+        done = true;
+        f();
+    };
+    requestAnimationFrame(() => setTimeout(once));
+    setTimeout(once, FRAME_MOST_MS);
+}
+
+function told(answer, input, diagnostics) {
+    wrong(input, diagnostics);
+    if (state.previewOf === input.key) toldOf = input.key;
     emit("answer", answer);
     look();
 }
@@ -150,6 +196,7 @@ export const askAgain = () => emit("change");
 
 export function startPreviews() {
     let timer = 0;
+    for (const event of ["text", "change", "options"]) on(event, back);
     on("change", () => {
         clearTimeout(timer);
         timer = 0;
@@ -160,5 +207,5 @@ export function startPreviews() {
         clearTimeout(timer); // somebody may be typing
         timer = setTimeout(() => emit("change"), TYPING_MS);
     });
-    mayChange(() => timer !== 0 || editing > 0 || preview.busy);
+    mayChange(() => timer !== 0 || editing > 0 || preview.busy || rest !== null);
 }

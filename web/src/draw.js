@@ -66,7 +66,7 @@ export class Draw {
         this.#keys();
         on("text", () => this.#refresh());
         on("pinned", () => this.visible && this.#pinned());
-        on("preview", () => this.visible && this.#base());
+        on("picture", () => this.visible && this.#base());
         on("answer", () => this.#refresh());
     }
 

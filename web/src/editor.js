@@ -11,6 +11,7 @@ import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/sea
 import { EditorState, Transaction } from "@codemirror/state";
 import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view";
 import { tags } from "@lezer/highlight";
+import { alike } from "./alike.js";
 import { completions, hover } from "./writing.js";
 
 const colours = HighlightStyle.define([
@@ -130,6 +131,9 @@ export class Editor {
             return { from, to, severity: d.severity === "error" ? "error" : d.severity === "warning" ? "warning" : "info", message: d.code ? `${d.message} [${d.code}]` : d.message };
         });
         marks.sort((a, b) => a.from - b.from);
+        // the same ones at the same places: a dispatch reads the selection, for which the whole page is laid out
+        if (doc === this.markedIn && alike(marks, this.marks)) return;
+        Object.assign(this, { marks, markedIn: doc });
         this.view.dispatch(setDiagnostics(this.view.state, marks));
     }
 

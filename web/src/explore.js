@@ -18,6 +18,7 @@ const HOW = [["quick", "at a first look: hinges as pins", "as the live verdict: 
 const QUIET_MS = 400; // that nothing changes before it is asked for by itself
 const REQUEST_MS = 250; // that a request is to take: progress is seen, and cancelling is quick
 const FIRST = 3; // points of the first request
+const LANES = navigator.hardwareConcurrency > 1 ? 2 : 1; // requests at a time: the server has two processes that compute
 const MOST = 64;
 const HALVINGS = 6; // of an interval in which the decision changes
 const EDGES = 8;
@@ -182,7 +183,7 @@ export class Explore {
         this.timer = setTimeout(() => {
             this.timer = 0;
             this.run(true);
-        }, event === "asked" ? 0 : QUIET_MS);
+        }, event === "asked" || event === "shown" ? 0 : QUIET_MS); // nothing changes where somebody comes to look
     }
 
     // ---- asking ----
@@ -259,18 +260,21 @@ export class Explore {
         const values = [...n.value, ...n.low, ...n.high, "governing.utilisation"]; // the last one: that it is judged
         const body = { text: state.text, set, ...lab(), options: this.#options(), inputs: spec.inputs.map((x) => x.what), values };
         for (let i = 0; i < missing.length; ) {
-            const some = missing.slice(i, i + (this.chunk ?? FIRST));
+            const some = missing.slice(i, i + LANES * (this.chunk ?? FIRST));
+            const parts = Array.from({ length: Math.min(LANES, some.length) }, (_, lane) => some.filter((_, j) => j % LANES === lane));
             const since = performance.now();
-            const answer = await post("/api/explore", { ...body, points: some.map((k) => texts[k]) }, { signal });
+            const answers = await Promise.all(parts.map((part) => post("/api/explore", { ...body, points: part.map((k) => texts[k]) }, { signal })));
             if (signal.aborted) throw new Error("given up");
-            if (answer.status !== "ok") throw new Error(answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "this cannot be computed");
-            answer.points.forEach((p, j) => {
-                const k = some[j], found = point(p, n);
-                kept.set(nameOf(k), found);
-                take(found, k);
+            answers.forEach((answer, lane) => {
+                if (answer.status !== "ok") throw new Error(answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "this cannot be computed");
+                answer.points.forEach((p, j) => {
+                    const k = parts[lane][j], found = point(p, n);
+                    kept.set(nameOf(k), found);
+                    take(found, k);
+                });
             });
             i += some.length;
-            const each = (performance.now() - since) / some.length;
+            const each = (performance.now() - since) / parts[0].length;
             this.chunk = Math.min(Math.max(Math.round(REQUEST_MS / each), 1), MOST);
             show(some.length);
         }

@@ -46,7 +46,8 @@ export class Motion {
         this.paths = s("g", { class: "paths", "aria-hidden": "true" });
         this.mechanism.above.append(this.paths);
         this.stats = h("div", { class: "run-stats" });
-        this.showing = [this.stage, this.player, this.plots, this.stats].map((element) => new Shown(element));
+        this.pictured = [this.stage, this.player].map((element) => new Shown(element));
+        this.written = [this.plots, this.stats].map((element) => new Shown(element));
         this.#player();
         const seek = (t) => this.seek(t / 1e3, true);
         const onwindow = (window) => [this.angles, this.energy, this.course].forEach((plot) => plot.setWindow(window)); // one time for all
@@ -61,7 +62,9 @@ export class Motion {
         });
         this.angles.heading.append(this.inDegrees);
         on("options", () => this.picks?.forEach((refresh) => refresh()));
-        for (const event of ["preview", "hinge", "theme", "pinned"]) on(event, () => this.visible && this.show());
+        on("picture", () => this.visible && (state.same && state.same === this.of ? this.#again() : this.#picture()));
+        on("preview", () => this.visible && (this.of === state.preview ? this.#rest() : this.show()));
+        for (const event of ["hinge", "theme", "pinned"]) on(event, () => this.visible && this.show());
     }
 
     shown(yes) {
@@ -113,10 +116,24 @@ export class Motion {
         return this.t?.at(-1) || 1;
     }
 
+    /** The same device was asked for in another way: all of it is there. */
+    #again() {
+        this.of = state.preview;
+        for (const shown of [...this.pictured, ...(this.plotted ? this.written : [])]) shown.take(state.previewOf);
+        if (this.plotted) this.plotted = this.of;
+    }
+
     show() {
-        const p = state.preview;
-        if (!p) return;
-        for (const shown of this.showing) shown.take(state.previewOf);
+        if (!state.preview) return;
+        this.#picture();
+        this.#rest();
+    }
+
+    /** What is looked at first. */
+    #picture() {
+        const p = (this.of = state.preview);
+        this.plotted = null; // whose curves are there
+        for (const shown of this.pictured) shown.take(state.previewOf);
         const scenes = p.scenes.map((x) => [x.name, x.name]);
         const scene = state.options.scene ?? p.motion?.scene ?? ""; // chosen, and maybe none of the list
         setOptions(this.scene, !scene || p.scenes.some((x) => x.name === scene) ? scenes : [...scenes, [scene, scene]], scene);
@@ -132,9 +149,22 @@ export class Motion {
         this.mechanism.show(p);
         this.mechanism.setLoads(loadsOf(p));
         this.#paths();
-        this.#plotAll();
-        this.#stats();
         this.paint();
+    }
+
+    /** What is read. */
+    #rest() {
+        const p = state.preview;
+        for (const shown of this.written) shown.take(state.previewOf);
+        const done = this.plotted === p;
+        this.plotted = p;
+        if (!p.motion) {
+            this.stats.textContent = p.scenes.length ? "this scene was not moved; the notes say why" : "the description has no scene";
+            return;
+        }
+        if (!done) this.#plotAll();
+        this.#stats();
+        this.#cursors();
     }
 
     /** Nothing was moved: the device at rest. */
@@ -147,7 +177,6 @@ export class Motion {
         this.mechanism.pose(restOf(p));
         this.#pinned();
         this.mechanism.colour(new Map(), state.hinge);
-        this.stats.textContent = p.scenes.length ? "this scene was not moved; the notes say why" : "the description has no scene";
     }
 
     /** Where the motion takes what moves. */
@@ -172,7 +201,7 @@ export class Motion {
 
     #plotAll() {
         const p = state.preview;
-        if (!p?.motion) return;
+        if (!p?.motion || this.plotted !== p) return;
         const m = p.motion;
         const ms = m.t_s.map((t) => t * 1e3);
         const inDegrees = this.inDegrees.getAttribute("aria-pressed") === "true" || this.limits.every((x) => !x);
@@ -341,6 +370,15 @@ export class Motion {
         const text = si(this.time, "s", 3);
         this.slider.setAttribute("aria-valuetext", text);
         this.clock.textContent = `${text} / ${si(this.#end(), "s", 3)}`;
+        this.at = { i, angles, shares };
+        if (this.plotted === p) this.#cursors();
+    }
+
+    /** Of the plots, and what their headings say at that time. */
+    #cursors() {
+        const p = state.preview;
+        const m = p.motion;
+        const { i, angles, shares } = this.at;
         const k = state.hinge === null ? -1 : p.pins.findIndex((x) => x.id === state.hinge);
         const worst = [...shares].reduce((best, x) => (x[1] !== null && x[1] > (best?.[1] ?? -1) ? x : best), null);
         const ms = this.time * 1e3;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
 // which effects were computed and why, what it cost.
+import { alike } from "./alike.js";
 import { inputKey, Shown } from "./belong.js";
 import { Compare } from "./compare.js";
 import { askAgain, edit, isPresent } from "./design.js";
@@ -108,7 +109,8 @@ export class Verdict {
         } else if (empty) this.problems.replaceChildren(h("h2", {}, words), h("p", {}, "Draw a link, hold it by a hinge, and pull it by a force or a cable; or write <body> and <revolute> in the text."), button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
         else this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
         this.notes.hidden = rest.length === 0;
-        this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));
+        if (!alike(rest, this.noted)) this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));
+        this.noted = rest;
         const said = empty ? words : errors.length ? `${words}: ${errors[0].message}` : "";
         if (said && said !== this.said) announce(said);
         this.said = said;
@@ -133,6 +135,9 @@ export class Verdict {
         const full = this.#full();
         for (const shown of this.ofPreview) shown.take(state.previewOf);
         for (const shown of this.ofFull) shown.take(full ? this.full.of : null);
+        const same = state.same !== null && state.same === this.of && full === this.ofJudged && this.packs === Object.keys(state.lab).length;
+        Object.assign(this, { of: state.preview, ofJudged: full, packs: Object.keys(state.lab).length });
+        if (same) return this.#cost(); // the same device, asked for in another way: all of it is there
         const v = state.preview.verdict;
         if (!v) {
             state.summary = null;

@@ -2,7 +2,9 @@
 /* What a preview keeps of the one before it changes nothing: every answer of a course of edits, mistakes, settings, options,
    laboratory packs and changed files is the one of somebody who asks for the first time. */
 #include "live_case.h"
+#include <signal.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #define DEVICE "docs/gallery/leaf-four-bar/device.xml"
@@ -45,11 +47,13 @@ static fw_plan_live *of_directory(const char *directory) {
     return live;
 }
 
-/* without times of a processor */
-static json_t *answered(fw_plan_live *live, const char *text) {
+/* without times of a processor; *judged_s, where somebody asks: that of judging, 0: nothing was judged */
+static json_t *answered(fw_plan_live *live, const char *text, double *judged_s) {
     fw_plan_live_answer a = fw_plan_live_preview(live, text, strlen(text));
     json_t *root = json_loads(a.text, JSON_REJECT_DUPLICATES, NULL);
     assert_non_null(root);
+    const json_t *cost = json_object_get(root, "cost");
+    if (judged_s) *judged_s = json_number_value(json_object_get(cost, "judge_s"));
     json_object_set_new(root, "status of the call", json_integer(a.status));
     json_object_del(root, "cost");
     json_t *stats = json_object_get(json_object_get(root, "motion"), "stats");
@@ -58,10 +62,11 @@ static json_t *answered(fw_plan_live *live, const char *text) {
 }
 
 /* the answer of both, which the caller releases */
-static json_t *the_same(fw_plan_live *live, const char *directory, const request *r) {
+static json_t *the_same(fw_plan_live *live, const char *directory, const request *r,
+                        double *judged_s) {
     char *text = composed(r);
     fw_plan_live *fresh = of_directory(directory);
-    json_t *mine = answered(live, text), *want = answered(fresh, text);
+    json_t *mine = answered(live, text, judged_s), *want = answered(fresh, text, NULL);
     if (!json_equal(mine, want)) {
         char *a = json_dumps(mine, JSON_SORT_KEYS), *b = json_dumps(want, JSON_SORT_KEYS);
         size_t i = 0;
@@ -116,12 +121,106 @@ static void a_course_of_edits(void **state) {
     fw_plan_live *live = of_directory(FW_TEST_SOURCE_DIR);
     int judged = 0, wrong = 0;
     for (size_t i = 0; i < sizeof course / sizeof course[0]; i++) {
-        json_t *got = the_same(live, FW_TEST_SOURCE_DIR, &course[i]);
+        json_t *got = the_same(live, FW_TEST_SOURCE_DIR, &course[i], NULL);
         const char *status = text_at(got, "status");
         judged += strcmp(status, "ok") == 0, wrong += strcmp(status, "invalid") == 0;
         json_decref(got);
     }
     assert_true(judged >= 12 && wrong >= 4);
+    fw_plan_live_free(live);
+}
+
+/* ---- what was held, and is text by now ---- */
+
+#define WIDE(text) "value=\"8 um\"", "value=\"" text "\""
+#define PUSH       "duration=\"20 ms\">\n    <force on=\"coupler\" fx=\"0.06 mN\""
+#define TOO_MUCH(text) PUSH, "duration=\"20 ms\"><force on=\"coupler\" fx=\"" text "\""
+
+/* a value that is held, then a text: is it answered by what was judged with the value held? */
+static const struct {
+    request held, text;
+    bool taken;
+} let_go[] = {
+    {{NULL, NULL, "\"set\":{\"width\":\"9.5 um\"}"}, {WIDE("9.5 um"), NULL}, true},
+    {{NULL, NULL, "\"set\":{\"width\":\"9.5 um\"}"}, {WIDE("9.6 um"), NULL}, false},
+    {{NULL, NULL, "\"set\":{\"width\":\"0.009 mm\"}"}, {WIDE("0.009 mm"), NULL}, false},
+    {{NULL, NULL, "\"set\":{\"width\":\"9 um\"}"}, {WIDE("9 um"), "\"rates\":true"}, false},
+    {{NULL, NULL, "\"set\":{\"width\":\"9 um\"},\"rates\":true"},
+     {WIDE("9 um"), "\"rates\":true"},
+     true},
+    {{NULL, NULL, "\"set\":{\"width\":\"9 um\"}"},
+     {WIDE("9 um"), "\"options\":{\"samples\":9}"},
+     false},
+    {{NULL, NULL, "\"set\":{\"width\":\"9 um\"}," LAB("9")}, {WIDE("9 um"), NULL}, false},
+    {{NULL, NULL, "\"set\":{\"width\":\"9 um\"}"},
+     {WIDE("9 um"), "\"set\":{\"width\":\"9 um\"}"},
+     false},
+    {{NULL, NULL, "\"set\":{\"width\":\"9 um\"},\"options\":{\"detail\":\"full\"}"},
+     {WIDE("9 um"), "\"options\":{\"detail\":\"full\"}"},
+     true},
+    /* a warning is about the line that changes, and may have another place in it */
+    {{TOO_MUCH("0.06 mN"), "\"set\":{\"scene[push]/force/@fx\":\"60 mN\"}"},
+     {TOO_MUCH("60 mN"), NULL},
+     false},
+    {{TOO_MUCH("0.06 mN"), "\"set\":{\"scene[push]/force/@fx\":\"0.05 mN\"}"},
+     {TOO_MUCH("0.05 mN"), NULL},
+     true},
+};
+
+static double judging_s(fw_plan_live *live, const request *r) {
+    double s;
+    char *text = composed(r);
+    json_decref(answered(live, text, &s));
+    free(text);
+    return s;
+}
+
+/* The answer to the text is that of somebody who asks for the first time; and where it was composed anew, of what was
+   judged with the value held, judging has cost the same to the microsecond. Asked for once more it is judged anew. */
+static void what_was_held_is_text(void **state) {
+    (void)state;
+    fw_plan_live *live = of_directory(FW_TEST_SOURCE_DIR);
+    for (size_t i = 0; i < sizeof let_go / sizeof let_go[0]; i++) {
+        double held = judging_s(live, &let_go[i].held), text;
+        json_decref(the_same(live, FW_TEST_SOURCE_DIR, &let_go[i].text, &text));
+        assert_true(held > 0.0); /* it was judged */
+        if (let_go[i].taken != (text == held))
+            fail_msg("%s: judged %s", let_go[i].held.more, text == held ? "once" : "again");
+        assert_true(i > 0 || judging_s(live, &let_go[i].text) != text);
+    }
+    fw_plan_live_free(live);
+}
+
+/* ---- given up ---- */
+
+static fw_cancel given_up; /* a handler sees nothing but what is static */
+
+static void give_up(int number) {
+    fw_cancel_request(&given_up, number);
+}
+
+/* A preview that is given up in the middle leaves the design in any state, and the one after it begins from what was
+   read all the same. */
+static void the_one_after_what_was_given_up(void **state) {
+    (void)state;
+    const fw_plan_live_settings settings = {.data_directory = FW_TEST_SOURCE_DIR,
+                                            .cancel = &given_up};
+    const request first = {WIDE("9 um"), NULL}, after = {WIDE("8.5 um"), NULL};
+    char *text = composed(&first);
+    fw_plan_live *live = fw_plan_live_new(&settings);
+    assert_non_null(live);
+    assert_int_equal(fw_plan_live_preview(live, text, strlen(text)).status, FW_OK);
+    assert_int_equal(sigaction(SIGPROF, &(struct sigaction){.sa_handler = give_up}, NULL), 0);
+    for (int ms = 1; ms <= 21; ms += 5) { /* of the processor; the kernel rounds up */
+        const struct itimerval soon = {.it_value.tv_usec = 1000 * ms}, never = {0};
+        assert_int_equal(setitimer(ITIMER_PROF, &soon, NULL), 0);
+        fw_status status = fw_plan_live_preview(live, text, strlen(text)).status;
+        assert_int_equal(setitimer(ITIMER_PROF, &never, NULL), 0);
+        fw_cancel_clear(&given_up);
+        assert_true(status == FW_CANCELLED || (status == FW_OK && ms > 1));
+        json_decref(the_same(live, FW_TEST_SOURCE_DIR, &after, NULL));
+    }
+    free(text);
     fw_plan_live_free(live);
 }
 
@@ -164,25 +263,25 @@ static void files_that_change(void **state) {
         copied(file[i], directory);
     fw_plan_live *live = of_directory(directory);
     const request plain = {NULL, NULL, NULL};
-    json_t *first = the_same(live, directory, &plain), *again = the_same(live, directory, &plain);
+    json_t *first = the_same(live, directory, &plain, NULL), *again = the_same(live, directory, &plain, NULL);
     assert_true(json_equal(first, again));
     json_decref(again);
     changed(BASE, directory, "value=\"147.08\"", "value=\"150.08\"");
-    again = the_same(live, directory, &plain);
+    again = the_same(live, directory, &plain, NULL);
     assert_false(json_equal(first, again));
     json_decref(again);
     copied(BASE, directory);
     changed(PACK, directory, "</process>", "");
-    again = the_same(live, directory, &plain);
+    again = the_same(live, directory, &plain, NULL);
     assert_string_equal(text_at(again, "status"), "invalid");
     json_decref(again);
     copied(PACK, directory);
-    again = the_same(live, directory, &plain);
+    again = the_same(live, directory, &plain, NULL);
     assert_true(json_equal(first, again));
     json_decref(again);
     snprintf(path, sizeof path, "%s/%s", directory, MASK);
     assert_int_equal(unlink(path), 0);
-    again = the_same(live, directory, &plain);
+    again = the_same(live, directory, &plain, NULL);
     assert_false(json_equal(first, again));
     json_decref(again), json_decref(first);
     fw_plan_live_free(live);
@@ -200,6 +299,8 @@ static void files_that_change(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_course_of_edits),
+        cmocka_unit_test(what_was_held_is_text),
+        cmocka_unit_test(the_one_after_what_was_given_up),
         cmocka_unit_test(files_that_change),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
