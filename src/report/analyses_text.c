@@ -76,10 +76,13 @@ static void frequencies_off(const fw_statics_modes *modes, fw_text *out) {
     fw_percent_text(all, sizeof all, modes->frequency_error);
     fw_percent_text(model, sizeof model, modes->ledger.hinge.error);
     fw_percent_text(stiffness, sizeof stiffness, modes->stiffness_error);
+    const bool soft = modes->stiffness_error > 0.1;
     fw_text_printf(out,
-                   "frequencies off by up to %s %%: the model of the hinges %s %%, and half of %s "
-                   "%%, the error of a flexure's stiffness%s; bodies that bend make them lower\n",
-                   all, model, stiffness,
+                   "frequencies off by up to %s %%: the model of the hinges %s %%, and %s %s "
+                   "%%, the error of %s%s; bodies that bend make them lower\n",
+                   all, model, soft ? "by the root of a stiffness that is off by" : "half of",
+                   stiffness,
+                   soft ? "flexures against what loads leave of them" : "a flexure's stiffness",
                    modes->stiffness_error > 0 ? "" : " (stated ones are taken as they are)");
 }
 

@@ -233,8 +233,8 @@ typedef struct fw_statics_modes {
                              lengths; 0 within round-off at an equilibrium, infinite: there is
                              none */
     /* Relative, of the lowest frequencies: what the next model of the hinges changes, and half of the
-       error of a flexure's stiffness against solids, since a frequency goes with the root of it: the
-       larger of the first oscillation's and of any K that is not stated. Faster ones have their own.
+       error of a flexure's stiffness against solids, since a frequency goes with the root of it (all of
+       the frequency where loads leave less of the stiffness than may be wrong of it): the larger of the first oscillation's and of any K that is not stated. Faster ones have their own.
        Masses are taken as exact. NaN: not known, infinite never; 0: no flexures */
     double frequency_error, stiffness_error;
     fw_statics_row_rank rank;

@@ -499,9 +499,9 @@ static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, cons
 }
 
 /* Of a mode's stiffness, by the energy that each flexure has of it:  e = sum k d^2 e_k/(omega^2 M),
-   with k and e_k of rotation, along and across, d as deformed in the mode, M its modal mass; of one
-   that loads make soft no more than ten times its share. Source: Rayleigh's quotient is stationary.
-   Test: test_rest.py, test_modes.c errors_go_with_energy */
+   with k and e_k of rotation, along and across, d as deformed in the mode, M its modal mass: what loads
+   leave of it bears the whole error of what they take from; of an unstable one ten times its share.
+   Source: Rayleigh's quotient is stationary. Test: test_rest.py, test_modes.c errors_go_with_energy */
 static double mode_error(const fw_mechanism *m, const fw_statics_modes *found,
                          const fw_statics_mode *mode) {
     const bool pins = found->ledger.hinge.used == FW_HINGE_REVOLUTE;
@@ -520,11 +520,17 @@ static double mode_error(const fw_mechanism *m, const fw_statics_modes *found,
             all += k[n] * d[n] * d[n], off += k[n] * d[n] * d[n] * e[n];
         }
     }
-    return off > 0 ? off / fmax(whole, 0.1 * all) : 0;
+    return off > 0 ? off / (whole > 0 ? whole : 0.1 * all) : 0;
+}
+
+/* Of a frequency, by the error e of its stiffness: half of it, and above a tenth 1 - sqrt(1 - e), which is the larger of
+   both sides (5 % of half of it more there), and all of it from e = 1 on: nothing may be left. */
+static double of_root(double error) {
+    return error > 0.1 ? 1 - sqrt(1 - fmin(error, 1)) : 0.5 * error;
 }
 
 double fw_statics_mode_error(const fw_statics_mode *mode) {
-    return mode->model_error + 0.5 * mode->stiffness_error;
+    return mode->model_error + of_root(mode->stiffness_error);
 }
 
 /* each: what the next level changes; NULL: not compared by mode */
@@ -540,7 +546,7 @@ static void set_errors(const fw_mechanism *m, const double *each, fw_statics_mod
     for (int k = 0; k < m->nhinge; k++) /* any of the slow ones may live in one alone */
         if (!m->hinge[k].stated) first = fmax(first, m->hinge[k].closed_form.error.stiffness);
     modes->stiffness_error = first;
-    modes->frequency_error = 0.5 * first + level;
+    modes->frequency_error = of_root(first) + level;
 }
 
 static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
