@@ -1,12 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conjugate surfaces that have met and hold each other. It changes nothing until they meet, and what it does then is
+/* Surfaces that have met and hold each other: of a hinge, or of a contact between two bodies. It changes nothing until they meet, and what it does then is
    judged beside the motion (verdict/verdict_stiction.c). Theory: docs/theory/effects/adhesion.md. */
 #include "base/constants.h"
 #include "effects/effect.h"
+#include <string.h>
 
 static bool is_known(const fw_mechanism *m) {
     const fw_mechanism_variant *v = m->variant;
     return v && v->drying.adhesion_words && !v->material.youngs.unknown;
+}
+
+/* The same of a convex surface of the relative radius R' */
+static double line_holds(double youngs_Pa, double poisson, double depth_m, double relative_m,
+                         double adhesion_J_per_m2) {
+    double modulus = youngs_Pa / (2 * (1 - poisson * poisson)), w = adhesion_J_per_m2;
+    return 1.5 * depth_m * cbrt(0.5 * FW_PI * modulus * w * w * relative_m);
 }
 
 /* Two cylinders of one material, the convex one of radius R in a concave one of R + gap, hold with at most
@@ -18,20 +26,76 @@ static bool is_known(const fw_mechanism *m) {
    Adhesion 26 (1988) 1. Test: test_adhesion.c. */
 double fw_effects_adhesion_holds(double youngs_Pa, double poisson, double depth_m, double radius_m,
                                  double gap_m, double adhesion_J_per_m2) {
-    double modulus = youngs_Pa / (2 * (1 - poisson * poisson));
-    double relative = radius_m * (radius_m + gap_m) / gap_m, w = adhesion_J_per_m2;
-    return 1.5 * depth_m * cbrt(0.5 * FW_PI * modulus * w * w * relative);
+    return line_holds(youngs_Pa, poisson, depth_m, radius_m * (radius_m + gap_m) / gap_m,
+                      adhesion_J_per_m2);
+}
+
+/* R' of what touches, at most. A flat face, and something round whose radius is the distance: that. Two round things
+   side by side, of which both radii together are known: 1/R' = 1/R1 + 1/R2 is least where they are alike, R' = distance/4.
+   NaN: flat on flat, a corner, a disc in a hole. In, out: m. Test: test_adhesion.c two_bodies */
+double fw_effects_contact_radius(const fw_device_contact_use *use) {
+    const bool round = use->side == FW_CONTACT_OUTSIDE && use->distance_m > 0;
+    if (use->joint != FW_NONE || !round) return (double)NAN;
+    return use->face ? use->distance_m : 0.25 * use->distance_m;
+}
+
+/* What is left between the two of a contact of two bodies, with D from the point on a to that on b:
+
+     n.D - distance (a flat face with the normal n),   |D| - distance (outside),   distance - |D| (inside)
+
+   In: q (3 nbody) m and rad, NULL: the drawn pose. Out: m, and slope (3 nbody) by q, or NULL. Exact.
+   Test: test_adhesion.c two_bodies */
+double fw_effects_contact_open(const fw_mechanism *m, const fw_device_contact_use *use,
+                               const double *q, double *slope) {
+    const int body[2] = {use->body_a, use->body_b};
+    const double x[2] = {use->ax_m, use->bx_m}, y[2] = {use->ay_m, use->by_m};
+    double arm[2][2], at[2][2], turn = 0;
+    for (int i = 0; i < 2; i++) {
+        double pose[3] = {0, 0, 0};
+        if (body[i] != FW_GROUND) {
+            const fw_mechanism_mass *b = &m->body[body[i]];
+            for (int j = 0; j < 3; j++)
+                pose[j] = q ? q[3 * body[i] + j] : j == 0 ? b->x_m : j == 1 ? b->y_m : b->phi_rad;
+        }
+        const double c = cos(pose[2]), s = sin(pose[2]);
+        arm[i][0] = c * x[i] - s * y[i], arm[i][1] = s * x[i] + c * y[i];
+        at[i][0] = pose[0] + arm[i][0], at[i][1] = pose[1] + arm[i][1];
+        if (i == 0) turn = pose[2];
+    }
+    const double dx = at[1][0] - at[0][0], dy = at[1][1] - at[0][1], l = hypot(dx, dy);
+    const double normal = use->face_rad + turn;
+    const double nx = use->face ? cos(normal) : l > 0 ? dx / l : 1;
+    const double ny = use->face ? sin(normal) : l > 0 ? dy / l : 0;
+    const double o = !use->face && use->side == FW_CONTACT_INSIDE ? -1 : 1;
+    for (int i = 0; slope && i < 2; i++) {
+        const double sense = i ? o : -o;
+        if (i == 0) memset(slope, 0, 3 * (size_t)m->nbody * sizeof *slope);
+        if (body[i] == FW_GROUND) continue;
+        slope[3 * body[i]] += sense * nx;
+        slope[3 * body[i] + 1] += sense * ny;
+        slope[3 * body[i] + 2] += sense * (nx * -arm[i][1] + ny * arm[i][0]);
+        if (i == 0 && use->face) slope[3 * body[i] + 2] += nx * dy - ny * dx;
+    }
+    return o * ((use->face ? nx * dx + ny * dy : l) - use->distance_m);
 }
 
 fw_effects_adhered fw_effects_adhesion_of(const fw_effect_case *c, const fw_device_contact_use *use,
                                           double adhesion_J_per_m2) {
     const fw_mechanism *m = c->mechanism;
     const fw_mechanism_hinge *h = fw_effects_contact_hinge(m, use);
-    fw_effects_adhered out = {.known = false};
-    if (!h || !is_known(m) || !(h->surface_radius_m > 0)) return out;
+    fw_effects_adhered out = {.known = false, .opens_N = (double)NAN};
+    if (!is_known(m)) return out;
+    const fw_device_material *of = &m->variant->material;
+    if (use->joint == FW_NONE) {
+        const double radius = fw_effects_contact_radius(use);
+        out.known = radius > 0;
+        out.holds_N = line_holds(of->youngs.value, of->poisson.unknown ? 0 : of->poisson.value,
+                                 m->variant->thickness_m, radius, adhesion_J_per_m2);
+        return out;
+    }
+    if (!h || !(h->surface_radius_m > 0)) return out;
     double gap = fw_effects_contact_gap(c, use, h);
     if (!(gap > 0)) return out;
-    const fw_device_material *of = &m->variant->material;
     fw_flexure_hinge_at at;
     fw_flexure_hinge_law_at(&h->law, 0, &at);
     out.known = true;
@@ -44,7 +108,9 @@ fw_effects_adhered fw_effects_adhesion_of(const fw_effect_case *c, const fw_devi
 
 static bool called_for(const fw_effect_case *c) {
     for (int i = 0; i < c->scene->ncontact && is_known(c->mechanism); i++)
-        if (c->scene->contact[i].joint != FW_NONE) return true;
+        if (c->scene->contact[i].joint != FW_NONE ||
+            c->scene->contact[i].undrawn != FW_UNDRAWN_PLACED)
+            return true;
     return false;
 }
 
@@ -59,9 +125,14 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     for (int i = 0; i < c->scene->ncontact; i++) {
         const fw_effects_adhered a = fw_effects_adhesion_of(
             c, &c->scene->contact[i], c->mechanism->variant->drying.adhesion_high);
-        if (a.known) most = fmax(most, a.opens_N > 0 ? a.holds_N / a.opens_N : HUGE_VAL);
+        if (a.known && c->scene->contact[i].joint != FW_NONE)
+            most = fmax(most, a.opens_N > 0 ? a.holds_N / a.opens_N : HUGE_VAL);
     }
     char share[32];
+    if (!(most > 0)) {
+        *reason = "surfaces that meet may hold each other; judged beside the motion";
+        return FW_OK;
+    }
     FW_NEED(*reason = fw_arena_printf(c->arena,
                                       "surfaces that meet may hold each other with up to %s times "
                                       "what their flexure opens "
@@ -72,7 +143,7 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
 
 const fw_effect_row fw_effect_adhesion = {
     .id = "adhesion",
-    .summary = "conjugate surfaces that have met hold each other; judged beside the motion",
+    .summary = "surfaces that have met hold each other; judged beside the motion",
     .called_for = called_for,
     .bound = bound,
     .add = fw_effects_add_nothing,

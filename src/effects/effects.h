@@ -505,14 +505,19 @@ const fw_device_comb *fw_effects_levitation_lift(const fw_mechanism *mechanism,
 
 typedef struct fw_effects_adhered {
     bool
-        known; /* the conjugate surfaces of a hinge that is drawn, of a flow that knows their adhesion */
+        known; /* surfaces of a hinge that is drawn, or two bodies of known radius; a flow that knows their adhesion */
     double holds_N,
-        opens_N; /* at most, by adhesion; what the flexure alone gives back where they touch */
+        opens_N; /* at most, by adhesion; what the flexure of a hinge alone gives back where they touch */
 } fw_effects_adhered;
 fw_effects_adhered fw_effects_adhesion_of(const fw_effect_case *effect_case,
                                           const fw_device_contact_use *use,
                                           double adhesion_J_per_m2);
 double fw_effects_adhesion_holds(double youngs_Pa, double poisson, double depth_m, double radius_m,
                                  double gap_m, double adhesion_J_per_m2);
+/* of a contact between two bodies: relative radius at most (NaN: not known); what is left of it at q (3 nbody; NULL: as
+   drawn), and how that goes with q (slope, or NULL) */
+double fw_effects_contact_radius(const fw_device_contact_use *use);
+double fw_effects_contact_open(const fw_mechanism *mechanism, const fw_device_contact_use *use,
+                               const double *q, double *slope);
 
 #endif

@@ -241,8 +241,11 @@ static void stuck(fw_json *json, const fw_verdict_stiction *s) {
         fw_json_object(json, NULL);
         fw_json_text(json, "scene", s->stuck[k].scene);
         fw_json_text(json, "hinge", s->stuck[k].hinge);
-        fw_json_real(json, "holds_N", s->stuck[k].holds_N);
-        fw_json_real(json, "opens_N", s->stuck[k].opens_N);
+        fw_json_text(json, "contact", s->stuck[k].contact);
+        fw_json_real(json, "holds_N", s->stuck[k].holds_N[1]);
+        fw_json_real(json, "holds_at_least_N", s->stuck[k].holds_N[0]);
+        fw_json_real(json, "opens_N", s->stuck[k].opens_N[0]);
+        fw_json_text(json, "why", s->stuck[k].why);
         fw_json_text(json, "verdict", fw_verdict_decision_text(s->stuck[k].decision));
         fw_json_end(json);
     }

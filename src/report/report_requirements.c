@@ -496,6 +496,41 @@ static fw_status stiction_row(fw_text *out, const fw_verdict_variant_verdict *v)
     return FW_OK;
 }
 
+/* "" where it is not known */
+static void force_cell(fw_text *out, double force_N) {
+    if (isfinite(force_N))
+        fw_markup(out, "<td class=\"n\">{n} uN</td>", 1e6 * force_N);
+    else
+        fw_markup(out, "<td></td>");
+}
+
+/* surfaces that a scene closes */
+static fw_status stuck_table(fw_report_page *page) {
+    const fw_verdict *v = page->in->verdict;
+    int rows = 0;
+    for (int i = 0; i < v->nvariant; i++) {
+        const fw_verdict_stiction *s = v->variant[i].stiction;
+        for (int k = 0; s && k < s->nstuck; k++) {
+            const fw_verdict_stuck *one = &s->stuck[k];
+            if (rows++ == 0)
+                fw_markup(
+                    page->out,
+                    "<table><caption>Surfaces that meet in a scene: what adhesion may hold "
+                    "them with at most, and what flexures open them with at least.</caption>\n"
+                    "<thead><tr><th>Surfaces</th><th>Scene</th><th>Held</th><th>Opened</th>"
+                    "<th>Not known</th><th>Verdict</th></tr></thead><tbody>\n");
+            fw_markup(page->out, "<tr><td>{s}</td><td>{s}</td>",
+                      one->contact ? one->contact : one->hinge, one->scene);
+            force_cell(page->out, one->holds_N[1]);
+            force_cell(page->out, one->opens_N[0]);
+            fw_markup(page->out, "<td>{s}</td><td>{s}</td></tr>\n", one->why ? one->why : "",
+                      fw_verdict_decision_text(one->decision));
+        }
+    }
+    if (rows > 0) fw_markup(page->out, "</tbody></table>\n");
+    return FW_OK;
+}
+
 fw_status fw_report_section_stiction(fw_report_page *page) {
     const fw_verdict *v = page->in->verdict;
     fw_markup(
@@ -509,5 +544,6 @@ fw_status fw_report_section_stiction(fw_report_page *page) {
     for (int i = 0; i < v->nvariant; i++)
         if (v->variant[i].stiction) FW_TRY(stiction_row(page->out, &v->variant[i]));
     fw_markup(page->out, "</tbody></table>\n");
+    FW_TRY(stuck_table(page));
     return fw_text_end(page->out);
 }

@@ -307,11 +307,16 @@ static bool is_outside(const fw_device_contact_use *c) {
     return c->joint == FW_NONE && c->side == FW_CONTACT_OUTSIDE && !isnan(c->distance_m);
 }
 
+bool fw_verdict_contact_drawn(const fw_device *d, const fw_layout *layout,
+                              const fw_device_contact_use *c) {
+    fw_geometry_vec2 at;
+    return !is_outside(c) ||
+           (is_of_layer(d, layout, c, false, &at) && is_of_layer(d, layout, c, true, &at));
+}
+
 static bool is_not_said(const fw_device *d, const fw_layout *layout,
                         const fw_device_contact_use *c) {
-    fw_geometry_vec2 at;
-    return is_outside(c) && c->undrawn == FW_UNDRAWN_NOT_SAID &&
-           !(is_of_layer(d, layout, c, false, &at) && is_of_layer(d, layout, c, true, &at));
+    return c->undrawn == FW_UNDRAWN_NOT_SAID && !fw_verdict_contact_drawn(d, layout, c);
 }
 
 const char *fw_verdict_undrawn_not_said(const fw_device *device, const fw_layout *layout,

@@ -255,6 +255,9 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
                                            NULL: nobody counts cycles */
     fw_verdict_bending bending;
+    struct fw_verdict_touch
+        *touch; /* of the scene's contacts (verdict_stiction.c); NULL: nobody looks */
+    int ntouch;
     bool trial;              /* only whether it is accepted is of account */
     fw_probe_monitor *probe; /* looks at the same instants; NULL: nothing is probed */
 } fw_verdict_strain_monitor;
@@ -262,6 +265,15 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
 /* cycles: also keep the turning points that fatigue needs */
 fw_status fw_verdict_strain_monitor_new(fw_arena *arena, const fw_mechanism *mechanism, bool cycles,
                                         fw_verdict_strain_monitor *monitor);
+/* verdict_strain.c: how near the two of every contact of a scene come, over the whole run and at its end */
+typedef struct fw_verdict_touch {
+    double least_m, last_m;
+    const fw_device_contact_use *use;
+} fw_verdict_touch;
+fw_status fw_verdict_touch_watch(fw_arena *arena, const fw_device_scene *scene,
+                                 fw_verdict_strain_monitor *monitor);
+void fw_verdict_touch_record(fw_verdict_strain_monitor *monitor,
+                             const fw_dynamics_instant *instant);
 /* an fw_dynamics_observer; context is the monitor */
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *instant);
 /* An fw_dynamics_glance: the thirds of a step are enough where strains are small in it (below 0.6

@@ -130,6 +130,7 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
     if (now && now->hinge == FW_HINGE_ELASTICA && !w->beam && !w->no_memory)
         w->no_memory = make_beams(w) != FW_OK;
     if (w->bending.hardest_N) fw_verdict_bending_record(&w->bending, w->mechanism, now);
+    fw_verdict_touch_record(w, now);
     for (int k = 0; k < w->mechanism->nhinge; k++) {
         if (!now) {
             w->hinge[k] = (fw_verdict_hinge_peak){0};
@@ -187,6 +188,8 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
         }
     for (int i = 0; w->bending.hardest_N && i < FW_THIRDS; i++)
         fw_verdict_bending_record(&w->bending, w->mechanism, &third[i]);
+    for (int i = 0; i < FW_THIRDS; i++)
+        fw_verdict_touch_record(w, &third[i]);
     return true;
 }
 

@@ -328,6 +328,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, v->straight, &monitor[i].bending));
         FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, v->straight, &other[i].bending));
         other[i].clearance = &watch[1];
+        FW_TRY(fw_verdict_touch_watch(arena, scene, &monitor[i]));
+        FW_TRY(fw_verdict_touch_watch(arena, scene, &other[i]));
         FW_TRY(fw_verdict_clearance_scene(m, scene, watch));
         fw_probe_monitor *seen[2];
         const bool required = options->coarse_first || v->corner;

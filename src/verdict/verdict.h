@@ -137,9 +137,9 @@ typedef struct fw_verdict_pull {
         stiffness_N_per_m; /* stiffness: of a's centre of mass across the plane; NaN: beside */
 } fw_verdict_pull;
 
-typedef struct fw_verdict_stuck { /* conjugate surfaces that a scene closes */
-    const char *scene, *hinge;
-    double holds_N, opens_N; /* by adhesion at most; what the flexure gives back where they touch */
+typedef struct fw_verdict_stuck { /* surfaces that a scene closes: of a hinge or of a contact */
+    const char *scene, *hinge, *contact, *why; /* why: one of the forces is not known; NULL */
+    double holds_N[2], opens_N[2]; /* by adhesion; by flexures: least, most; NaN: not known */
     fw_verdict_decision decision;
 } fw_verdict_stuck;
 

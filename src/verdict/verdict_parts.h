@@ -118,6 +118,10 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
 fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
                                     fw_verdict_variant_verdict *v);
 
+/* arm_rims.c: why a contact or a hinge may stay closed; NULL: FW_NOMEM */
+const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *stuck,
+                                  double adhesion_J_per_m2);
+
 /* ---- decision.c: what speaks against a scene; resonance.c: where a mode may lie elsewhere ---- */
 
 /* warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
@@ -298,6 +302,9 @@ enum {
    what list holds already. Test: test_not_drawn.c */
 const char *fw_verdict_undrawn_not_said(const fw_device *device, const fw_layout *layout,
                                         const char *flow);
+/* are both sides of a contact part of the layer, as far as outlines say? */
+bool fw_verdict_contact_drawn(const fw_device *device, const fw_layout *layout,
+                              const fw_device_contact_use *contact);
 fw_status fw_verdict_undrawn_as(fw_arena *arena, const fw_device *device, fw_device_undrawn undrawn,
                                 const fw_device **as);
 fw_status fw_verdict_undrawn(fw_arena *arena, const fw_device *device, const fw_layout *layout,

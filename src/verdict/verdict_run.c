@@ -380,3 +380,53 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
     }
     return status;
 }
+
+/* ---- what a recipe is told ---- */
+
+/* of which liquids the device bears the meniscus */
+static const char *borne(fw_arena *arena, const fw_mechanism_drying *d, double tension) {
+    char most[32];
+    fw_number_text(most, sizeof most, 1e3 * tension, 3);
+    if (isinf(tension)) return "it may be dried from any liquid, from water too";
+    if (tension > d->water_N_per_m)
+        return fw_arena_printf(
+            arena, "it may be dried from any liquid, from water too (up to %s mN/m)", most);
+    if (tension > d->alcohol_N_per_m)
+        return fw_arena_printf(
+            arena,
+            "it may be dried from isopropyl alcohol, and not from water (liquids "
+            "of up to %s mN/m)",
+            most);
+    return fw_arena_printf(arena,
+                           "it needs drying without a meniscus, at the critical point or by "
+                           "sublimation: it surely bears liquids of up to %s mN/m alone",
+                           most);
+}
+
+fw_status fw_verdict_drying_words(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                  const char **words) {
+    const fw_verdict_stiction *s = v->stiction;
+    *words = NULL;
+    if (!s) return FW_OK;
+    const fw_verdict_pull *p =
+        s->beside.tension_N_per_m[0] < s->below.tension_N_per_m[0] ? &s->beside : &s->below;
+    const fw_mechanism_drying *d = &v->variant->drying;
+    if (d->how == FW_DRIED_NEVER) {
+        *words = d->words;
+        return FW_OK;
+    }
+    if (s->why || (!s->below.known && !s->beside.known)) {
+        FW_NEED(*words = fw_arena_printf(arena, "what it needs is not known: %s",
+                                         s->why ? s->why : "nothing is drawn"));
+        return FW_OK;
+    }
+    FW_NEED(*words = borne(arena, d, p->tension_N_per_m[0]));
+    if (p->a)
+        FW_NEED(*words = fw_arena_printf(arena, "%s; the first to give way is %s, towards %s",
+                                         *words, p->a, p->b ? p->b : "the carrier"));
+    if (!v->variant->below.known)
+        FW_NEED(*words = fw_arena_printf(
+                    arena, "from wall to wall %s; how far the carrier is away is not known",
+                    *words));
+    return FW_OK;
+}

@@ -210,6 +210,24 @@ static void peel(const device *d, fw_verdict_stiction *to) {
     }
 }
 
+static fw_status prepare(device *d, const fw_verdict_arm *arm) {
+    const fw_mechanism *m = d->m;
+    const double stiff = m->variant->material.youngs.value * m->variant->thickness_m;
+    double *give;
+    FW_TRY(fw_mechanism_plates_new(d->arena, m, NULL, &d->rigid));
+    if (d->rigid.why) return FW_OK;
+    FW_TRY(fw_verdict_soft_plates(d->arena, m, arm, &d->soft));
+    FW_TRY(fw_mechanism_plates_across(d->arena, &d->rigid, &d->across[0]));
+    FW_TRY(fw_mechanism_plates_across(d->arena, soft_of(d), &d->across[1]));
+    FW_NEED(give = fw_arena_array(d->arena, double, 9 * (size_t)m->nhinge));
+    for (int k = 0; k < 2 * m->nhinge; k++) {
+        static const int at[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+        for (int i = 0; arm && arm[k].known && i < 9; i++)
+            give[9 * (k / 2) + i] += arm[k].give[at[i]] / stiff;
+    }
+    return fw_mechanism_plates_beside(d->arena, &d->rigid, give, &d->beside, &d->held);
+}
+
 /* ---- surfaces that a scene closes ---- */
 
 static bool closes(const fw_dynamics_motion *motion) {
@@ -232,26 +250,80 @@ static fw_status say(const fw_mechanism *m, const char *scene, int number,
     return FW_OK;
 }
 
-static fw_status judge_stuck(fw_arena *arena, const fw_mechanism *m, const fw_verdict_stuck *s,
-                             fw_verdict_variant_verdict *v) {
-    char holds[32], opens[32];
-    if (s->decision == FW_ACCEPT) return FW_OK;
-    return say(m, s->scene, 586, s->decision,
-               fw_arena_printf(
-                   arena,
-                   "the surfaces of %s%s may meet in %s%s and stay closed: adhesion may hold "
-                   "them with up to %s uN, and the flexure opens them with %s uN; a wider gap, a "
-                   "stiffer flexure or surfaces that hold less (surface.adhesion of the flow) let "
-                   "them go",
-                   FW_NAMED("hinge", s->hinge), FW_NAMED("scene", s->scene),
-                   fw_number_text(holds, sizeof holds, 1e6 * s->holds_N, 3),
-                   fw_number_text(opens, sizeof opens, 1e6 * s->opens_N, 3)),
-               v);
+/* ---- contacts between two bodies ---- */
+
+static double form(const double *c, int n, const double *b) {
+    double sum = 0;
+    for (int k = 0; k < n * n; k++)
+        sum += b[k / n] * c[k] * b[k % n];
+    return sum;
 }
+
+/* What flexures give back where the two just touch: the gap over the compliance b' C b along its slope b in all
+   coordinates in the plane, with what bodies may give at most and with rigid ones, times what the flexures' stiffness may be off by */
+static fw_status give_back(device *d, const fw_device_contact_use *use, const fw_verdict_arm *arm,
+                           fw_verdict_stuck *one) {
+    double *slope, *stiff;
+    bool held;
+    if (!d->beside && !d->rigid.why) FW_TRY(prepare(d, arm));
+    one->why = d->rigid.why             ? d->rigid.why
+               : !d->held || !d->beside ? "flexures alone do not hold the device in the plane"
+                                        : NULL;
+    if (one->why) return FW_OK;
+    FW_NEED(slope = fw_arena_array(d->arena, double, (size_t)d->rigid.n));
+    FW_TRY(fw_mechanism_plates_beside(d->arena, &d->rigid, NULL, &stiff, &held));
+    const double gap = fw_effects_contact_open(d->m, use, NULL, slope), more = 1 + d->rigid.error;
+    one->opens_N[0] = gap / (form(d->beside, d->rigid.n, slope) * more);
+    one->opens_N[1] = gap / form(stiff, d->rigid.n, slope) * more;
+    return FW_OK;
+}
+
+/* rejected only where the scene ends pressed and the least adhesion holds more than the most that opens it */
+static fw_status judge_touch(device *d, const fw_device_scene *s, const fw_verdict_touch *t,
+                             const fw_verdict_arm *arm, fw_verdict_stuck *one) {
+    const fw_mechanism *m = d->m;
+    const fw_device_contact_use *use = t->use;
+    const fw_effect_case of = {.arena = d->arena, .mechanism = m, .scene = s};
+    const bool drawn = fw_verdict_contact_drawn(m->device, m->layout, use);
+    *one = (fw_verdict_stuck){.scene = s->name,
+                              .contact = fw_text_name(use->id),
+                              .holds_N = {(double)NAN, (double)NAN},
+                              .opens_N = {(double)NAN, (double)NAN},
+                              .decision = FW_INCONCLUSIVE};
+    FW_TRY(give_back(d, use, arm, one));
+    if (!drawn && use->undrawn == FW_UNDRAWN_PLACED) {
+        one->why = "what is put there has surfaces that the flow knows nothing of";
+        one->decision = FW_ACCEPT;
+        return FW_OK;
+    }
+    const fw_effects_adhered low = fw_effects_adhesion_of(&of, use, d->drying->adhesion_low),
+                             high = fw_effects_adhesion_of(&of, use, d->drying->adhesion_high);
+    if (high.known) one->holds_N[0] = low.holds_N, one->holds_N[1] = high.holds_N;
+    if (!high.known) one->why = "no radius is known where it touches, flat on flat or at a corner";
+    if (one->why) return FW_OK;
+    const bool sure = t->last_m <= 0 && use->face && (drawn || use->undrawn == FW_UNDRAWN_ETCHED);
+    one->decision = one->holds_N[1] <= one->opens_N[0]          ? FW_ACCEPT
+                    : sure && one->holds_N[0] > one->opens_N[1] ? FW_REJECT
+                                                                : FW_INCONCLUSIVE;
+    return FW_OK;
+}
+
+static fw_status say_stuck(device *d, const fw_verdict_stuck *s, fw_verdict_variant_verdict *v) {
+    if (s->decision == FW_ACCEPT) return FW_OK;
+    return say(d->m, s->scene,
+               s->hinge ? 586
+               : s->why ? 671
+                        : 670,
+               s->decision, fw_verdict_stuck_text(d->arena, s, d->drying->adhesion_high), v);
+}
+
+static const double touch_share = 0.02; /* of the drawn gap: nearer is a touch */
 
 static fw_status stuck(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
                        fw_verdict_variant_verdict *v) {
     size_t n = 0;
+    device d = {.arena = arena, .m = m, .drying = &m->variant->drying};
+    const bool known = d.drying->adhesion_words && !m->variant->material.youngs.unknown;
     for (int i = 0; i < m->device->nscene; i++)
         n += (size_t)m->device->scene[i].ncontact;
     FW_NEED(to->stuck = fw_arena_array(arena, fw_verdict_stuck, n));
@@ -259,37 +331,35 @@ static fw_status stuck(fw_arena *arena, const fw_mechanism *m, fw_verdict_sticti
         const fw_device_scene *s = &m->device->scene[i];
         const fw_effect_case of = {.arena = arena, .mechanism = m, .scene = s};
         for (int k = 0; v->motion && closes(v->motion[i]) && k < s->ncontact; k++) {
-            const fw_effects_adhered a =
-                fw_effects_adhesion_of(&of, &s->contact[k], m->variant->drying.adhesion_high);
+            const fw_verdict_strain_monitor *saw = v->motion[i]->observed;
+            const fw_verdict_touch *t = saw && saw->touch ? &saw->touch[k] : NULL;
+            const fw_device_contact_use *use = &s->contact[k];
+            fw_verdict_stuck *one = &to->stuck[to->nstuck];
+            if (use->joint == FW_NONE) {
+                const double gap = fw_effects_contact_open(m, use, NULL, NULL);
+                if (!known || !t || !(gap > 0) || t->least_m > touch_share * gap) continue;
+                FW_TRY(judge_touch(&d, s, t, v->arm, one));
+                to->nstuck++;
+                FW_TRY(say_stuck(&d, one, v));
+                continue;
+            }
+            const fw_effects_adhered a = fw_effects_adhesion_of(&of, use, d.drying->adhesion_high),
+                                     b = fw_effects_adhesion_of(&of, use, d.drying->adhesion_low);
             if (!a.known) continue;
-            fw_verdict_stuck *one = &to->stuck[to->nstuck++];
-            *one = (fw_verdict_stuck){s->name, m->pin[s->contact[k].joint].id, a.holds_N, a.opens_N,
-                                      a.holds_N > a.opens_N ? FW_INCONCLUSIVE : FW_ACCEPT};
-            FW_TRY(judge_stuck(arena, m, one, v));
+            *one =
+                (fw_verdict_stuck){.scene = s->name,
+                                   .hinge = m->pin[use->joint].id,
+                                   .holds_N = {b.holds_N, a.holds_N},
+                                   .opens_N = {a.opens_N, a.opens_N},
+                                   .decision = a.holds_N > a.opens_N ? FW_INCONCLUSIVE : FW_ACCEPT};
+            to->nstuck++;
+            FW_TRY(say_stuck(&d, one, v));
         }
     }
     return FW_OK;
 }
 
 /* ---- all of it ---- */
-
-static fw_status prepare(device *d, const fw_verdict_arm *arm) {
-    const fw_mechanism *m = d->m;
-    const double stiff = m->variant->material.youngs.value * m->variant->thickness_m;
-    double *give;
-    FW_TRY(fw_mechanism_plates_new(d->arena, m, NULL, &d->rigid));
-    if (d->rigid.why) return FW_OK;
-    FW_TRY(fw_verdict_soft_plates(d->arena, m, arm, &d->soft));
-    FW_TRY(fw_mechanism_plates_across(d->arena, &d->rigid, &d->across[0]));
-    FW_TRY(fw_mechanism_plates_across(d->arena, soft_of(d), &d->across[1]));
-    FW_NEED(give = fw_arena_array(d->arena, double, 9 * (size_t)m->nhinge));
-    for (int k = 0; k < 2 * m->nhinge; k++) {
-        static const int at[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
-        for (int i = 0; arm && arm[k].known && i < 9; i++)
-            give[9 * (k / 2) + i] += arm[k].give[at[i]] / stiff;
-    }
-    return fw_mechanism_plates_beside(d->arena, &d->rigid, give, &d->beside, &d->held);
-}
 
 static void put_number(const fw_mechanism_drying *drying, fw_verdict_pull *to) {
     bool pulled = drying->how == FW_DRIED_PULLED;
@@ -426,56 +496,6 @@ fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *m, bool
     FW_TRY(stuck(arena, m, to, v));
     for (int i = 0; i < to->nstuck; i++)
         to->decision = fw_verdict_worse(to->decision, to->stuck[i].decision);
-    return FW_OK;
-}
-
-/* ---- what a recipe is told ---- */
-
-/* of which liquids the device bears the meniscus */
-static const char *borne(fw_arena *arena, const fw_mechanism_drying *d, double tension) {
-    char most[32];
-    fw_number_text(most, sizeof most, 1e3 * tension, 3);
-    if (isinf(tension)) return "it may be dried from any liquid, from water too";
-    if (tension > d->water_N_per_m)
-        return fw_arena_printf(
-            arena, "it may be dried from any liquid, from water too (up to %s mN/m)", most);
-    if (tension > d->alcohol_N_per_m)
-        return fw_arena_printf(
-            arena,
-            "it may be dried from isopropyl alcohol, and not from water (liquids "
-            "of up to %s mN/m)",
-            most);
-    return fw_arena_printf(arena,
-                           "it needs drying without a meniscus, at the critical point or by "
-                           "sublimation: it surely bears liquids of up to %s mN/m alone",
-                           most);
-}
-
-fw_status fw_verdict_drying_words(fw_arena *arena, const fw_verdict_variant_verdict *v,
-                                  const char **words) {
-    const fw_verdict_stiction *s = v->stiction;
-    *words = NULL;
-    if (!s) return FW_OK;
-    const fw_verdict_pull *p =
-        s->beside.tension_N_per_m[0] < s->below.tension_N_per_m[0] ? &s->beside : &s->below;
-    const fw_mechanism_drying *d = &v->variant->drying;
-    if (d->how == FW_DRIED_NEVER) {
-        *words = d->words;
-        return FW_OK;
-    }
-    if (s->why || (!s->below.known && !s->beside.known)) {
-        FW_NEED(*words = fw_arena_printf(arena, "what it needs is not known: %s",
-                                         s->why ? s->why : "nothing is drawn"));
-        return FW_OK;
-    }
-    FW_NEED(*words = borne(arena, d, p->tension_N_per_m[0]));
-    if (p->a)
-        FW_NEED(*words = fw_arena_printf(arena, "%s; the first to give way is %s, towards %s",
-                                         *words, p->a, p->b ? p->b : "the carrier"));
-    if (!v->variant->below.known)
-        FW_NEED(*words = fw_arena_printf(
-                    arena, "from wall to wall %s; how far the carrier is away is not known",
-                    *words));
     return FW_OK;
 }
 

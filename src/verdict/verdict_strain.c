@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strain of a hinge under its rotation and the force it carries: by the closed form, by an exact
    beam, and on two neighbouring levels of hinges. */
+#include "effects/effects.h"
 #include "verdict/strain.h"
 #include "base/constants.h"
 #include "geometry/segment.h"
@@ -548,4 +549,25 @@ double fw_verdict_motion_beside_rad(const fw_dynamics_motion *x) {
     const double out = x->ledger.left_out + x->ledger.beside,
                  all = out > 0 ? fw_dynamics_motion_left_out(x) : 0;
     return isfinite(all) && out > 0 ? all * x->ledger.beside / out : 0;
+}
+
+/* ---- how near the two of a contact come in a motion (verdict_stiction.c judges it) ---- */
+
+fw_status fw_verdict_touch_watch(fw_arena *arena, const fw_device_scene *scene,
+                                 fw_verdict_strain_monitor *monitor) {
+    monitor->ntouch = scene->ncontact;
+    FW_NEED(monitor->touch = fw_arena_array(arena, fw_verdict_touch, (size_t)scene->ncontact));
+    for (int k = 0; k < scene->ncontact; k++)
+        monitor->touch[k] = (fw_verdict_touch){HUGE_VAL, HUGE_VAL, &scene->contact[k]};
+    return FW_OK;
+}
+
+void fw_verdict_touch_record(fw_verdict_strain_monitor *monitor, const fw_dynamics_instant *now) {
+    for (int k = 0; k < monitor->ntouch; k++) {
+        fw_verdict_touch *t = &monitor->touch[k];
+        if (t->use->joint != FW_NONE) continue;
+        t->last_m = now ? fw_effects_contact_open(monitor->mechanism, t->use, now->q, NULL)
+                        : (double)INFINITY;
+        t->least_m = now ? fmin(t->least_m, t->last_m) : (double)INFINITY;
+    }
 }

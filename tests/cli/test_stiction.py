@@ -21,6 +21,14 @@ STICKY = '<q id="surface.adhesion" value="250" lo="200" hi="300" unit="mJ/m2" st
 SLIPPERY = '<q id="surface.adhesion" value="0.02" lo="0.01" hi="0.03" unit="mJ/m2" status="measured" src="own"/>'
 
 
+STOP = """<device xmlns="urn:flexwright:device:1" name="stop"><material ref="silicon-100" thickness="20 um"/>
+<flow ref="al-masked-rie" carrier="insulating"/><die release-pitch="0 um" tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="%s um"/>
+<mechanism><body id="mass" x="0 mm" y="0 mm" plate-width="1.2 mm" plate-height="1.2 mm"/>""" + "".join(
+    f'<revolute id="{i}" a="ground" a-x="{x} um" a-y="{y} um" b="mass" b-x="{x} um" b-y="{y} um" hinge="leaf" axis="{axis} deg"/>'
+    for i, x, y, axis in (("A", -450, -830, 0), ("B", 450, -830, 0), ("C", -450, 830, 180), ("D", 450, 830, 180))) + """</mechanism>
+<scene name="push" duration="1.5 ms"><force on="mass" fx="%s" %s/>%s<air kind="slide" on="mass" gap="10 um"/></scene></device>"""
+
+
 class Stiction(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -188,6 +196,35 @@ class Stiction(unittest.TestCase):
         self.assertEqual((numbers, found, line["bound"]), (set(), [], 0))
         self.assertEqual(contacts("-1 mN", contact="")[0], set())
         self.assertIsNone(contacts("-1 mN", flow="")[1])
+
+    def test_a_stop_may_hold(self):
+        """a mass on four leaves of 400 um is pushed by 2 um onto a stop: what leaves give back, by hand, against what a round stop holds"""
+        def pushed(stop, lab="", fx="1 mN", more='law="ramp" rise="1 ms"', width=6):
+            self.file.write_text(STOP % (width, fx, more, stop))
+            self.lab.write_text(LAB.replace("silicon-on-glass", "al-masked-rie").replace('<choose alternative="alcohol-dry"/>', "") % lab)
+            done = run("check", self.file, "--json", *QUICK, *(("--lab", self.lab) if lab else ()))
+            self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+            whole = json.loads(done.stdout)
+            return whole["verdict"], set(re.findall(r"FW-D(67[01])", json.dumps(whole["reasons"]))), whole["stiction"][0]["contacts"]
+        stop = '<contact id="stop" a="mass" a-x="600 um" a-face="0 deg" b="ground" b-x="%s um" side="outside" distance="%s um" stiffness="1e5 N/m" damping="0.1 N s/m" undrawn="%s"/>'
+        bump = stop % (652, 50, "etched")
+        verdict, codes, (one,) = pushed(bump)
+        self.assertEqual((verdict, codes, one["contact"], one["hinge"]), ("inconclusive", {"670"}, "stop", None))
+        for E, sense in ((110e9, self.assertGreater), (180e9, self.assertLess)):  # silicon has 130 to 169 GPa there
+            sense(one["opens_N"], 2e-6 * 4 * E * 20e-6 * 6e-6**3 / 400e-6**3)
+        self.assertAlmostEqual(one["holds_N"] / one["holds_at_least_N"], 3000 ** (2 / 3), 3)
+        # pushed for good, it stays where the least adhesion holds more; a shock may rebound
+        self.assertEqual(pushed(bump, STICKY)[:2], ("reject", {"670"}))
+        self.assertEqual(pushed(bump, STICKY, more='law="half-sine" rise="1 ms"')[:2], ("inconclusive", {"670"}))
+        # surfaces that hold little let go, and so does what is not reached
+        self.assertEqual(pushed(bump, SLIPPERY, width=8)[:2], ("accept", set()))
+        self.assertEqual(pushed(bump, fx="1 uN"), ("accept", set(), []))
+        # a corner's radius is not known; of what is put there no surface is
+        verdict, codes, (one,) = pushed(stop % (602, 0, "etched"))
+        self.assertEqual((verdict, codes, one["holds_N"]), ("inconclusive", {"671"}, None))
+        verdict, codes, (one,) = pushed(stop % (652, 50, "placed"))
+        self.assertEqual((verdict, codes, one["verdict"]), ("accept", set(), "accept"))
+        self.assertIn("put there", one["why"])
 
     def test_walls(self):
         """a tall thin leaf beside a wall: doubly clamped, bears 116.9 EI g^2/(2 h L^4) of a liquid"""

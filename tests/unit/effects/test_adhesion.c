@@ -66,14 +66,64 @@ static void in_the_ledger(void **state) {
     assert_true(a.known && a.holds_N > 0 && a.opens_N > 0);
     double more = fw_effects_adhesion_of(&r.c, &use, 0.4).holds_N;
     assert_relative(more / a.holds_N, 4, 1e-9); /* w^(2/3) */
-    use.joint = FW_NONE;
+    use.joint = FW_NONE; /* two bodies: of what is put there the flow knows nothing, and of a hole no radius */
+    use.undrawn = FW_UNDRAWN_PLACED;
     assert_false(fw_effect_adhesion.called_for(&r.c));
+    use.undrawn = FW_UNDRAWN_NOT_SAID;
+    assert_true(fw_effect_adhesion.called_for(&r.c));
+    use.side = FW_CONTACT_INSIDE;
     assert_false(fw_effects_adhesion_of(&r.c, &use, 0.05).known);
+    use.side = FW_CONTACT_OUTSIDE, use.face = true, use.distance_m = 50e-6;
+    const double flat = fw_effects_adhesion_of(&r.c, &use, 0.05).holds_N,
+                 nu = variant.material.poisson.unknown ? 0 : variant.material.poisson.value;
+    assert_relative(flat, variant.thickness_m * pulled_off(150e9 / 2 / (1 - nu * nu), 50e-6, 0.05),
+                    1e-9);
+    use.face = false; /* two rounds of 25 um are as near as one of 12.5 um on a face */
+    assert_relative(flat / fw_effects_adhesion_of(&r.c, &use, 0.05).holds_N, cbrt(4), 1e-9);
+    use.distance_m = 0;
+    assert_false(fw_effects_adhesion_of(&r.c, &use, 0.05).known);
+    fw_arena_free(r.arena);
+}
+
+/* what is left of a contact, and how it goes with where its bodies are, by differences */
+static void two_bodies(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r, 2, 1);
+    r.body[0] = (fw_mechanism_mass){"jaw", 1e-8, 1e-15, 1e-4, 2e-4, 0.3, {0, 0}};
+    r.body[1] = (fw_mechanism_mass){"stop", 1e-8, 1e-15, 6e-4, 1e-4, -0.7, {0, 0}};
+    for (int kind = 0; kind < 6; kind++) {
+        const fw_device_contact_use use = {.joint = FW_NONE,
+                                           .body_a = 0,
+                                           .body_b = kind % 2 ? FW_GROUND : 1,
+                                           .ax_m = 1e-4,
+                                           .ay_m = -3e-5,
+                                           .bx_m = 5e-5,
+                                           .by_m = 7e-5,
+                                           .face = kind / 2 == 0,
+                                           .face_rad = 0.2,
+                                           .side = kind / 2 == 2 ? FW_CONTACT_INSIDE
+                                                                 : FW_CONTACT_OUTSIDE,
+                                           .distance_m = 4e-5};
+        double slope[6], q[6] = {1e-4, 2e-4, 0.3, 6e-4, 1e-4, -0.7};
+        const double open = fw_effects_contact_open(&r.m, &use, NULL, slope);
+        assert_relative(fw_effects_contact_open(&r.m, &use, q, NULL), open, 1e-12);
+        for (int i = 0; i < 6; i++) {
+            const double h = i % 3 == 2 ? 1e-5 : 1e-9, was = q[i];
+            q[i] = was + h;
+            const double up = fw_effects_contact_open(&r.m, &use, q, NULL);
+            q[i] = was - h;
+            const double down = fw_effects_contact_open(&r.m, &use, q, NULL);
+            q[i] = was;
+            assert_near(slope[i], (up - down) / (2 * h), i % 3 == 2 ? 1e-9 : 1e-4);
+        }
+    }
     fw_arena_free(r.arena);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(cylinders),
-                                       cmocka_unit_test(in_the_ledger)};
+                                       cmocka_unit_test(in_the_ledger),
+                                       cmocka_unit_test(two_bodies)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
