@@ -555,15 +555,16 @@ class Resonance(unittest.TestCase):
         that the mode's own place says nothing of how its hinge is bent. With a modulus at the end of the error that is 1.47 times as much."""
         mode_Hz = 364.87
         go = "min(1, max(0, (t - %.6g ms)/(%.6g ms)))"
-        there, back = (go % (1e3 * at / mode_Hz, 2.5e3 / mode_Hz) for at in (0.1, 0.1 + 20 + 1 / 6))
-        text = re.sub("<(probe|require)[^>]*/>", "", self.ARM)
-        text = re.sub('value="[^"]*"', f'value="10 um*({there} - {back})"', text).replace("90 ms", f"{24.8e3 / mode_Hz:.6g} ms")
-        text = text.replace('thickness="50 um"/>', 'thickness="50 um" youngs-modulus="%s GPa" poisson="0.25"/>')
-        hinge = self.judged(text % 150)[0]["hinges"][0]
-        other = self.judged(text % (150 * (1 - 0.0076)))[0]["hinges"][0]["utilisation"]
-        self.assertGreater(other, 1.4 * hinge["utilisation"])
-        self.assertLess(other, hinge["utilisation_band"][1])
-        self.assertLess(hinge["utilisation_band"][1], 1.25 * other)
+        for periods, softer, more in ((20 + 1 / 6, 0.0076, 1.4), (20.5, 0.004, 1.25)):
+            there, back = (go % (1e3 * at / mode_Hz, 2.5e3 / mode_Hz) for at in (0.1, 0.1 + periods))
+            text = re.sub("<(probe|require)[^>]*/>", "", self.ARM)
+            text = re.sub('value="[^"]*"', f'value="10 um*({there} - {back})"', text).replace("90 ms", f"{24.8e3 / mode_Hz:.6g} ms")
+            text = text.replace('thickness="50 um"/>', 'thickness="50 um" youngs-modulus="%s GPa" poisson="0.25"/>')
+            hinge = self.judged(text % 150)[0]["hinges"][0]
+            other = self.judged(text % (150 * (1 - softer)))[0]["hinges"][0]["utilisation"]
+            self.assertGreater(other, more * hinge["utilisation"])
+            self.assertLess(other, hinge["utilisation_band"][1])
+            self.assertLess(hinge["utilisation_band"][1], 1.6 * other)
 
     def pumped(self, share, times, periods, more=""):
         """an arm on a leaf, which a force along it pulls and presses by a share of what buckles it: k L tan(k L) = L/e, e from
