@@ -411,4 +411,6 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
 fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
                                       fw_verdict_variant_verdict *v);
 
+/* of any scene the most of fw_verdict_bending_share, for small motions, of which no forces are known */
+double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v);
 #endif

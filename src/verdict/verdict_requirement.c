@@ -326,19 +326,6 @@ static const char *last_error(const fw_diags *diags) {
     return "there are no small motions";
 }
 
-/* Of small motions no forces are known: the most of any scene. One that hardly moves beside another, as a shock across the
-   plane does in it, is round-off. */
-static double bodies_give(const fw_mechanism *m, const fw_verdict_variant_verdict *v) {
-    const double hardly = 1e-10; /* of the energy */
-    double most = 0, largest_J = 0;
-    for (int i = 0; i < m->device->nscene; i++)
-        largest_J = fmax(largest_J, fw_verdict_bending_stored_J(v->motion[i]));
-    for (int i = 0; i < m->device->nscene; i++)
-        if (fw_verdict_bending_stored_J(v->motion[i]) >= hardly * largest_J)
-            most = fmax(most, fw_verdict_bending_share(v->motion[i]));
-    return most;
-}
-
 /* of either kind: a mode across the plane that lies higher at rest may be the lower one under loads that press */
 static void overtaken(const fw_verdict_variant_verdict *v, const fw_device_probe *probe,
                       fw_verdict_requirement *r) {
@@ -402,22 +389,25 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         if (r->measure || r->scene_index != scene) continue;
         const fw_probe *p = &probe[m->device->requirement[r->asked].probe];
         double value = modes ? fw_probe_small(p, modes) : (double)NAN;
-        int mode = 0;
         if (p->asked->row == FW_PROBE_IS_frequency) {
+            int mode = 0;
             if (put_across(v, p->asked, modes, &mode, r)) continue;
             bool there = modes && mode >= 1 && mode <= modes->count;
             value = there ? modes->mode[mode - 1].f_Hz : (double)NAN;
         }
         r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
         if (!isfinite(value)) continue;
-        double rigid = bodies_give(m, v) * (p->asked->row == FW_PROBE_IS_frequency ? 0.5 : 1);
-        double model = fw_probe_small_error(p, modes) + rigid,
-               lasting = modes->stiffness_error + rigid;
-        put(r, value, 0, model, lasting, value, true);
-        if (p->asked->row == FW_PROBE_IS_frequency) {
-            overtaken(v, p->asked, r);
-            decide(r);
-        }
+        const double soft = 1 + fw_verdict_bending_of_any(v),
+                     model = fw_probe_small_error(p, modes);
+        const bool is_mode = p->asked->row == FW_PROBE_IS_frequency;
+        const bool yields = p->asked->row == FW_PROBE_IS_compliance;
+        const double times = yields ? soft : 1 / (is_mode ? sqrt(soft) : soft),
+                     other = fmin(fabs(times - 1), 0.01);
+        put(r, value, 0, model, modes->stiffness_error, value, true);
+        *(yields ? &r->high : &r->low) *= times, r->lasting += fabs(times - 1);
+        *(yields ? &r->low : &r->high) += (yields ? -1 : 1) * other * value;
+        if (is_mode) overtaken(v, p->asked, r);
+        decide(r);
         if (isinf(model)) FW_NEED(r->open = open_band(arena, m, modes));
     }
     return FW_OK;

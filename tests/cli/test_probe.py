@@ -517,6 +517,26 @@ class Probe(unittest.TestCase):
         self.assertGreater(near["hard"], 10e-6)
         self.assertGreater(band["bars"], band["block"] + 0.05)
 
+    def test_bodies_that_give_only_soften(self):
+        """a carrier that shrinks by cold presses four leaves, so that bodies store much beside the hinges: a mode at rest is not higher by that"""
+        hinges = "".join(f'<revolute id="{name}" a="ground" a-x="{x} mm" a-y="{y} mm" b="mass" b-x="{x} mm" b-y="{y} mm" hinge="leaf" axis="{turn} deg"/>'
+                         for name, x, y, turn in (("A", -0.45, -0.83, 0), ("B", 0.45, -0.83, 0), ("C", -0.45, 0.83, 180), ("D", 0.45, 0.83, 180)))
+        bands = []
+        for cold in ("", '<scene name="cold" duration="1 ms"><temperature change="-50 K"/></scene>'):
+            text = f"""<device xmlns="urn:flexwright:device:1" name="mass"><material ref="silicon-100" thickness="20 um"/><limits safety-factor="2"/>
+<flow ref="al-masked-rie" carrier="insulating"/><die release-pitch="0 um" tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="6 um"/>
+<mechanism><body id="mass" x="0 mm" y="0 mm" plate-width="1.2 mm" plate-height="1.2 mm"/>{hinges}</mechanism>
+<probe id="k" kind="compliance" on="mass" direction="0 deg"/><require frequency="1" min="3 kHz"/><require probe="k" max="1 m/N"/>
+<scene name="full" duration="5 ms"><base-motion ax="-490.3 m/s^2" law="ramp" rise="3 ms"/><air kind="slide" on="mass" gap="10 um"/></scene>{cold}</device>"""
+            said = json.loads(run("check", "-", "--json", "--corners", "none", "--advice", "none", input=text).stdout)
+            mode, soft = sorted(said["requirements"], key=lambda r: r["kind"] != "frequency")
+            bands += [(mode["value"], *mode["band"]), (soft["value"], *soft["band"])]
+        for (value, low, high), (other, lower, higher) in ((bands[0], bands[2]), (bands[1][:1] + bands[1][:0:-1], bands[3][:1] + bands[3][:0:-1])):
+            self.assertAlmostEqual(value / other, 1, 9)
+            self.assertGreater(abs(lower / low - 1), 0.05)          # softer by what the cold scene says of bodies
+            self.assertLess(abs(higher / high - 1), 0.011)         # and no stiffer than by a hundredth
+            self.assertGreater(lower / low, 0)
+
     def test_rims_of_release_holes_are_part_of_the_verdict(self):
         """no holes: nothing to say; with holes less than what is allowed, also where a strip between two holes that bore
         everything alone would have 121 % of it; narrow strips: undecided, and fewer holes are a way out that is accepted (a minute
