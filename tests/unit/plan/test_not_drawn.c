@@ -273,8 +273,13 @@ static const char paddle[] =
     "id=\"H\" a=\"ground\" a-x=\"0 mm\" a-y=\"0 mm\" b=\"p\" b-x=\"-0.6 mm\" b-y=\"0 mm\" hinge=\"f\"/></mechanism>"
     "<probe id=\"way\" kind=\"displacement\" on=\"p\" direction=\"90 deg\"/><require probe=\"way\" measure=\"final\" "
     "min=\"4.4 um\" scene=\"s\"/><scene name=\"s\" duration=\"30 ms\"><force on=\"p\" fy=\"40 uN\" law=\"ramp\" rise=\"10 ms\"/>"
-    "<contact id=\"stop\" a=\"p\" a-y=\"0.25 mm\" a-face=\"90 deg\" b=\"ground\" b-x=\"0.6 mm\" b-y=\"0.255 mm\" "
-    "side=\"outside\" distance=\"0 um\" stiffness=\"500 N/m\" damping=\"1e-3 N s/m\"%s/></scene></device>";
+    "<contact id=\"stop\" a=\"p\" a-y=\"0.25 mm\" a-face=\"90 deg\" b=\"ground\" b-x=\"0.6 mm\" b-y=\"0.275 mm\" "
+    "side=\"outside\" distance=\"20 um\" stiffness=\"500 N/m\" damping=\"1e-3 N s/m\"%s/></scene></device>";
+
+/* a surface to which nothing sticks: whether the stop is let go again is not asked here */
+static const char lets_go[] =
+    "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" flow=\"al-masked-rie\" version=\"1\" title=\"lab\"><source id=\"own\" "
+    "kind=\"measured\"/><q id=\"surface.adhesion\" value=\"0.001\" u=\"0.0001\" unit=\"mJ/m2\" status=\"measured\" src=\"own\"/></process>";
 
 static double least_way(const fw_plan *plan) {
     const fw_verdict_fabricated_verdict *f = plan->verdict.variant[0].fabricated;
@@ -299,7 +304,9 @@ static void a_stop_of_no_mask_is_placed_or_etched(void **unused) {
         fw_plan_options o = fw_plan_options_default();
         char xml[2000];
         int both = 0;
+        const fw_plan_lab_text lab = {"lab.xml", lets_go, strlen(lets_go)};
         o.data_directory = FW_TEST_SOURCE_DIR;
+        o.lab_text = &lab, o.nlab_text = 1;
         o.verdict.with_advice = false;
         fw_plan *plan = fw_plan_new(&o);
         assert_non_null(plan);
