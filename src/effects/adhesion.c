@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Surfaces that have met and hold each other: of a hinge, or of a contact between two bodies. It changes nothing until they meet, and what it does then is
-   judged beside the motion (verdict/verdict_stiction.c). Theory: docs/theory/effects/adhesion.md. */
+/* Surfaces that have met and hold each other: of a hinge, or of a contact between two bodies. It changes nothing until
+   they meet, and what it does then is judged beside the motion (verdict/verdict_stiction.c).
+   Theory: docs/theory/effects/adhesion.md. */
 #include "base/constants.h"
 #include "effects/effect.h"
-#include <string.h>
 
 static bool is_known(const fw_mechanism *m) {
     const fw_mechanism_variant *v = m->variant;
@@ -37,46 +37,6 @@ double fw_effects_contact_radius(const fw_device_contact_use *use) {
     const bool round = use->side == FW_CONTACT_OUTSIDE && use->distance_m > 0;
     if (use->joint != FW_NONE || !round) return (double)NAN;
     return use->face ? use->distance_m : 0.25 * use->distance_m;
-}
-
-/* What is left between the two of a contact of two bodies, with D from the point on a to that on b:
-
-     n.D - distance (a flat face with the normal n),   |D| - distance (outside),   distance - |D| (inside)
-
-   In: q (3 nbody) m and rad, NULL: the drawn pose. Out: m, and slope (3 nbody) by q, or NULL. Exact.
-   Test: test_adhesion.c two_bodies */
-double fw_effects_contact_open(const fw_mechanism *m, const fw_device_contact_use *use,
-                               const double *q, double *slope) {
-    const int body[2] = {use->body_a, use->body_b};
-    const double x[2] = {use->ax_m, use->bx_m}, y[2] = {use->ay_m, use->by_m};
-    double arm[2][2], at[2][2], turn = 0;
-    for (int i = 0; i < 2; i++) {
-        double pose[3] = {0, 0, 0};
-        if (body[i] != FW_GROUND) {
-            const fw_mechanism_mass *b = &m->body[body[i]];
-            for (int j = 0; j < 3; j++)
-                pose[j] = q ? q[3 * body[i] + j] : j == 0 ? b->x_m : j == 1 ? b->y_m : b->phi_rad;
-        }
-        const double c = cos(pose[2]), s = sin(pose[2]);
-        arm[i][0] = c * x[i] - s * y[i], arm[i][1] = s * x[i] + c * y[i];
-        at[i][0] = pose[0] + arm[i][0], at[i][1] = pose[1] + arm[i][1];
-        if (i == 0) turn = pose[2];
-    }
-    const double dx = at[1][0] - at[0][0], dy = at[1][1] - at[0][1], l = hypot(dx, dy);
-    const double normal = use->face_rad + turn;
-    const double nx = use->face ? cos(normal) : l > 0 ? dx / l : 1;
-    const double ny = use->face ? sin(normal) : l > 0 ? dy / l : 0;
-    const double o = !use->face && use->side == FW_CONTACT_INSIDE ? -1 : 1;
-    for (int i = 0; slope && i < 2; i++) {
-        const double sense = i ? o : -o;
-        if (i == 0) memset(slope, 0, 3 * (size_t)m->nbody * sizeof *slope);
-        if (body[i] == FW_GROUND) continue;
-        slope[3 * body[i]] += sense * nx;
-        slope[3 * body[i] + 1] += sense * ny;
-        slope[3 * body[i] + 2] += sense * (nx * -arm[i][1] + ny * arm[i][0]);
-        if (i == 0 && use->face) slope[3 * body[i] + 2] += nx * dy - ny * dx;
-    }
-    return o * ((use->face ? nx * dx + ny * dy : l) - use->distance_m);
 }
 
 fw_effects_adhered fw_effects_adhesion_of(const fw_effect_case *c, const fw_device_contact_use *use,

@@ -72,10 +72,7 @@ static void ended(const double *p, double o, double angle, int port, double gap,
     g->curve[turn][turn] = -o * (c * x + s * y);
 }
 
-static void overlap_at(const fw_effects_force_element *e, const fw_effects_port_state *s,
-                       bool second, overlap *g) {
-    const touch *t = e->data;
-    const double *p = s->p;
+static void overlap_of(const touch *t, const double *p, bool second, overlap *g) {
     double ux = t->sense * (p[3] - p[0]), uy = t->sense * (p[4] - p[1]);
     double from = t->from_rad + p[3 * t->from_port + 2], to = t->to_rad + p[3 * t->to_port + 2];
     double behind = fmod(atan2(uy, ux) - from, 2 * FW_PI); /* from where they begin to u */
@@ -88,6 +85,11 @@ static void overlap_at(const fw_effects_force_element *e, const fw_effects_port_
         ended(p, t->sense, from, t->from_port, t->distance_m, second, g);
     else
         ended(p, t->sense, to, t->to_port, t->distance_m, second, g);
+}
+
+static void overlap_at(const fw_effects_force_element *e, const fw_effects_port_state *s,
+                       bool second, overlap *g) {
+    overlap_of(e->data, s->p, second, g);
     g->rate = 0;
     for (int i = 0; i < N; i++)
         g->rate += g->slope[i] * s->w[i];
@@ -270,19 +272,52 @@ static fw_status add_conjugate(const fw_effect_case *c, fw_effects_loads *loads,
     return put(c, loads, use, port, &t);
 }
 
+static touch round_of(const fw_device_contact_use *use) {
+    return (touch){.distance_m = use->distance_m,
+                   .k_N_per_m = use->stiffness_N_per_m,
+                   .c_Ns_per_m = isnan(use->damping_Ns_per_m) ? 0 : use->damping_Ns_per_m,
+                   .side = use->side == FW_CONTACT_INSIDE ? 1 : -1,
+                   .face = use->face,
+                   .face_rad = use->face_rad,
+                   .sense = 1};
+}
+
+/* What is left between the two of a contact of two bodies, -g of the head of this file. In: q (3 nbody) m and rad, NULL:
+   the drawn pose. Out: m, and slope (3 nbody) by q, or NULL. Exact. Test: test_adhesion.c two_bodies */
+double fw_effects_contact_open(const fw_mechanism *m, const fw_device_contact_use *use,
+                               const double *q, double *slope) {
+    const int body[2] = {use->body_a, use->body_b};
+    double at[N] = {0}, p[N], still[N], by[N] = {0};
+    fw_effects_port port[2] = {{0, use->ax_m, use->ay_m}, {1, use->bx_m, use->by_m}};
+    for (int i = 0; i < 2; i++) {
+        if (body[i] == FW_GROUND) {
+            port[i].body = FW_GROUND;
+            continue;
+        }
+        const fw_mechanism_mass *b = &m->body[body[i]];
+        const double drawn[3] = {b->x_m, b->y_m, b->phi_rad};
+        memcpy(at + 3 * i, q ? q + 3 * body[i] : drawn, sizeof drawn);
+    }
+    const fw_effects_force_element e = {.port = port, .ports = 2};
+    const touch t = round_of(use);
+    overlap g = {0};
+    fw_effects_element_place_ports(&e, at, NULL, p, still);
+    overlap_of(&t, p, false, &g);
+    if (!slope) return -g.value;
+    fw_effects_element_add_forces(&e, at, g.slope, by);
+    memset(slope, 0, 3 * (size_t)m->nbody * sizeof *slope);
+    for (int i = 0; i < N; i++)
+        if (body[i / 3] != FW_GROUND) slope[3 * body[i / 3] + i % 3] -= by[i];
+    return -g.value;
+}
+
 static fw_status add_round(const fw_effect_case *c, fw_effects_loads *loads,
                            const fw_device_contact_use *use) {
     /* of a face as made it may be below 0, where an edge has moved beyond the point that it was stated by */
     if (!(use->face ? isfinite(use->distance_m) : use->distance_m > 0) ||
         !(use->stiffness_N_per_m > 0) || !isfinite(use->stiffness_N_per_m))
         return unknown(c, use, "two round things need a distance and a stiffness above 0");
-    const touch t = {.distance_m = use->distance_m,
-                     .k_N_per_m = use->stiffness_N_per_m,
-                     .c_Ns_per_m = isnan(use->damping_Ns_per_m) ? 0 : use->damping_Ns_per_m,
-                     .side = use->side == FW_CONTACT_INSIDE ? 1 : -1,
-                     .face = use->face,
-                     .face_rad = use->face_rad,
-                     .sense = 1};
+    const touch t = round_of(use);
     const fw_effects_port port[2] = {{use->body_a, use->ax_m, use->ay_m},
                                      {use->body_b, use->bx_m, use->by_m}};
     return put(c, loads, use, port, &t);

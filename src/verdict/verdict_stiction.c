@@ -16,8 +16,8 @@ typedef struct device {
     const fw_mechanism *m;
     const fw_mechanism_drying *drying;
     fw_mechanism_plates rigid, soft;
-    double *across[2], *beside; /* compliances: rigid, soft; in the plane, soft */
-    bool held;                  /* in the plane */
+    double *across[2], *beside, *firm; /* compliances: rigid, soft; in the plane, soft, rigid */
+    bool held;                         /* in the plane */
 } device;
 
 /* of walls: a tension of which nothing is known any closer, 20 times that of water */
@@ -263,7 +263,7 @@ static double form(const double *c, int n, const double *b) {
    coordinates in the plane, with what bodies may give at most and with rigid ones, times what the flexures' stiffness may be off by */
 static fw_status give_back(device *d, const fw_device_contact_use *use, const fw_verdict_arm *arm,
                            fw_verdict_stuck *one) {
-    double *slope, *stiff;
+    double *slope;
     bool held;
     if (!d->beside && !d->rigid.why) FW_TRY(prepare(d, arm));
     one->why = d->rigid.why             ? d->rigid.why
@@ -271,10 +271,10 @@ static fw_status give_back(device *d, const fw_device_contact_use *use, const fw
                                         : NULL;
     if (one->why) return FW_OK;
     FW_NEED(slope = fw_arena_array(d->arena, double, (size_t)d->rigid.n));
-    FW_TRY(fw_mechanism_plates_beside(d->arena, &d->rigid, NULL, &stiff, &held));
+    if (!d->firm) FW_TRY(fw_mechanism_plates_beside(d->arena, &d->rigid, NULL, &d->firm, &held));
     const double gap = fw_effects_contact_open(d->m, use, NULL, slope), more = 1 + d->rigid.error;
     one->opens_N[0] = gap / (form(d->beside, d->rigid.n, slope) * more);
-    one->opens_N[1] = gap / form(stiff, d->rigid.n, slope) * more;
+    one->opens_N[1] = gap / form(d->firm, d->rigid.n, slope) * more;
     return FW_OK;
 }
 
@@ -319,17 +319,16 @@ static fw_status say_stuck(device *d, const fw_verdict_stuck *s, fw_verdict_vari
 
 static const double touch_share = 0.02; /* of the drawn gap: nearer is a touch */
 
-static fw_status stuck(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
-                       fw_verdict_variant_verdict *v) {
+static fw_status stuck(device *d, fw_verdict_stiction *to, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = d->m;
     size_t n = 0;
-    device d = {.arena = arena, .m = m, .drying = &m->variant->drying};
-    const bool known = d.drying->adhesion_words && !m->variant->material.youngs.unknown;
+    const bool known = d->drying->adhesion_words && !m->variant->material.youngs.unknown;
     for (int i = 0; i < m->device->nscene; i++)
         n += (size_t)m->device->scene[i].ncontact;
-    FW_NEED(to->stuck = fw_arena_array(arena, fw_verdict_stuck, n));
+    FW_NEED(to->stuck = fw_arena_array(d->arena, fw_verdict_stuck, n));
     for (int i = 0; i < m->device->nscene; i++) {
         const fw_device_scene *s = &m->device->scene[i];
-        const fw_effect_case of = {.arena = arena, .mechanism = m, .scene = s};
+        const fw_effect_case of = {.arena = d->arena, .mechanism = m, .scene = s};
         for (int k = 0; v->motion && closes(v->motion[i]) && k < s->ncontact; k++) {
             const fw_verdict_strain_monitor *saw = v->motion[i]->observed;
             const fw_verdict_touch *t = saw && saw->touch ? &saw->touch[k] : NULL;
@@ -338,13 +337,13 @@ static fw_status stuck(fw_arena *arena, const fw_mechanism *m, fw_verdict_sticti
             if (use->joint == FW_NONE) {
                 const double gap = fw_effects_contact_open(m, use, NULL, NULL);
                 if (!known || !t || !(gap > 0) || t->least_m > touch_share * gap) continue;
-                FW_TRY(judge_touch(&d, s, t, v->arm, one));
+                FW_TRY(judge_touch(d, s, t, v->arm, one));
                 to->nstuck++;
-                FW_TRY(say_stuck(&d, one, v));
+                FW_TRY(say_stuck(d, one, v));
                 continue;
             }
-            const fw_effects_adhered a = fw_effects_adhesion_of(&of, use, d.drying->adhesion_high),
-                                     b = fw_effects_adhesion_of(&of, use, d.drying->adhesion_low);
+            const fw_effects_adhered a = fw_effects_adhesion_of(&of, use, d->drying->adhesion_high),
+                                     b = fw_effects_adhesion_of(&of, use, d->drying->adhesion_low);
             if (!a.known) continue;
             *one =
                 (fw_verdict_stuck){.scene = s->name,
@@ -353,7 +352,7 @@ static fw_status stuck(fw_arena *arena, const fw_mechanism *m, fw_verdict_sticti
                                    .opens_N = {a.opens_N, a.opens_N},
                                    .decision = a.holds_N > a.opens_N ? FW_INCONCLUSIVE : FW_ACCEPT};
             to->nstuck++;
-            FW_TRY(say_stuck(&d, one, v));
+            FW_TRY(say_stuck(d, one, v));
         }
     }
     return FW_OK;
@@ -455,24 +454,23 @@ static fw_status judge_unknown(fw_arena *arena, const fw_mechanism *m, fw_verdic
                v);
 }
 
-static fw_status judge_pulls(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
-                             fw_verdict_variant_verdict *v) {
-    device d = {.arena = arena, .m = m, .drying = &m->variant->drying};
+static fw_status judge_pulls(device *d, fw_verdict_stiction *to, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = d->m;
     to->tethered = m->layout && m->layout->ntether > 0;
-    FW_TRY(prepare(&d, v->arm));
-    to->why = d.rigid.why;
-    FW_TRY(judge_unknown(arena, m, to, v));
+    FW_TRY(prepare(d, v->arm));
+    to->why = d->rigid.why;
+    FW_TRY(judge_unknown(d->arena, m, to, v));
     if (to->why) return FW_OK;
-    FW_TRY(pull_below(&d, &to->below));
-    FW_TRY(pull_beside(&d, &to->beside));
-    if (to->below.known && d.drying->adhesion_words) peel(&d, to);
+    FW_TRY(pull_below(d, &to->below));
+    FW_TRY(pull_beside(d, &to->beside));
+    if (to->below.known && d->drying->adhesion_words) peel(d, to);
     /* what stress presses is softer across the plane, and is pulled and held more easily by as much */
     const double left = 1 - fw_verdict_across_stressed(v);
     to->below.tension_N_per_m[0] *= left, to->peel[0] *= left;
-    put_number(d.drying, &to->below);
-    put_number(d.drying, &to->beside);
-    FW_TRY(judge_below(arena, m, to, v));
-    return judge_beside(arena, m, to, v);
+    put_number(d->drying, &to->below);
+    put_number(d->drying, &to->beside);
+    FW_TRY(judge_below(d->arena, m, to, v));
+    return judge_beside(d->arena, m, to, v);
 }
 
 fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *m, bool brief,
@@ -492,8 +490,9 @@ fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *m, bool
                                 .peel = {(double)NAN, (double)NAN},
                                 .adhesion_J_per_m2 = (double)NAN,
                                 .decision = FW_ACCEPT};
-    if (dried && m->layout) FW_TRY(judge_pulls(arena, m, to, v));
-    FW_TRY(stuck(arena, m, to, v));
+    device d = {.arena = arena, .m = m, .drying = drying};
+    if (dried && m->layout) FW_TRY(judge_pulls(&d, to, v));
+    FW_TRY(stuck(&d, to, v));
     for (int i = 0; i < to->nstuck; i++)
         to->decision = fw_verdict_worse(to->decision, to->stuck[i].decision);
     return FW_OK;
