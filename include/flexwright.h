@@ -137,6 +137,9 @@ typedef struct fw_design_options {
     const char *layers;
     const char *directory; /* for fw_design_read_memory: where the drawings lie that the description
                               names; default: none are opened */
+    int32_t
+        jobs; /* threads that judge: flows and what each may make, 1..256; default 1. The results
+                     are the same for any number; each takes memory of its own while it works */
 } fw_design_options;
 
 /* Fills `size` bytes (as the caller's header defines the struct) with the defaults. NULL options:

@@ -134,7 +134,7 @@ fw_script_test(docs.readme COMMAND ${Python3_EXECUTABLE} tests/docs/readme.py ${
 fw_script_test(docs.json COMMAND ${Python3_EXECUTABLE} tests/docs/json_keys.py ${FW_PROGRAM} $<TARGET_FILE:live>)
 fw_script_test(docs.effects LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/effects.py)
 fw_script_test(docs.masks LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/mask_benchmarks.py)
-fw_script_test(docs.gallery_solids LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/gallery_solids.py ${FW_PROGRAM})
+fw_script_test(docs.gallery_solids COMMAND ${Python3_EXECUTABLE} tests/docs/gallery_solids.py ${FW_PROGRAM})
 fw_script_test(docs.solids LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/solids.py
                ${PROJECT_BINARY_DIR}/tools/solids)
 fw_script_test(docs.accuracy LABEL quick COMMAND ${Python3_EXECUTABLE} tests/docs/accuracy.py)

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/arena.h"
+#include <locale.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
@@ -8,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <unistd.h>
 #ifdef FW_ASAN
 #include <sanitizer/asan_interface.h>
 #endif
@@ -31,6 +34,7 @@ struct fw_arena {
     bool keeps;
     const fw_cancel *cancel;
     const fw_progress *progress; /* NULL: nobody is told */
+    fw_team *team;               /* NULL: nobody helps */
 };
 
 /* AddressSanitizer sees only blocks of malloc, of which an arena hands out parts: without its being told, nothing that is read or
@@ -118,7 +122,10 @@ const fw_cancel *fw_arena_request(const fw_arena *arena) {
 
 fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes) {
     fw_arena *arena = fw_arena_new(cap_bytes);
-    if (arena) arena->cancel = whole->cancel, arena->progress = whole->progress;
+    if (!arena) return NULL;
+    arena->cancel = whole->cancel;
+    arena->progress = whole->progress;
+    arena->team = whole->team;
     return arena;
 }
 
@@ -326,6 +333,138 @@ void fw_arena_copy_put_back(fw_arena *arena, const fw_arena_copy *copy) {
 void fw_arena_copy_free(fw_arena_copy *copy) {
     free(copy->bytes);
     copy->bytes = NULL;
+}
+
+/* ---- parts in threads ---- */
+
+enum { MOST_HELPERS = FW_JOBS_MOST - 1 };
+
+int fw_processors(void) {
+    const long there = sysconf(_SC_NPROCESSORS_ONLN);
+    return there < 1 ? 1 : there > FW_JOBS_MOST ? FW_JOBS_MOST : (int)there;
+}
+
+void fw_arena_help_with(fw_arena *arena, fw_team *team) {
+    arena->team = team;
+}
+
+bool fw_arena_helped(const fw_arena *arena) {
+    return arena->team && atomic_load(&arena->team->idle) > 0;
+}
+
+/* all that a part holds is the whole's, behind what that has: a mark from before goes back behind both; false: that is more
+   than the whole may hold, which then gives nothing any more */
+static bool take_over(fw_arena *whole, fw_arena *part) {
+    chunk *oldest = part->last;
+    while (oldest && oldest->before)
+        oldest = oldest->before;
+    if (oldest) {
+        oldest->before = whole->last;
+        whole->last = part->last;
+    }
+    whole->total += part->total;
+    whole->held += part->held;
+    if (whole->total > whole->peak) whole->peak = whole->total;
+    part->last = NULL;
+    return whole->total <= whole->cap;
+}
+
+typedef struct parts {
+    size_t n;
+    fw_status (*one)(void *context, size_t i, fw_arena *arena);
+    void *context;
+    fw_arena **arena;  /* (n) of the parts */
+    fw_status *status; /* (n) */
+    fw_team *team;
+    atomic_size_t next;
+    atomic_bool failed;
+    locale_t locale; /* of the thread that asks */
+} parts;
+
+static void do_parts(parts *p, bool helping) {
+    while (!atomic_load(&p->failed)) {
+        const size_t i = atomic_fetch_add(&p->next, 1);
+        if (i >= p->n) return;
+        if (helping) p->arena[i]->progress = NULL; /* one thread tells */
+        p->status[i] = p->one(p->context, i, p->arena[i]);
+        if (p->status[i] != FW_OK) atomic_store(&p->failed, true);
+    }
+}
+
+static void *help(void *argument) {
+    parts *p = argument;
+    const locale_t before = uselocale(p->locale);
+    do_parts(p, true);
+    uselocale(before);
+    atomic_fetch_add(&p->team->idle, 1);
+    return NULL;
+}
+
+static bool take_helper(fw_team *team) {
+    int idle = team ? atomic_load(&team->idle) : 0;
+    while (idle > 0)
+        if (atomic_compare_exchange_weak(&team->idle, &idle, idle - 1)) return true;
+    return false;
+}
+
+/* arenas of the parts, which have the blocks that the whole keeps: their pages are there */
+static bool begin_parts(fw_arena *whole, parts *p) {
+    for (size_t i = 0; i < p->n; i++) {
+        if (!(p->arena[i] = fw_arena_part(whole, whole->cap))) return false;
+        p->arena[i]->keeps = whole->keeps;
+    }
+    for (size_t i = 0; whole->spare; i = (i + 1) % p->n) {
+        chunk *c = whole->spare;
+        whole->spare = c->before;
+        c->before = p->arena[i]->spare;
+        p->arena[i]->spare = c;
+    }
+    return true;
+}
+
+static void run_parts(parts *p) {
+    pthread_t thread[MOST_HELPERS];
+    size_t helpers = 0;
+    for (; helpers + 1 < p->n && helpers < MOST_HELPERS && take_helper(p->team); helpers++)
+        if (pthread_create(&thread[helpers], NULL, help, p) != 0) {
+            atomic_fetch_add(&p->team->idle, 1);
+            break;
+        }
+    do_parts(p, false);
+    for (size_t i = 0; i < helpers; i++)
+        pthread_join(thread[i], NULL);
+}
+
+static fw_status end_parts(fw_arena *whole, parts *p, fw_status status) {
+    for (size_t i = 0; i < p->n && p->arena[i]; i++) {
+        fw_arena *part = p->arena[i];
+        if (status == FW_OK) status = p->status[i];
+        if (!take_over(whole, part) && status == FW_OK)
+            status = FW_NOMEM; /* messages of a part that failed stay */
+        while (whole->keeps && part->spare) {
+            chunk *c = part->spare;
+            part->spare = c->before;
+            c->before = whole->spare;
+            whole->spare = c;
+        }
+        fw_arena_free(part);
+    }
+    return status;
+}
+
+fw_status fw_arena_each(fw_arena *whole, size_t n,
+                        fw_status (*one)(void *context, size_t i, fw_arena *arena), void *context) {
+    parts p = {.n = n, .one = one, .context = context, .team = whole->team, .locale = uselocale(0)};
+    if (n < 2 || !fw_arena_helped(whole)) {
+        for (size_t i = 0; i < n; i++)
+            FW_TRY(one(context, i, whole));
+        return FW_OK;
+    }
+    FW_NEED(p.arena = fw_arena_array(whole, fw_arena *, n));
+    FW_NEED(p.status = fw_arena_array(whole, fw_status, n));
+    const bool begun = begin_parts(whole, &p);
+    if (begun) run_parts(&p);
+    return end_parts(whole, &p, begun ? FW_OK : FW_NOMEM);
 }
 
 /* lock-free, hence fit for signal handlers, and for other threads too. No other memory hangs on the

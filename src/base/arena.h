@@ -3,6 +3,7 @@
    Memory is zeroed. A failed or capped allocation gives NULL, never an abort. */
 #ifndef FW_BASE_ARENA_H
 #define FW_BASE_ARENA_H
+#include "base/status.h"
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -71,6 +72,24 @@ void fw_arena_tell_alone(fw_arena *part, const fw_progress_whole *whole); /* and
 bool fw_arena_tells(const fw_arena *arena); /* is there anybody to compose a text for? */
 void fw_arena_tell(const fw_arena *arena, const char *what, double done, double of,
                    const char *unit);
+
+/* Threads that may help beside the one that has the work in hand, shared by all parts of one design: who begins a part
+   in another thread takes one of them, and gives it back at its end. */
+typedef struct fw_team {
+    atomic_int idle;
+} fw_team;
+enum { FW_JOBS_MOST = 256 }; /* threads of one work */
+int fw_processors(void);     /* of this machine, 1 to FW_JOBS_MOST */
+/* likewise of those who help: parts of the arena that are made from then on have them, too */
+void fw_arena_help_with(fw_arena *arena,
+                        fw_team *team);      /* NULL: nobody, everything is done in turn */
+bool fw_arena_helped(const fw_arena *arena); /* is anybody idle at the moment? */
+/* n parts of work that need nothing of each other: `one` does part i in the arena that it is given, in this thread or in one
+   that helps, and what it leaves there is the whole's afterwards. Where nobody helps that arena is the whole itself. Results do
+   not depend on how many help. Only this thread tells how far it is. After a part that fails no other is begun; the status
+   is that of the first of them in their order, and what they left is there. Cost: a thread for each that helps. Test: tests/unit/base/test_arena.c */
+fw_status fw_arena_each(fw_arena *whole, size_t n,
+                        fw_status (*one)(void *context, size_t i, fw_arena *arena), void *context);
 
 /* count * size bytes, zeroed, aligned to 64; NULL on overflow, cap or failure. count 0 gives a
    valid pointer. */

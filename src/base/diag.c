@@ -46,8 +46,22 @@ static bool make_room(fw_diags *diags, fw_severity severity) {
     return false;
 }
 
+static bool is_said(const fw_diags *diags, int number, fw_place place) {
+    for (size_t i = 0; i < diags->count; i++)
+        if (diags->item[i].number == number && diags->item[i].place.line == place.line &&
+            diags->item[i].place.column == place.column && place.line > 0)
+            return true;
+    return false;
+}
+
+bool fw_diag_said(fw_diags *diags, int number, fw_place place) {
+    diags->once = number;
+    return is_said(diags, number, place);
+}
+
 /* kind: all but the message */
 static void add(fw_diags *diags, fw_diag kind, const char *format, va_list arguments) {
+    kind.once = kind.once || kind.number == diags->once;
     if (kind.severity == FW_ERROR) diags->errors++;
     if (kind.unreliable) diags->unreliable++;
     if (diags->count == FW_DIAG_MOST) {
@@ -131,13 +145,16 @@ void fw_diags_add(fw_diags *diags, const fw_diag *d, fw_severity severity) {
                     .severity = severity,
                     .place = d->place,
                     .ended = severity == d->severity ? d->ended : FW_ENDED_NOT,
-                    .unreliable = d->unreliable && severity == d->severity};
+                    .unreliable = d->unreliable && severity == d->severity,
+                    .once = d->once};
     add_text(diags, kind, "%s", d->message);
 }
 
 void fw_diags_take(fw_diags *diags, const fw_diags *from) {
-    for (size_t i = 0; i < from->count; i++)
-        fw_diags_add(diags, &from->item[i], from->item[i].severity);
+    for (size_t i = 0; i < from->count; i++) {
+        const fw_diag *d = &from->item[i];
+        if (!d->once || !is_said(diags, d->number, d->place)) fw_diags_add(diags, d, d->severity);
+    }
 }
 
 static void show_line(fw_text *out, const char *source, size_t n, fw_place place) {

@@ -39,6 +39,7 @@ typedef struct fw_diag {
     const char *message;
     fw_diag_ended ended;
     bool unreliable; /* a warning after which the result is not to be relied on */
+    bool once;       /* said of a place once, however many flows have it */
 } fw_diag;
 
 typedef struct fw_diags {
@@ -48,6 +49,7 @@ typedef struct fw_diags {
     size_t errors, unreliable;
     size_t dropped; /* beyond the first FW_DIAG_MOST */
     int failed;     /* memory was short while collecting */
+    int once;       /* number of what is to be said once of a place; 0: of nothing */
 } fw_diags;
 
 enum { FW_DIAG_MOST = 100 };
@@ -69,6 +71,9 @@ void fw_diag_unreliable(fw_diags *diags, int number, fw_place place, const char 
 void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
+/* Was this said of this place before? If not, and if it is now, it is said of it once: another list that this one takes over
+   does not say it again. */
+bool fw_diag_said(fw_diags *diags, int number, fw_place place);
 /* adds what was said of a try that now counts, as if it had been said here */
 void fw_diags_take(fw_diags *diags, const fw_diags *from);
 /* adds one of another list, as a message of this severity */

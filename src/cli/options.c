@@ -361,7 +361,7 @@ static const fw_cli_option_row table[] = {
      FW_OPT_STUDY, fw_cli_take_plan_only},
     {"jobs", 0, "N",
      "threads, 1 to 256; default one for each processor. The results are the same for any number",
-     FW_OPT_STUDY, fw_cli_take_jobs},
+     FW_OPT_STUDY | FW_OPT_VERDICT, fw_cli_take_jobs},
     {"shard", 0, "I/N",
      "only every N-th sample from the I-th on, for a machine of its own; study merge puts the N "
      "directories together",

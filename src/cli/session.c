@@ -77,6 +77,7 @@ static void clear_progress(void) {
 }
 
 fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status) {
+    options->design.jobs = options->jobs > 0 ? options->jobs : fw_processors();
     fw_design *design = fw_design_new(&options->design);
     if (!design) {
         *exit_status = fw_cli_session_no_memory();

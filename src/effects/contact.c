@@ -340,20 +340,12 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
 /* m: less is within what etching moves edges by */
 static const double drawn_closed = 1e-6;
 
-static bool said_already(const fw_diags *diags, fw_place place) {
-    for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].number == 134 && diags->item[i].place.line == place.line &&
-            diags->item[i].place.column == place.column)
-            return true;
-    return false;
-}
-
 /* round things that overlap as they are drawn are not two solids of one layer; conjugate surfaces
    are drawn with their gap open */
 static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     for (int i = 0; i < c->scene->ncontact; i++) {
         const fw_device_contact_use *use = &c->scene->contact[i];
-        if (use->joint != FW_NONE || said_already(diags, use->place)) continue;
+        if (use->joint != FW_NONE || fw_diag_said(diags, 134, use->place)) continue;
         fw_geometry_vec2 a =
             fw_mechanism_local_place(c->mechanism, use->body_a, use->ax_m, use->ay_m);
         fw_geometry_vec2 b =

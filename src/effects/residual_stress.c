@@ -109,14 +109,6 @@ static fw_status find_rise(const fw_effect_case *c, double *rise_m, int *body) {
 
 /* ---- what is said ---- */
 
-static bool said_already(const fw_diags *diags, fw_place place) {
-    for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].number == 251 && diags->item[i].place.line == place.line &&
-            diags->item[i].place.column == place.column)
-            return true;
-    return false;
-}
-
 static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     fw_place place = c->scene->nstress ? c->scene->stress[0].place : c->scene->place;
     if (isnan(compliance(c->mechanism)))
@@ -128,7 +120,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     FW_TRY(find_rise(c, &up, &body));
     double thickness = c->mechanism->variant->thickness_m;
     char rises[32], thick[32];
-    if (!(up > thickness) || said_already(diags, place)) return FW_OK;
+    if (!(up > thickness) || fw_diag_said(diags, 251, place)) return FW_OK;
     const char *id = c->mechanism->body[body].id;
     fw_diag_warning(diags, 251, place,
                     "the gradient of the layer's stress lifts the end of %s%s by %s um out "

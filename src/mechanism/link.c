@@ -180,14 +180,6 @@ bool fw_mechanism_all_finite(const double *value, int count) {
     return true;
 }
 
-bool fw_mechanism_said_already(const fw_diags *diags, int number, fw_place place) {
-    for (size_t i = 0; i < diags->count; i++)
-        if (diags->item[i].number == number && diags->item[i].place.line == place.line &&
-            diags->item[i].place.column == place.column && place.line > 0)
-            return true;
-    return false;
-}
-
 /* Nothing is drawn of a hinge, and by its axis the flexure begins in each of its bodies beyond where it ends, seen from that
    body: more than its chord on the other side of the pin from the mass centre */
 void fw_mechanism_tell_turned(const fw_mechanism_builder *b, const fw_device_revolute *from,
@@ -206,7 +198,7 @@ void fw_mechanism_tell_turned(const fw_mechanism_builder *b, const fw_device_rev
     const double far = vec_dot(chord, chord);
     for (int i = 0; i < 2; i++)
         if (body[i] != FW_GROUND && !((i ? -1 : 1) * vec_dot(away[i], chord) > far)) return;
-    if (!(far > 0) || fw_mechanism_said_already(b->diags, 651, from->place)) return;
+    if (!(far > 0) || fw_diag_said(b->diags, 651, from->place)) return;
     fw_diag_warning(b->diags, 651, from->place,
                     "%s%s: nothing is drawn, so that its axis says which end is whose, and the "
                     "flexure begins in %s on the side away from it and runs back over it; "
@@ -251,7 +243,7 @@ fw_status fw_mechanism_build_spring(const fw_mechanism_builder *b, int i) {
     fw_geometry_vec2 d = span(b, to->body_a, to->ax_m, to->ay_m, to->body_b, to->bx_m, to->by_m);
     /* a slack cable pushes in no direction, and so does a spring without a rest length */
     if (d.x == 0 && d.y == 0 && to->length_m > 0 && to->stiffness_N_per_m > 0 && !to->cable &&
-        !fw_mechanism_said_already(b->diags, 91, from->place)) {
+        !fw_diag_said(b->diags, 91, from->place)) {
         char length[32];
         fw_diag_warning(b->diags, 91, from->place,
                         "both ends of %s%s lie on the same point as drawn, and its length at "

@@ -44,7 +44,8 @@ typedef struct fw_mechanism_variant { /* what the device is made of, in one flow
     fw_device_material material;
     const char *substrate;           /* name of what the layer is anchored to; NULL: not known */
     fw_quantity substrate_expansion; /* of it, 1/K */
-    bool substrate_insulates;        /* what faces the device is glass or the like, which screens no field */
+    bool
+        substrate_insulates; /* what faces the device is glass or the like, which screens no field */
     double thickness_m;
     double orientation_rad; /* of [100] of a crystal from +x */
     double explicit_mass_scale, explicit_stiffness_scale, explicit_damping_scale;
@@ -216,9 +217,6 @@ typedef struct fw_mechanism_builder {
 } fw_mechanism_builder;
 
 bool fw_mechanism_all_finite(const double *value, int count);
-/* a message of this number for this place exists: flows share the file, but one message is enough
- */
-bool fw_mechanism_said_already(const fw_diags *diags, int number, fw_place place);
 /* world position, in the drawn pose, of a local point; body NULL: the ground */
 fw_geometry_vec2 fw_mechanism_body_point(const fw_mechanism_mass *body, fw_geometry_vec2 local);
 

@@ -70,7 +70,7 @@ static void compare_mass(const fw_mechanism_builder *b, const fw_device_body *fr
                          const fw_mechanism_shape *drawn) {
     const fw_quantity *density = &b->variant->material.density;
     if (isnan(from->mass_kg) || !shape || density->unknown ||
-        fw_mechanism_said_already(b->diags, 256, from->place))
+        fw_diag_said(b->diags, 256, from->place))
         return;
     double surface = density->value * b->variant->thickness_m, mass = surface * shape->area_m2;
     double away = hypot(drawn->centroid.x, drawn->centroid.y);
@@ -212,7 +212,7 @@ static fw_status limits_of(const fw_mechanism_builder *b, fw_flexure_input *in,
     const fw_device_material *m = &b->variant->material;
     const fw_flexure_limit_input asked = {m, in, &b->device->limits, flexures_in_use(b->device)};
     fw_flexure_limits_of(&asked, limits);
-    if (limits->missing && !fw_mechanism_said_already(b->diags, 235, limits->missing_place))
+    if (limits->missing && !fw_diag_said(b->diags, 235, limits->missing_place))
         return fw_diag_error(b->diags, 235, limits->missing_place,
                              "material '%s' has no data for this: give %s on <material>, or on the "
                              "material of the flow, or remove the attribute",
@@ -262,8 +262,7 @@ static void report_left_out(const fw_mechanism_builder *b, const fw_device_flexu
     double most = fmin(hinge->closed_form.limit_angle_rad, 1.0);
     fw_flexure_path_left_out(way, most, &drift, &coupling);
     hinge->coupling = coupling;
-    if (!(drift > 1e-9 || coupling > 0.01) || fw_mechanism_said_already(b->diags, 265, f->place))
-        return;
+    if (!(drift > 1e-9 || coupling > 0.01) || fw_diag_said(b->diags, 265, f->place)) return;
     fw_diag_warning(
         b->diags, 265, f->place,
         "%s%s: its path is not its own mirror image; up to %s deg the model of compliant "
@@ -313,8 +312,7 @@ static fw_status flexure_result(const fw_mechanism_builder *b, int j,
 /* the file's number wins, but a number that its own geometry contradicts is worth a word */
 static void compare_stiffness(const fw_mechanism_builder *b, const fw_device_revolute *joint,
                               double given, double own) {
-    if (!(fabs(given - own) > 0.1 * own) || fw_mechanism_said_already(b->diags, 86, joint->place))
-        return;
+    if (!(fabs(given - own) > 0.1 * own) || fw_diag_said(b->diags, 86, joint->place)) return;
     char g[32], o[32];
     fw_diag_warning(b->diags, 86, joint->place,
                     "stiffness of %s%s is given as %s N m/rad, its flexure's geometry has %s; "
@@ -489,7 +487,7 @@ static fw_status check_outlines(const fw_mechanism_builder *b) {
         for (int k = 0; k < 2; k++) {
             if (layout->drawn && fw_layout_has_outline(layout, side[k])) continue;
             status = FW_INPUT;
-            if (fw_mechanism_said_already(b->diags, 323, p->place)) break;
+            if (fw_diag_said(b->diags, 323, p->place)) break;
             fw_diag_error(
                 b->diags, 323, p->place,
                 "probe '%s': nothing is drawn of %s%s%s, so that it has no outline; draw it, or "

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Arrays with names and units, and tables of rows. */
-#include "plan/arrays.h"
+#include "plan/design.h"
 #include <string.h>
 
 /* ---- one array ---- */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Motions, small motions, equilibria, the assembled position and the workspace as arrays. */
-#include "plan/arrays.h"
+#include "plan/design.h"
 #include "probe/probe.h"
 #include "report/report.h"
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is stated and what was judged, as arrays, a row each: parameters, scenes, hinges and flows; how near
    things come, what is asked of the device and what its probes saw. */
-#include "plan/arrays.h"
+#include "plan/design.h"
 #include "report/report.h"
 #include <math.h>
 

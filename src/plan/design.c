@@ -113,6 +113,8 @@ static const char *wrong_option(const fw_design_options *o) {
     if (!auto_or_none(o->advice)) return "advice must be auto or none";
     if (!auto_or_none(o->measurements) && strcmp(o->measurements, "all") != 0)
         return "measurements must be auto, all or none";
+    if (o->jobs < 0 || o->jobs > FW_JOBS_MOST)
+        return "jobs must be 0 (default) or between 1 and 256";
     if (o->at && strcmp(o->at, "rest") != 0 && strcmp(o->at, "equilibrium") != 0)
         return "at must be \"rest\" or \"equilibrium\"";
     return NULL;
@@ -195,6 +197,7 @@ static fw_status take_options(fw_design *d, const fw_design_options *given) {
     m->rtol = o.rtol;
     if (o.accuracy != 0.0) m->accuracy = o.accuracy;
     if (o.samples != 0) m->samples = o.samples;
+    d->team.idle = o.jobs > 1 ? o.jobs - 1 : 0;
     if (o.figures) d->wanted |= FW_WANTED_FIGURES;
     return FW_OK;
 }
@@ -222,6 +225,7 @@ fw_design *fw_design_new(const fw_design_options *options) {
         *design = (fw_design){.plan = plan};
         fw_arena_stop_with(plan->arena, &design->cancel);
         fw_arena_tell_with(plan->arena, &design->progress);
+        fw_arena_help_with(plan->arena, &design->team);
         if (fill(design, options) == FW_OK) return design;
     }
     fw_plan_free(plan);

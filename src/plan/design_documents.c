@@ -2,7 +2,6 @@
 /* What the public library hands out: documents, one row each, and numbers, a row per set. All are composed
    when first asked for. */
 #include "base/json.h"
-#include "plan/arrays.h"
 #include "plan/design.h"
 #include "plan/stages.h"
 #include "report/report.h"

@@ -59,7 +59,7 @@ static fw_status work(fw_design *d, void *argument) {
 
 static const char *wrong(const fw_study_settings *s) {
     if (!s->directory || !s->directory[0]) return "a study needs a directory for its samples";
-    if (s->jobs < 0 || s->jobs > FW_STUDY_JOBS_MOST) return "jobs of a study are 1 to 256, or 0";
+    if (s->jobs < 0 || s->jobs > FW_JOBS_MOST) return "jobs of a study are 1 to 256, or 0";
     if (s->shards < 0 || s->shards > FW_STUDY_SHARDS_MOST ||
         (s->shards > 0 && (s->shard < 1 || s->shard > s->shards)))
         return "shard of a study is 1 to shards, and shards at most 100000; 0 and 0: all of it";

@@ -13,9 +13,8 @@
 #include <flexwright.h>
 
 enum {
-    FW_STUDY_TEXT = 96,       /* bytes of a setting, its NUL included */
-    FW_STUDY_WHY = 320,       /* of the reason why a device could not be judged */
-    FW_STUDY_JOBS_MOST = 256, /* threads */
+    FW_STUDY_TEXT = 96, /* bytes of a setting, its NUL included */
+    FW_STUDY_WHY = 320, /* of the reason why a device could not be judged */
     FW_STUDY_SHARDS_MOST = 100000
 };
 

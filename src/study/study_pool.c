@@ -5,7 +5,6 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <time.h>
-#include <unistd.h>
 
 fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample) {
     return study->store ? fw_study_store_add(study->store, sample) : FW_OK;
@@ -14,9 +13,7 @@ fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample) {
 /* ---- the same work many times ---- */
 
 int fw_study_jobs(const fw_study *study) {
-    long there = sysconf(_SC_NPROCESSORS_ONLN);
-    int jobs = study->options.jobs > 0 ? study->options.jobs : there > 0 ? (int)there : 1;
-    return jobs > FW_STUDY_JOBS_MOST ? FW_STUDY_JOBS_MOST : jobs;
+    return study->options.jobs > 0 ? study->options.jobs : fw_processors();
 }
 
 void fw_study_tell(const fw_study *study) {
@@ -68,7 +65,7 @@ static void *in_thread(void *argument) {
 fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *context, long i),
                         void *context) {
     queue q = {.study = study, .one = one, .context = context, .n = n};
-    pthread_t thread[FW_STUDY_JOBS_MOST];
+    pthread_t thread[FW_JOBS_MOST];
     int jobs = fw_study_jobs(study), running = 0;
     pthread_mutex_init(&q.lock, NULL);
     pthread_cond_init(&q.ended, NULL);

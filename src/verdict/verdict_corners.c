@@ -25,6 +25,28 @@ static int first_edge(const fw_verdict_variant_verdict *v) {
     return i;
 }
 
+/* the point by which the slopes of input i are found; false: they are those of another, scaled, or there is none */
+static bool slope_point(const fw_verdict_variant_verdict *v, int i, double *x) {
+    const fw_verdict_fabrication_input *in = &v->input[i];
+    if (!fw_verdict_search_has_range(in)) return false;
+    if (fw_verdict_search_edges_only(in) && first_edge(v) < i) return false;
+    nominal_point(v, x);
+    x[i] = in->nominal > in->low ? in->low : in->high;
+    return true;
+}
+
+/* those of all slopes, with_nominal: and the nominal device, need nothing of each other */
+static fw_status slopes_ahead(fw_verdict_search *s, bool with_nominal) {
+    const size_t width = (size_t)s->v->ninput;
+    double *x = fw_arena_array(s->arena, double, (width + 1) * width);
+    FW_NEED(x);
+    size_t n = with_nominal;
+    nominal_point(s->v, x);
+    for (int i = 0; i < s->v->ninput; i++)
+        n += slope_point(s->v, i, x + n * width);
+    return fw_verdict_search_ahead(s, x, NULL, n);
+}
+
 /* d ln U/dx by one run per input, at the low end of its range: thin flexures, where things change
    fastest. A check that is not there at that end (a flexure gone) has no slope: NaN */
 static fw_status slopes(fw_verdict_search *s) {
@@ -38,9 +60,7 @@ static fw_status slopes(fw_verdict_search *s) {
         if (!fw_verdict_search_has_range(in)) continue; /* slopes are 0: it stays where it is */
         for (int r = 0; like < i && r < s->ncheck; r++)
             s->slope[r * n + i] = s->slope[r * n + like] * in->edge_m / v->input[like].edge_m;
-        if (like < i) continue;
-        nominal_point(v, x);
-        x[i] = in->nominal > in->low ? in->low : in->high;
+        if (!slope_point(v, i, x)) continue;
         s->slope_point[i] = s->fabricated->ncorner;
         const double *at = s->ln + (size_t)s->fabricated->ncorner * (size_t)s->ncheck;
         FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
@@ -200,10 +220,22 @@ static bool no_slope(const fw_verdict_search *s) {
     return false;
 }
 
+static fw_status all_ahead(fw_verdict_search *s, unsigned fixed) {
+    const size_t width = (size_t)s->v->ninput;
+    double *x = fw_arena_array(s->arena, double, ((size_t)1 << s->v->ninput) * width);
+    size_t n = 0;
+    FW_NEED(x);
+    for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++)
+        if (!(bits & fixed) && fw_verdict_search_find(s, bits) == FW_NONE)
+            fw_verdict_search_corner_point(s, bits, x + width * n++);
+    return fw_verdict_search_ahead(s, x, NULL, n);
+}
+
 static fw_status run_all(fw_verdict_search *s) {
     double x[FW_FABRICATION_INPUTS];
     const unsigned fixed = fw_verdict_search_without_range(s->v);
     s->fabricated->all = true;
+    FW_TRY(all_ahead(s, fixed));
     for (unsigned bits = 0; bits < 1u << s->v->ninput; bits++) {
         if ((bits & fixed) || fw_verdict_search_find(s, bits) != FW_NONE) continue;
         fw_verdict_search_corner_point(s, bits, x);
@@ -214,9 +246,13 @@ static fw_status run_all(fw_verdict_search *s) {
 
 fw_status fw_verdict_search_corners(fw_verdict_search *s) {
     double x[FW_FABRICATION_INPUTS];
+    const bool trial =
+        s->options.corners != FW_CORNERS_AUTO; /* its nominal device is often refused */
+    if (!trial) FW_TRY(slopes_ahead(s, true));
     nominal_point(s->v, x);
     FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
     if (s->fabricated->corner[0].decision == FW_REJECT) return FW_OK;
+    if (trial) FW_TRY(slopes_ahead(s, false));
     FW_TRY(slopes(s));
     if (no_slope(s) || fw_verdict_ends_unknown(s)) return run_all(s);
     for (bool ran = true; ran && fmax(s->fabricated->error, s->across_error) <= fw_trusted;)
@@ -228,6 +264,12 @@ fw_status fw_verdict_search_ends(fw_verdict_search *s, int check) {
     double x[FW_FABRICATION_INPUTS];
     bool one = s->first == 0 || fw_verdict_search_without_range(s->v) + 1u == 1u << s->v->ninput;
     if (one || s->fabricated->all || isnan(s->ln[check])) return FW_OK; /* no other corner */
+    const size_t width = (size_t)s->v->ninput;
+    double *both = fw_arena_array(s->arena, double, 2 * width);
+    FW_NEED(both);
+    for (int up = 0; up < 2; up++)
+        fw_verdict_search_corner_point(s, choose(s, check, up), both + (size_t)up * width);
+    FW_TRY(fw_verdict_search_ahead(s, both, NULL, 2));
     for (int up = 0; up < 2; up++) {
         unsigned bits = choose(s, check, up);
         if (fw_verdict_search_find(s, bits) != FW_NONE) continue;
@@ -268,21 +310,38 @@ typedef struct apart {
     double error;
 } apart;
 
+/* (joints) signs of devices of which one hinge alone is narrower, and as often where they are; NULL: it has no flexure */
+static fw_status each_narrower(fw_verdict_search *s, const double *x, const signed char **sign) {
+    const size_t joints = (size_t)s->device->nrevolute, width = (size_t)s->v->ninput;
+    const signed char **next = fw_arena_array(s->arena, const signed char *, joints);
+    double *at = fw_arena_array(s->arena, double, joints *width);
+    size_t n = 0;
+    FW_NEED(next && at ? next : NULL);
+    for (size_t j = 0; j < joints; j++) {
+        signed char *one;
+        if (s->device->revolute[j].flexure == FW_NONE) continue;
+        FW_NEED(one = fw_arena_array(s->arena, signed char, joints));
+        one[j] = -1;
+        sign[j] = next[n] = one;
+        memcpy(at + width * n++, x, width * sizeof *x);
+    }
+    return fw_verdict_search_ahead(s, at, next, n);
+}
+
 static fw_status change_each(fw_verdict_search *s, apart *a, int worst) {
     const size_t joints = (size_t)s->device->nrevolute, n = (size_t)s->v->ninput;
     double *ln = fw_arena_array(s->arena, double, (size_t)s->ncheck),
            *x = fw_arena_array(s->arena, double, n);
-    signed char *sign = fw_arena_array(s->arena, signed char, joints);
+    const signed char **sign = fw_arena_array(s->arena, const signed char *, joints);
     fw_verdict_fabricated_corner unused;
     FW_NEED(ln && x && sign ? ln : NULL);
     memcpy(x, s->fabricated->corner[worst].x, n * sizeof *x);
     x[a->input] = a->far;
+    FW_TRY(each_narrower(s, x, sign));
     for (size_t j = 0; j < joints; j++) {
-        if (s->device->revolute[j].flexure == FW_NONE) continue;
-        sign[j] = -1;
-        s->sign = sign;
+        if (!sign[j]) continue;
+        s->sign = sign[j];
         FW_TRY(fw_verdict_search_point(s, x, &unused, ln));
-        sign[j] = 0;
         s->judged++;
         for (int r = 0; r < s->ncheck; r++) {
             const double was = s->ln[(size_t)worst * (size_t)s->ncheck + (size_t)r];
@@ -492,39 +551,6 @@ fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, cons
     return fw_verdict_search_most(s);
 }
 
-/* the search that follows may come to the corners that were run, and does not run them again */
-static fw_status know_all(fw_verdict_search *s) {
-    const size_t n = (size_t)s->fabricated->ncorner, m = (size_t)s->ncheck;
-    fw_verdict_fabricated_corner *corner;
-    fw_verdict_known *known;
-    double *ln;
-    FW_NEED(corner = fw_arena_array(s->arena, fw_verdict_fabricated_corner, n));
-    FW_NEED(known = fw_arena_array(s->arena, fw_verdict_known, n));
-    FW_NEED(ln = fw_arena_array(s->arena, double, n *m));
-    memcpy(ln, s->ln, n * m * sizeof *ln);
-    memcpy(corner, s->fabricated->corner, n * sizeof *corner);
-    for (size_t i = 0; i < n; i++)
-        known[i] =
-            (fw_verdict_known){fw_verdict_fabrication_at(s->v->input, s->v->ninput, corner[i].x),
-                               &corner[i], ln + i * m};
-    s->known = known, s->nknown = (int)n;
-    s->fabricated->ncorner = 0;
-    return FW_OK;
-}
-
-/* a trial's suspects decide alone where one is not accepted, or nothing else is asked for; all have values where asked */
-static fw_status try_suspects(fw_verdict_search *s, bool *decided) {
-    const fw_verdict_variant_verdict *v = s->v;
-    const bool alone = s->options.corners == FW_CORNERS_SUSPECT;
-    *decided = false;
-    if (v->nsuspect == 0 || !(alone || s->options.corners == FW_CORNERS_FIRST)) return FW_OK;
-    for (int i = 0; i < v->nsuspect && (!*decided || s->options.values); i++) {
-        FW_TRY(fw_verdict_search_run(s, v->suspect + i * v->ninput, FW_NO_CORNER));
-        *decided = *decided || s->fabricated->corner[i].decision != FW_ACCEPT;
-    }
-    return (*decided = *decided || alone) ? FW_OK : know_all(s);
-}
-
 fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *v) {
@@ -538,7 +564,7 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     if (!alone && v->drawn != FW_ACCEPT) return FW_OK;
     FW_TRY(fw_verdict_search_begin(arena, device, layout, options, v, &s));
     if (quick && !alone) s.options.corners = FW_CORNERS_FIRST;
-    FW_TRY(try_suspects(&s, &decided));
+    FW_TRY(fw_verdict_search_suspects(&s, &decided));
     double *apart_most = fw_arena_array(arena, double, (size_t)v->nhinge);
     FW_NEED(apart_most);
     if (!decided) FW_TRY(fw_verdict_search_corners(&s));

@@ -253,6 +253,14 @@ typedef struct fw_verdict_end {
     double error;                        /* largest difference from first order seen at a corner */
 } fw_verdict_end;
 
+/* a point that was run before it is asked for: its own x (ninput) and sign, which outlive the search's next step */
+typedef struct fw_verdict_ahead {
+    const double *x;
+    const signed char *sign;
+    int most_looks;
+    fw_verdict_fabricated_corner corner;
+    double *ln; /* (ncheck) */
+} fw_verdict_ahead;
 typedef struct fw_verdict_search {
     fw_arena *arena; /* of the plan */
     const fw_device *device;
@@ -274,6 +282,8 @@ typedef struct fw_verdict_search {
     const fw_verdict_known *known; /* (nknown) */
     int nknown;
     const signed char *sign; /* how hinges differ at what is run now; NULL: not at all */
+    fw_verdict_ahead *ahead; /* (nahead) points that were run before they are asked for */
+    size_t nahead;
     int most_looks; /* at a point, each closer than the one before; 0: as many as its decision needs */
     int judged;     /* points that were run, and not known */
     fw_progress_whole *told; /* how many points were run, of how many at most */
@@ -357,10 +367,19 @@ int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits); /* a poin
 void fw_verdict_search_govern(fw_verdict_search *s);
 /* runs the device at x and keeps it as the next corner of s->fabricated */
 fw_status fw_verdict_search_run(fw_verdict_search *s, const double *x, unsigned bits);
-/* the same into `corner` and ln (ncheck), without keeping it */
+/* of a trial, the points that are suspected first; decided: nothing else is to be run */
+fw_status fw_verdict_search_suspects(fw_verdict_search *s, bool *decided);
+/* the same as fw_verdict_search_run into `corner` and ln (ncheck), without keeping it */
 fw_status fw_verdict_search_point(const fw_verdict_search *s, const double *x,
                                   fw_verdict_fabricated_corner *corner, double *ln);
-/* what would have to be held so that it accepts: fabricated->held and control */
+/* Points that are asked for next: where threads help they are run at once, and fw_verdict_search_run and _point find them
+   done. At x (n x ninput); sign (n), or NULL: hinges differ as in s */
+fw_status fw_verdict_search_ahead(fw_verdict_search *s, const double *x,
+                                  const signed char *const *sign, size_t n);
+/* "12.5 um": a value of an input in the unit of its process pack */
+const char *fw_verdict_search_value_text(fw_arena *arena, const fw_verdict_fabrication_input *input,
+                                         double x);
+/* held_ranges.c: what would have to be held so that it accepts: fabricated->held and control */
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s);
 
 /* ---- verdict_clearance.c: what clearance/ finds, judged: bands, what is asked for, and reasons ---- */

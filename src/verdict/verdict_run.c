@@ -12,10 +12,8 @@ static void unreachable(const fw_device *device, const fw_verdict_variant_verdic
                         fw_diags *diags) {
     const fw_place place = device->workspace[v->workspace.fail_box].place;
     char x[32], y[32], phi[32];
-    for (size_t i = 0; i < diags->count; i++) /* reach is a matter of the links, not of the flow */
-        if (diags->item[i].number == 201 && diags->item[i].place.line == place.line &&
-            diags->item[i].place.column == place.column)
-            return;
+    if (fw_diag_said(diags, 201, place))
+        return; /* reach is a matter of the links, not of the flow */
     fw_diag_warning(diags, 201, place,
                     "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, "
                     "turned by %s deg; the design is rejected",
@@ -77,33 +75,71 @@ static fw_place flow_place(const fw_device *device, const char *flow) {
     return (fw_place){device->file, 1, 1};
 }
 
+static fw_status nothing_to_judge(const fw_device *device, const char *flow, fw_diags *diags) {
+    return fw_diag_error(diags, 202, flow_place(device, flow),
+                         "nothing to judge in flow %s: add a <scene> or a <workspace> "
+                         "that holds for it",
+                         flow ? flow : "(none)");
+}
+
+/* what all flows of a design are judged by */
+typedef struct judging {
+    const fw_device *device;
+    const fw_layout *layout;
+    const fw_verdict_options *options;
+    fw_verdict *verdict;
+    fw_diags *diags; /* (nvariant) each flow has its own */
+    bool *nothing;   /* (nvariant) to judge */
+    bool
+        apart; /* in threads: what the first flow finds of the drawing is not there for the others */
+} judging;
+
+/* flow i as drawn */
+static fw_status judge_drawn(void *context, size_t i, fw_arena *arena) {
+    const judging *j = context;
+    const fw_device *device = j->device;
+    fw_diags *diags = &j->diags[i];
+    fw_verdict_variant_verdict *v = &j->verdict->variant[i];
+    const fw_mechanism *m = NULL;
+    *diags = fw_diags_new(arena);
+    fw_arena_tell(arena, "judging the device as drawn", (double)i, j->verdict->nvariant, "flows");
+    FW_TRY(fw_mechanism_build(arena, device, j->layout, v->variant, diags, &m));
+    if (m->nhinge == 0)
+        return fw_diag_error(diags, 203,
+                             device->nrevolute ? device->revolute[0].place
+                                               : (fw_place){device->file, 1, 1},
+                             "no joint of the mechanism is a flexure, so there is no elastic "
+                             "limit to judge: name a flexure on the joints");
+    FW_TRY(fw_verdict_check_closure(device, m, diags));
+    if (i > 0 && !j->apart) { /* the same drawing */
+        v->arm = j->verdict->variant[0].arm;
+        v->straight = j->verdict->variant[0].straight;
+    }
+    FW_TRY(fw_verdict_variant(arena, device, j->layout, m, j->options, diags, v));
+    if (v->workspace.required && !v->workspace.reachable) unreachable(device, v, diags);
+    j->nothing[i] = !judged(v, device);
+    return FW_OK;
+}
+
 static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict) {
-    fw_status status = FW_OK;
-    for (int i = 0; i < verdict->nvariant; i++) {
-        fw_verdict_variant_verdict *v = &verdict->variant[i];
-        const fw_mechanism *m = NULL;
-        fw_arena_tell(arena, "judging the device as drawn", i, verdict->nvariant, "flows");
-        FW_TRY(fw_mechanism_build(arena, device, layout, v->variant, diags, &m));
-        if (m->nhinge == 0)
-            return fw_diag_error(diags, 203,
-                                 device->nrevolute ? device->revolute[0].place
-                                                   : (fw_place){device->file, 1, 1},
-                                 "no joint of the mechanism is a flexure, so there is no elastic "
-                                 "limit to judge: name a flexure on the joints");
-        FW_TRY(fw_verdict_check_closure(device, m, diags));
-        if (i > 0) { /* the same drawing */
-            v->arm = verdict->variant[0].arm;
-            v->straight = verdict->variant[0].straight;
-        }
-        FW_TRY(fw_verdict_variant(arena, device, layout, m, options, diags, v));
-        if (!judged(v, device))
-            status = fw_diag_error(diags, 202, flow_place(device, v->variant->flow),
-                                   "nothing to judge in flow %s: add a <scene> or a <workspace> "
-                                   "that holds for it",
-                                   v->variant->flow ? v->variant->flow : "(none)");
-        if (v->workspace.required && !v->workspace.reachable) unreachable(device, v, diags);
+    const size_t n = (size_t)verdict->nvariant;
+    judging j = {.device = device,
+                 .layout = layout,
+                 .options = options,
+                 .verdict = verdict,
+                 .apart = n > 1 && fw_arena_helped(arena)};
+    FW_NEED(j.diags = fw_arena_array(arena, fw_diags, n));
+    FW_NEED(j.nothing = fw_arena_array(arena, bool, n));
+    fw_status status = fw_arena_each(arena, n, judge_drawn, &j);
+    for (size_t i = 0; i < n; i++) {
+        fw_diags_take(diags, &j.diags[i]);
+        if (j.diags[i].errors > 0 && status != FW_OK) break; /* of those behind it nothing counts */
     }
+    FW_TRY(diags->failed ? FW_NOMEM : status);
+    for (size_t i = 0; i < n; i++)
+        if (j.nothing[i])
+            status = nothing_to_judge(device, verdict->variant[i].variant->flow, diags);
     FW_TRY(status);
     return combine(arena, device, options->motion.accuracy, verdict);
 }
@@ -182,16 +218,21 @@ static fw_status draw(fw_arena *arena, const fw_device *device, const fw_verdict
     return fatal ? status : FW_OK;
 }
 
+/* flow i as it makes the device */
+static fw_status judge_made(void *context, size_t i, fw_arena *arena) {
+    const judging *j = context;
+    return fw_verdict_as_made(arena, j->device, j->layout, j->options, &j->verdict->variant[i]);
+}
+
 /* what the flows make of it; the drawn verdict stays in each variant */
 static fw_status as_fabricated(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                const fw_verdict_options *options, fw_verdict *verdict) {
     verdict->drawn = verdict->decision;
     if (options->decision_only && verdict->drawn == FW_REJECT) return FW_OK;
-    for (int i = 0; i < verdict->nvariant; i++) {
-        fw_verdict_variant_verdict *v = &verdict->variant[i];
-        FW_TRY(fw_verdict_as_made(arena, device, layout, options, v));
-        verdict->decision = fw_verdict_worse(verdict->decision, v->decision);
-    }
+    judging j = {.device = device, .layout = layout, .options = options, .verdict = verdict};
+    FW_TRY(fw_arena_each(arena, (size_t)verdict->nvariant, judge_made, &j));
+    for (int i = 0; i < verdict->nvariant; i++)
+        verdict->decision = fw_verdict_worse(verdict->decision, verdict->variant[i].decision);
     return FW_OK;
 }
 

@@ -82,6 +82,7 @@ STUDY = """<study xmlns="urn:flexwright:study:1" name="s" kind="sweep" points="s
 D = {"d.xml": SIX_BAR}
 L = {"d.xml": LEAF}
 OTHER = ["--accuracy", "1e-2"]
+ALONE = ["--jobs", "1"]  # the n-th call is the same one in every run
 
 
 def writer(name, *options, device=D, status=0):
@@ -94,10 +95,10 @@ LOG = ["log", "d.xml", "--flow", SILICON, "--run", "lot.log"]
 ENTRY = [*LOG, "--entry", "S18; start=2026-11-01T08:00; end=2026-11-01T10:05; by=AB; second=CD", "--instrument",
          "profilometer 2", "--wafer"]
 CASES = [
-    Case("check", ["check", "d.xml", "--json"], files=D),
-    writer("plan"),
-    writer("mask", "--mask-format", "all"),
-    writer("recipe"),
+    Case("check", ["check", "d.xml", "--json", *ALONE], files=D),
+    writer("plan", *ALONE),
+    writer("mask", "--mask-format", "all", *ALONE),
+    writer("recipe", *ALONE),
     writer("statics", "--path"),
     writer("modes"),
     writer("assemble"),
@@ -107,7 +108,7 @@ CASES = [
     Case("simulate", ["simulate", "d.xml", "--csv", "motion.csv", "--json"],
          [["simulate", "d.xml", "--csv", "motion.csv", "--samples", "11"]], files=D),
     Case("workspace", ["workspace", "d.xml", "-o", "out"], files=D),
-    Case("wafer", ["mask", "d.xml", "-o", "out"], [["mask", "d.xml", "-o", "out", *OTHER]], files={"d.xml": WAFER}),
+    Case("wafer", ["mask", "d.xml", "-o", "out", *ALONE], [["mask", "d.xml", "-o", "out", *OTHER]], files={"d.xml": WAFER}),
     Case("calibrate", ["calibrate", "lot.csv", "--flow", SILICON, "-o", "lab.xml"],
          [["calibrate", "less.csv", "--flow", SILICON, "-o", "lab.xml"]],
          files={"lot.csv": lambda: COUPONS, "less.csv": lambda: COUPONS[:COUPONS.index("etch-rate")]}),

@@ -119,8 +119,96 @@ static void faults_are_injected(void **state) {
     fw_arena_free(arena);
 }
 
+enum { PARTS = 37 };
+
+typedef struct parts {
+    char *text[PARTS];
+    char *large[PARTS];
+    size_t fails; /* this part, and those behind it; PARTS: none */
+} parts;
+
+static fw_status one_part(void *context, size_t i, fw_arena *arena) {
+    parts *p = context;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(fw_arena_alloc(arena, 1 << 17, 1));
+    fw_arena_rewind(arena, mark);
+    p->text[i] = fw_arena_printf(arena, "part %zu", i);
+    p->large[i] = fw_arena_alloc(arena, 1000 * (i + 1), 1);
+    FW_NEED(p->text[i] && p->large[i] ? arena : NULL);
+    memset(p->large[i], 'a' + (int)(i % 26), 1000 * (i + 1));
+    return i < p->fails ? FW_OK : i == p->fails ? FW_SOLVER : FW_INPUT;
+}
+
+static void parts_are_there(const parts *p) {
+    for (size_t i = 0; i < PARTS; i++) {
+        char want[16];
+        snprintf(want, sizeof want, "part %zu", i);
+        assert_string_equal(p->text[i], want);
+        for (size_t k = 0; k < 1000 * (i + 1); k++)
+            assert_int_equal(p->large[i][k], 'a' + (int)(i % 26));
+    }
+}
+
+/* what the parts leave is the whole's: it stays, counts, and goes back with a mark from before; as often as one likes */
+static void parts_are_the_wholes(void **state) {
+    (void)state;
+    for (int turn = 0; turn < 8; turn++) {
+        const int idle = turn / 2;
+        const bool keeps = turn % 2;
+        fw_team team = {idle};
+        fw_arena *arena = fw_arena_new(4 << 20);
+        char *before = fw_arena_strdup(arena, "before");
+        fw_arena_copy copy = {.bytes = NULL};
+        fw_arena_help_with(arena, &team);
+        if (keeps) assert_true(fw_arena_copy_take(arena, &copy));
+        const fw_mark mark = fw_arena_mark(arena);
+        for (int round = 0; round < 8; round++) { /* would pass the cap if anything were left of it */
+            parts p = {.fails = PARTS};
+            assert_int_equal(fw_arena_each(arena, PARTS, one_part, &p), FW_OK);
+            assert_int_equal(team.idle, idle);
+            char *after = fw_arena_strdup(arena, "after");
+            parts_are_there(&p);
+            assert_string_equal(before, "before");
+            assert_string_equal(after, "after");
+            assert_true(fw_arena_peak(arena) > 1000 * PARTS * (PARTS + 1) / 2);
+            if (keeps)
+                fw_arena_copy_put_back(arena, &copy);
+            else
+                fw_arena_rewind(arena, mark);
+        }
+        fw_arena_copy_free(&copy);
+        fw_arena_free(arena);
+    }
+}
+
+/* the first of those that fail counts, and what the whole may not hold is refused */
+static void a_part_fails(void **state) {
+    (void)state;
+    for (int idle = 0; idle < 4; idle++) {
+        fw_team team = {idle};
+        fw_arena *arena = fw_arena_new(0);
+        fw_arena_help_with(arena, &team);
+        parts p = {.fails = 11};
+        assert_int_equal(fw_arena_each(arena, PARTS, one_part, &p), FW_SOLVER);
+        assert_int_equal(team.idle, idle);
+        for (size_t i = 0; i < 12; i++) { /* and what it left itself: its messages */
+            char want[16];
+            snprintf(want, sizeof want, "part %zu", i);
+            assert_string_equal(p.text[i], want);
+        }
+        fw_arena_free(arena);
+        arena = fw_arena_new(1 << 19); /* of some 700 kB */
+        fw_arena_help_with(arena, &team);
+        p = (parts){.fails = PARTS};
+        assert_int_equal(fw_arena_each(arena, PARTS, one_part, &p), FW_NOMEM);
+        assert_int_equal(team.idle, idle);
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_are_the_wholes), cmocka_unit_test(a_part_fails),
         cmocka_unit_test(zeroed_and_aligned),   cmocka_unit_test(overflow_and_cap_are_null),
         cmocka_unit_test(rewinding_gives_back), cmocka_unit_test(a_copy_is_put_back),
         cmocka_unit_test(faults_are_injected), cmocka_unit_test(a_sanitizer_sees_inside),

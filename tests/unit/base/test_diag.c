@@ -91,12 +91,38 @@ static void table_is_sorted_and_complete(void **state) {
     assert_null(fw_diag_find(999));
 }
 
+/* what is said once of a place is not said again by a list that is taken over; anything else is, as often as it comes */
+static void once_of_a_place(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const fw_place here = {"d.xml", 3, 4}, there = {"d.xml", 3, 5};
+    fw_diags all = fw_diags_new(arena);
+    for (int flow = 0; flow < 3; flow++) {
+        fw_diags own = fw_diags_new(arena);
+        for (int twice = 0; twice < 2; twice++) {
+            if (!fw_diag_said(&own, 134, here)) fw_diag_warning(&own, 134, here, "flow %d", flow);
+            if (!fw_diag_said(&own, 134, there)) fw_diag_warning(&own, 134, there, "flow %d", flow);
+        }
+        fw_diag_warning(&own, 201, here, "flow %d", flow);
+        assert_int_equal(own.count, 3);
+        fw_diags_take(&all, &own);
+    }
+    static const int number[] = {134, 134, 201, 201, 201}, flow[] = {0, 0, 0, 1, 2};
+    assert_int_equal(all.count, 5);
+    for (int i = 0; i < 5; i++) {
+        assert_int_equal(all.item[i].number, number[i]);
+        assert_int_equal(all.item[i].message[5], '0' + flow[i]);
+    }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(printed_in_file_order_with_caret),
         cmocka_unit_test(only_the_first_hundred),
         cmocka_unit_test(errors_are_kept),
         cmocka_unit_test(orders_are_not_shown),
+        cmocka_unit_test(once_of_a_place),
         cmocka_unit_test(table_is_sorted_and_complete),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

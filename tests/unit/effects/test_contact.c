@@ -364,7 +364,8 @@ static void pressed_as_drawn(void **state) {
                                      .ay_m = r.body[0].y_m + 300e-6,
                                      .distance_m = 300e-6 + (inside ? -past : past),
                                      .stiffness_N_per_m = 1e4,
-                                     .damping_Ns_per_m = nan_};
+                                     .damping_Ns_per_m = nan_,
+                                     .place = {"d.xml", 4, 7}};
         r.scene.contact = &use, r.scene.ncontact = 1;
         for (int twice = 0; twice < 2; twice++)
             assert_int_equal(fw_effect_contact.check(&r.c, &r.diags), FW_OK);

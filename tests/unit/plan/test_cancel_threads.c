@@ -24,8 +24,9 @@ static void outcome_free(outcome *o) {
     free(o->masks);
 }
 
-static fw_design *fresh(const char *file) {
+static fw_design *helped(const char *file, int jobs) {
     fw_design_options o = fw_design_options_default();
+    o.jobs = jobs;
     o.data_directory = FW_TEST_SOURCE_DIR;
     o.samples = 51;
     o.accuracy = 0.1;
@@ -42,6 +43,10 @@ static int copy_of(fw_design *design, int document, char **copy) {
     int status = fw_design_document(design, document, &text, NULL);
     if (status == FW_STATUS_OK && !(*copy = strdup(text))) status = FW_STATUS_NOMEM;
     return status;
+}
+
+static fw_design *fresh(const char *file) {
+    return helped(file, 0);
 }
 
 /* no cmocka from here to the threads' end: it is not made for them */
@@ -116,7 +121,7 @@ static void one_is_cancelled_and_the_other_is_not(void **state) {
     fw_design_free(second);
     int cancelled = 0;
     for (int k = -1; k < moments; k++) {
-        worker pair[2] = {{.design = fresh(cancelled_file)}, {.design = fresh(other_file)}};
+        worker pair[2] = {{.design = helped(cancelled_file, 3)}, {.design = fresh(other_file)}};
         assert_non_null(pair[0].design);
         assert_non_null(pair[1].design);
         run_both(pair, (k + 0.5) * lasts_s / moments); /* the first: before it begins */
@@ -139,7 +144,46 @@ static void one_is_cancelled_and_the_other_is_not(void **state) {
     outcome_free(&want);
 }
 
+/* flows, and devices that they may make, judged by threads at once: the bytes are those of one thread */
+static void threads_that_help_change_no_byte(void **state) {
+    (void)state;
+    static const char *const file[] = {FILE_OF("reference-six-bar"), FILE_OF("leaf-four-bar"),
+                                       FILE_OF("comb-stage")};
+    for (int f = 0; f < test_cases(3, 2); f++) {
+        outcome want;
+        for (int jobs = 1; jobs < 5; jobs += 3) {
+            fw_design *design = helped(file[f], jobs);
+            assert_non_null(design);
+            outcome got = run(design);
+            assert_int_equal(got.status, FW_STATUS_OK);
+            if (jobs == 1)
+                want = got;
+            else
+                assert_true(same(&got, &want)), outcome_free(&got);
+            fw_design_free(design);
+        }
+        outcome_free(&want);
+    }
+    fw_design_options o = fw_design_options_default();
+    o.jobs = 4;
+    o.data_directory = FW_TEST_SOURCE_DIR;
+    o.effects = "fricton"; /* what a thread has to say is there when it has ended */
+    fw_design *unknown = fw_design_new(&o);
+    assert_int_equal(fw_design_read(unknown, file[0]), FW_STATUS_OK);
+    assert_int_equal(fw_design_judge(unknown), FW_STATUS_USAGE);
+    size_t said = 0;
+    for (size_t i = 0; i < fw_design_diagnostics(unknown); i++) /* beside notes on materials */
+        said += strstr(fw_design_diagnostic(unknown, i)->message, "did you mean 'friction'") != NULL;
+    assert_int_equal(said, 1);
+    fw_design_free(unknown);
+    o.effects = NULL, o.jobs = 257;
+    fw_design *wrong = fw_design_new(&o);
+    assert_int_equal(fw_design_read(wrong, file[0]), FW_STATUS_USAGE);
+    fw_design_free(wrong);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(one_is_cancelled_and_the_other_is_not)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(one_is_cancelled_and_the_other_is_not),
+                                       cmocka_unit_test(threads_that_help_change_no_byte)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
