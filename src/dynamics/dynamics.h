@@ -185,9 +185,10 @@ typedef struct fw_dynamics_motion {
     const struct fw_statics_level_step *level;
 } fw_dynamics_motion;
 
-/* Of a motion that was shown again: whether it is known that nothing it rests on is unstable, kept for others like it,
-   whose loads and springs are the same to the last bit. NULL: it was computed, or is kept no longer */
-bool *fw_dynamics_motion_steady(const fw_dynamics_motion *motion);
+/* Of a motion that was shown again: the share of the stiffness that its loads leave, where it is known that nothing it
+   rests on is unstable, else 0; kept for others like it, whose loads and springs are the same to the last bit. NULL: it was
+   computed, or is kept no longer */
+double *fw_dynamics_motion_steady(const fw_dynamics_motion *motion);
 
 /* one scene from the assembled position, with inertia. FW_SOLVER when the steps become too
    small. */

@@ -36,7 +36,7 @@ typedef struct kept { /* its arena holds all of it; NULL: nothing is kept here *
     size_t nkey;
     ending ending;
     long number; /* among all that its thread kept */
-    bool steady; /* what it rests on is known to be stable */
+    double steady; /* what it rests on is stable, and so much of its stiffness is left; 0: not known */
 } kept;
 
 struct fw_dynamics_tapes {
@@ -330,7 +330,7 @@ static fw_status replay(kept *pass, fw_dynamics_run *r, fw_maths_stepper *s,
     return FW_OK;
 }
 
-bool *fw_dynamics_motion_steady(const fw_dynamics_motion *x) {
+double *fw_dynamics_motion_steady(const fw_dynamics_motion *x) {
     for (int i = 0; x->tapes && i < KEPT; i++)
         if (x->tapes->pass[i].tape.arena && x->tapes->pass[i].number == x->again)
             return &x->tapes->pass[i].steady;

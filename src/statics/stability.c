@@ -9,7 +9,8 @@
    from the last look before the first unstable one on, so that a motion that falls, or swings
    through, is not, and one that came to rest before it became unstable is. mu is linear in the loads along a straight
    path of equilibria: with mu_0 of the same mode without them the share that it would bear is
-   mu_0/(mu_0 - mu). Units: scaled. Valid where statics is; a motion between instants is taken as
+   mu_0/(mu_0 - mu). What is left of the stiffness, 1 where loads take nothing, is the least mu over that of the device at rest,
+   drawn and without loads: it goes to 0 at a fold. Units: scaled. Valid where statics is; a motion between instants is taken as
    straight and moved onto the joints. Cost: 30 n^3 per instant, n = 3 nbody, and 10 to 30 of them
    where something is found. Source: Lagrange and Dirichlet's theorem; Thompson and Hunt, A General
    Theory of Elastic Stability 1973. Test: test_poise.c. */
@@ -42,6 +43,7 @@ typedef struct looker {
     int pieces;
     bool vary; /* some law does within a piece */
     double lowest, growth;
+    double least;   /* of all looks, unstable ones too */
     double since_s; /* the last look before the first that is unstable, or the start */
     double t_s, piece_s, *where, *shape; /* of the lowest: u and its mode (n) */
     fw_statics_stability *out;
@@ -163,6 +165,7 @@ static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     fw_status status = fw_statics_equilibrium_evaluate(w);
     if (status == FW_SOLVER) return FW_OK; /* nothing is known there */
     FW_TRY(status);
+    if (w->reduced.dof > 0) k->least = fmin(k->least, w->reduced.value[0]);
     if (stands(k, t_s)) return FW_OK;
     status = let_settle(k);
     if (status == FW_SOLVER) return FW_OK;
@@ -201,6 +204,28 @@ static fw_status look_along(looker *k) {
         }
     }
     return FW_OK;
+}
+
+/* the lowest eigenvalue at rest, drawn and without loads; NaN: none is known. Loads are set anew by every look */
+static fw_status at_rest(looker *k, double *lowest) {
+    fw_statics_equilibrium *w = &k->w;
+    fw_multibody_loading *l = &w->system->loading;
+    const size_t n = (size_t)w->model->nq;
+    const fw_multibody_loading had = *l;
+    double *constant;
+    *lowest = (double)NAN;
+    FW_NEED(constant = fw_arena_array(w->arena, double, n));
+    loads_of(k, 0, 0);
+    memcpy(constant, l->constant, n * sizeof *constant);
+    memset(l->constant, 0, n * sizeof *l->constant);
+    memset(l->force, 0, 2 * (size_t)w->model->nload * sizeof *l->force);
+    l->actuation = l->drive = 0;
+    memset(w->y, 0, (size_t)w->model->ny * sizeof *w->y);
+    const fw_status status = fw_statics_equilibrium_evaluate(w);
+    if (status == FW_OK && w->reduced.dof > 0) *lowest = w->reduced.value[0];
+    memcpy(l->constant, constant, n * sizeof *constant);
+    l->actuation = had.actuation, l->drive = had.drive;
+    return status == FW_SOLVER ? FW_OK : status;
 }
 
 /* ---- has it left? ---- */
@@ -346,8 +371,11 @@ static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability
 
 fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechanism,
                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
-                                    fw_diags *diags, const fw_statics_stability **stability) {
+                                    fw_diags *diags, const fw_statics_stability **stability,
+                                    double *left) {
+    double rest;
     *stability = NULL;
+    *left = (double)NAN;
     if (!motion->loads || motion->ended || motion->nsample < 1 || mechanism->nbody == 0)
         return FW_OK;
     if (3 * mechanism->nbody > FW_STABILITY_MOST) {
@@ -357,11 +385,15 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
                      FW_NAMED("scene", fw_text_name(scene->name)), FW_STABILITY_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }
-    bool *steady = fw_dynamics_motion_steady(motion);
-    if (steady && *steady) return FW_OK;
+    double *steady = fw_dynamics_motion_steady(motion);
+    if (steady && *steady > 0) {
+        *left = *steady;
+        return FW_OK;
+    }
     fw_diags silent = fw_diags_new(arena);
     looker k = {.w = {.arena = arena, .mechanism = mechanism, .scene = scene, .diags = &silent},
-                .motion = motion};
+                .motion = motion,
+                .least = HUGE_VAL};
     fw_effects_loads loads = *motion->loads;
     loads.nfriction = 0;
     fw_status status = fw_statics_equilibrium_in_time(&k.w, &loads);
@@ -371,7 +403,9 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     FW_NEED(k.where = fw_arena_array(arena, double, n));
     FW_NEED(k.shape = fw_arena_array(arena, double, n));
     FW_TRY(find_pieces(&k, &loads));
+    FW_TRY(at_rest(&k, &rest));
     FW_TRY(look_along(&k));
-    if (steady && k.growth == 0) *steady = true;
+    if (rest > 0 && isfinite(k.least)) *left = fmax(k.least / rest, 0);
+    if (steady && k.growth == 0) *steady = *left > 0 ? *left : 1;
     return k.growth >= fw_least_growth ? conclude(&k, diags, stability) : FW_OK;
 }

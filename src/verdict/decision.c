@@ -438,3 +438,133 @@ double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
     const double nearest = by_nearest || meet ? fw_verdict_search_used_nearest(c) : 0;
     return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
 }
+
+/* ---- what loads leave of the stiffness ----
+   Bands hold what a stiffness is off by in proportion, and a displacement goes by what loads leave of it: by the inverse of
+   that share, and without end at a fold. So where a scene's loads leave less than `soft` of it, the scene is moved twice
+   more, with its loads (1 + e) and 1/(1 + e) times as large, e = what hinges and bodies may give more than computed: that is
+   the device with all of its stiffness so much less, or more. What goes further than in proportion, f over (1 + e), is a factor on what
+   moves, as near a resonance: of a hinge by its angle, of bodies by the one of which that is most; those that go less than a
+   twentieth of the largest way are left out. Where there is no such motion the device may have snapped: undecided.
+   Inputs: v->left, motions. Error: one e for all that gives; heat, stress and drivers stay as they are. Cost: two motions,
+   of such scenes alone. Test: test_effects.py, NearAFold */
+
+static const double soft = 0.8, hardly_moves = 0.05;
+
+/* how far a coordinate of a body is from where it began; the ground stays */
+static double moved(const fw_dynamics_motion *x, int n, int row, int body, int axis) {
+    return body == FW_GROUND ? 0 : x->q[row * n + 3 * body + axis] - x->q[3 * body + axis];
+}
+
+/* the largest in the scene: (nbody) ways of centres, then turns, then (nhinge) angles */
+static void farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far) {
+    const int nb = m->nbody, n = 3 * nb;
+    fw_dynamics_motion_rows(x, 0, x->nsample);
+    for (int row = 0; row < x->nsample; row++) {
+        for (int b = 0; b < nb; b++) {
+            far[b] = fmax(far[b], hypot(moved(x, n, row, b, 0), moved(x, n, row, b, 1)));
+            far[nb + b] = fmax(far[nb + b], fabs(moved(x, n, row, b, 2)));
+        }
+        for (int h = 0; h < m->nhinge; h++) {
+            const fw_mechanism_pin *pin = &m->pin[m->hinge[h].pin];
+            const double angle =
+                moved(x, n, row, pin->body_b, 2) - moved(x, n, row, pin->body_a, 2);
+            far[2 * nb + h] = fmax(far[2 * nb + h], fabs(angle));
+        }
+    }
+}
+
+static double largest_of(const double *x, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
+
+/* largest (way 1) or least (-1) of now over was, of those of n that moved at all; 1: none did */
+static double change(const double *was, const double *now, int n, int way) {
+    const double most = largest_of(was, n);
+    double by = way > 0 ? 0 : HUGE_VAL;
+    for (int i = 0; i < n; i++)
+        if (was[i] > hardly_moves * most)
+            by = way > 0 ? fmax(by, now[i] / was[i]) : fmin(by, now[i] / was[i]);
+    return most > 0 ? by : 1;
+}
+
+/* the ways of a scene with its loads `by` times as large; *goes false: there is no such motion, or it is not the whole of it */
+static fw_status move_with(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                           double by, const fw_dynamics_motion *like,
+                           const fw_dynamics_motion_options *given, double *far, bool *goes) {
+    fw_device_scene changed = *scene;
+    fw_dynamics_motion_options o = *given;
+    fw_diags own = fw_diags_new(arena);
+    const fw_dynamics_motion *x;
+    FW_TRY(fw_device_own_scene(arena, &changed));
+    fw_effects_scale(&changed, by);
+    o.observe = NULL, o.trace = NULL, o.glance = NULL, o.like = NULL;
+    o.samples = like->nsample, o.hinge_accuracy = 1;
+    o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+    const fw_status status = fw_statics_move_scene(arena, m, &changed, &o, &own, &x);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    *goes = status == FW_OK && !x->ended;
+    if (*goes) farthest(m, x, far);
+    return FW_OK;
+}
+
+static fw_status tell_soft(fw_arena *arena, const fw_device_scene *s, double left, double e,
+                           bool goes, double most, bool brief, fw_diags *diags,
+                           fw_verdict_variant_verdict *v) {
+    char part[32], off[32], times[32];
+    const char *start = fw_arena_printf(
+        arena,
+        "%s%s: its loads leave %s %% of the stiffness of the device's softest motion, and with "
+        "loads larger by the %s %% that hinges and bodies may give more than computed",
+        FW_NAMED("scene", s->name), fw_number_text(part, sizeof part, 100 * left, 2),
+        fw_number_text(off, sizeof off, 100 * e, 2));
+    FW_NEED(start);
+    if (!goes)
+        return fw_verdict_scene_reason(
+            v, s, 672, FW_INCONCLUSIVE, 0.9 / (1 + e),
+            fw_arena_printf(arena, "%s no motion to its end was found: it may snap", start));
+    if (!brief && most > 1.1)
+        fw_diag_warning(
+            diags, 672, s->place,
+            "%s it moves %s times as far, which the bands hold: keep away from where it "
+            "snaps or buckles (flexwright statics --path says where that is)",
+            start, fw_number_text(times, sizeof times, most * (1 + e), 3));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, double e,
+                              const fw_dynamics_motion_options *options, bool brief,
+                              fw_diags *diags, fw_verdict_variant_verdict *v) {
+    const fw_device_scene *s = &m->device->scene[i];
+    const fw_dynamics_motion *x = v->motion[i];
+    const int nb = 2 * m->nbody, n = nb + m->nhinge;
+    fw_effects_load_scaling loads;
+    fw_effects_find_loads(s, &loads);
+    if (!(v->left[i] < soft) || x->ended || loads.count == 0 || !(e > 0) || isinf(e)) return FW_OK;
+    double *far = fw_arena_array(arena, double, 3 * (size_t)n), *f = v->shaken[i].factor;
+    bool goes = true;
+    FW_NEED(far);
+    farthest(m, x, far);
+    for (int k = 1; k < 3 && goes; k++)
+        FW_TRY(
+            move_with(arena, m, s, k == 1 ? 1 + e : 1 / (1 + e), x, options, far + k * n, &goes));
+    double most = 1;
+    for (int k = 1; k < 3 && goes; k++) {
+        const int way = k == 1 ? 1 : -1, pins = m->nbody;
+        const double over = k == 1 ? 1 / (1 + e) : 1 + e, *now = far + k * n;
+        const double part[3] = {over * change(far, now, pins, way),
+                                over * change(far + pins, now + pins, pins, way),
+                                over * change(far + nb, now + nb, m->nhinge, way)};
+        const double all = way * fmax(way * part[0], way * part[1]);
+        for (int h = 0; h <= m->nhinge; h++) {
+            double *to = &f[2 * h + k - 1];
+            *to *= way * fmax(way * (h < m->nhinge ? part[2] : all), way);
+        }
+        v->shaken[i].late = fmax(v->shaken[i].late, fabs(all - 1));
+        if (way > 0) most = fmax(all, part[2]);
+    }
+    return tell_soft(arena, s, v->left[i], e, goes, most, brief, diags, v);
+}

@@ -447,9 +447,10 @@ static double largest_of(const double *x, int n) {
     return most;
 }
 
-/* v->shaken; a warning, and a reason where what does not meet may then meet */
+/* v->shaken; warnings, and a reason where what does not meet may then meet */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
-                            bool brief, fw_diags *diags, fw_verdict_variant_verdict *v) {
+                            const fw_dynamics_motion_options *options, bool brief, fw_diags *diags,
+                            fw_verdict_variant_verdict *v) {
     const double told = 1.1;
     const fw_device *d = m->device;
     const int nh = m->nhinge;
@@ -461,12 +462,17 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         for (int h = 0; h < 2 * nh + 2; h++)
             f[h] = 1;
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
+        const double shakes = largest_of(f, 2 * nh + 2);
+        if (v->motion[i])
+            FW_TRY(fw_verdict_softened(arena, m, i,
+                                       bodies[i] + fw_verdict_motion_model_error(m, v->motion[i]),
+                                       options, brief, diags, v));
         if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
         FW_TRY(may_meet(arena, i, f[2 * nh], v));
         FW_TRY(may_ring(arena, i, v));
         may_come_near(i, f[2 * nh], v);
         most = largest_of(f, 2 * nh + 2);
-        if (!(most > told) || brief) continue;
+        if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
             least = fmin(least, f[2 * h + 1]);
         bool shaken;

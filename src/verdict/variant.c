@@ -305,6 +305,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
                                       : fw_hinges_good);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
+    FW_NEED(v->left = fw_arena_array(arena, double, n));
     const size_t reasons = fw_verdict_reasons_most(device, v->nrequirement);
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     FW_TRY(fw_verdict_bent(arena, device, v));
@@ -550,7 +551,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_NEED(bodies = fw_arena_array(arena, double, (size_t)device->nscene));
     for (int i = 0; i < device->nscene; i++)
         bodies[i] = fw_verdict_bending_share(v->motion[i]);
-    FW_TRY(fw_verdict_detune(arena, m, bodies, brief, diags, v));
+    FW_TRY(fw_verdict_detune(arena, m, bodies, &options->motion, brief, diags, v));
     fw_verdict_bent_leaves_open(v, 0);
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
     if (!options->hinges_only)

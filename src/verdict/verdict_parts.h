@@ -180,10 +180,15 @@ fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const f
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);
-/* v->shaken, whose factors are 1 where no law goes to and fro; bodies (nscene): share that they give
-   (fw_verdict_bending_share). A warning (FW-D642), and what may meet then, or may not, is undecided */
+/* decision.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672) */
+fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
+                              const fw_dynamics_motion_options *options, bool brief,
+                              fw_diags *diags, fw_verdict_variant_verdict *v);
+/* v->shaken, whose factors are 1 where no law goes to and fro and loads leave most of the stiffness; bodies (nscene): share
+   that they give (fw_verdict_bending_share). Warnings (FW-D642, FW-D672), and what may meet then, or may not, is undecided */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,
-                            bool brief, fw_diags *diags, fw_verdict_variant_verdict *v);
+                            const fw_dynamics_motion_options *options, bool brief, fw_diags *diags,
+                            fw_verdict_variant_verdict *v);
 /* factors (2 x (nhinge + 1)) and `late` for modes that lie anywhere between their low and high, at other stiffnesses */
 fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                    const fw_verdict_shaken *shaken, double *factor, double *late);

@@ -162,9 +162,9 @@ static void another_number(void **state) {
             const seen now = move(arena, &six, o, 0, tapes);
             same_motions(&alone, &now);
             /* what is known of one says nothing of the other */
-            bool *steady = fw_dynamics_motion_steady(now.motion);
-            assert_true(k < 2 ? steady == NULL : steady && !*steady);
-            if (steady) *steady = true;
+            double *steady = fw_dynamics_motion_steady(now.motion);
+            assert_true(k < 2 ? steady == NULL : steady && *steady == 0);
+            if (steady) *steady = 0.5;
         }
         *number[i] = was;
     }
@@ -177,8 +177,8 @@ static void another_number(void **state) {
     move(arena, &six, other, 0, tapes);
     const seen third = move(arena, &six, other, 0, tapes), fourth = move(arena, &six, other, 0, tapes);
     assert_ptr_equal(fw_dynamics_motion_steady(third.motion), fw_dynamics_motion_steady(fourth.motion));
-    *fw_dynamics_motion_steady(third.motion) = true;
-    assert_true(*fw_dynamics_motion_steady(fourth.motion));
+    *fw_dynamics_motion_steady(third.motion) = 0.7;
+    assert_true(*fw_dynamics_motion_steady(fourth.motion) == 0.7);
     fw_dynamics_tapes_free(tapes);
     fw_arena_free(arena);
 }

@@ -12,10 +12,13 @@ static const fw_dynamics_motion *move(fixture *f, const rig *r, int samples) {
     return m;
 }
 
+static double left; /* of the stiffness, in the scene looked at last */
+
 static const fw_statics_stability *find(fixture *f, const rig *r, int samples) {
     const fw_dynamics_motion *m = move(f, r, samples);
     const fw_statics_stability *p = NULL;
-    assert_int_equal(fw_statics_stability_find(f->arena, &r->m, &r->scene, m, &f->diags, &p),
+    assert_int_equal(fw_statics_stability_find(f->arena, &r->m, &r->scene, m, &f->diags, &p,
+                                               &left),
                      FW_OK);
     assert_int_equal(said(f, 259), p != NULL);
     return p;
@@ -42,6 +45,7 @@ static void mast(void **state) {
             fixture f = begin();
             rig r = rig_mast(&f, 1, k, times[i] * k);
             const fw_statics_stability *p = find(&f, &r, samples);
+            assert_relative(left, times[i] < 1 ? 1 - times[i] : 0, 1e-9);
             if (times[i] < 1) {
                 assert_null(p);
                 fw_arena_free(f.arena);
@@ -216,7 +220,8 @@ static void too_large(void **state) {
     rig r = rig_windows(f.arena, 60);
     const fw_dynamics_motion *m = move(&f, &r, 2);
     const fw_statics_stability *p;
-    assert_int_equal(fw_statics_stability_find(f.arena, &r.m, &r.scene, m, &f.diags, &p), FW_OK);
+    assert_int_equal(fw_statics_stability_find(f.arena, &r.m, &r.scene, m, &f.diags, &p, &left),
+                     FW_OK);
     assert_null(p);
     assert_true(said(&f, 259));
     fw_arena_free(f.arena);
