@@ -4,7 +4,7 @@ import { alike } from "./alike.js";
 import { newest, post } from "./api.js";
 import { begin, inputKey, look, mayChange, together } from "./belong.js";
 import { announce } from "./dom.js";
-import { emit, on, state } from "./store.js";
+import { emit, on, onFirst, state } from "./store.js";
 
 const TYPING_MS = 90; // that nothing is typed before an answer is asked for
 
@@ -197,7 +197,7 @@ export const askAgain = () => emit("change");
 export function startPreviews() {
     let timer = 0;
     for (const event of ["text", "change", "options"]) on(event, back);
-    on("change", () => {
+    onFirst("change", () => {
         clearTimeout(timer);
         timer = 0;
         state.cancelled = null;
