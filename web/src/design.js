@@ -152,7 +152,7 @@ function take(answer, input) {
             told(answer, input, diagnostics);
         });
     });
-    if (first || inputKey() === toldOf) rest();
+    if (first || state.same || inputKey() === toldOf) rest(); // of the same device the picture stays, and its rest can come with it
     afterFrame(() => {
         state.latency.push(performance.now() - input.since);
         if (state.latency.length > 400) state.latency.shift();

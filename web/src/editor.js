@@ -71,6 +71,7 @@ export class Editor {
             EditorView.contentAttributes.of({ "aria-label": "XML text of the device" }),
             keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, ...foldKeymap]), // Tab leaves the editor, as everywhere; Ctrl ] and Ctrl [ indent
             EditorView.updateListener.of((update) => {
+                if (!this.seen) return; // it reads on in a text that is not the present one any more
                 this.state = update.state;
                 if (update.docChanged) this.onchange(this.text);
             }),
