@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { after, before, describe, test } from "node:test";
-import { axeSource, close, finish, open, program, serve, source, view } from "./helper.mjs";
+import { answered, axeSource, close, finish, open, program, serve, source, view } from "./helper.mjs";
 
 after(finish);
 
@@ -56,5 +56,80 @@ describe("commands as cards", () => {
         const left = await page.evaluate(() => globalThis.flexwright.state.preview.left_out.map((x) => x.sentence));
         const said = await page.textContent(".left-out");
         for (const sentence of left) assert.ok(said.includes(sentence), sentence);
+    });
+});
+
+describe("what an answer does not change", () => {
+    let server, page;
+    before(async () => {
+        server = await serve("reference-six-bar");
+        page = await open(server);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+    const settled = () => page.waitForFunction(() => globalThis.flexwright.settled(false));
+
+    test("parts of the picture, bars and what somebody has opened are the same elements with what is new in them", async () => {
+        await settled();
+        await page.evaluate(() => {
+            const find = (what) => document.querySelector(what);
+            find(".ledger details").open = true;
+            find(".bar").focus();
+            globalThis.before = [".ledger details", ".bar", ".view-motion .flexure", ".view-motion .body:not(.fixed) path", "#banner .decision"].map(find);
+            globalThis.outline = globalThis.before[2].getAttribute("d");
+        });
+        await answered(page, () => page.evaluate(() => {
+            const slider = document.querySelector("[data-parameter]");
+            slider.value = Number(slider.value) + 5 * Number(slider.step);
+            for (const event of ["input", "change"]) slider.dispatchEvent(new Event(event, { bubbles: true }));
+        }));
+        await settled();
+        const seen = await page.evaluate(() => {
+            const [effect, bar, flexure] = globalThis.before;
+            const judged = globalThis.flexwright.parts.verdict.judged ?? globalThis.flexwright.state.preview.verdict;
+            const use = judged.hinges.find((x) => x.id === bar.dataset.hinge);
+            return {
+                there: globalThis.before.map((x) => x.isConnected), open: effect.open, focus: document.activeElement === bar, outline: flexure.getAttribute("d") !== globalThis.outline,
+                said: bar.querySelector(".bar-value").textContent, share: 100 * (use.as_fabricated ?? use).utilisation, picked: (bar.click(), globalThis.flexwright.state.hinge === bar.dataset.hinge),
+            };
+        });
+        assert.deepEqual(seen.there, [true, true, true, true, true]);
+        assert.ok(seen.open && seen.focus && seen.outline && seen.picked, JSON.stringify(seen));
+        assert.ok(Math.abs(parseFloat(seen.said) - seen.share) < 0.01 * seen.share, `${seen.said} of ${seen.share} %`);
+        await page.click(".bar"); // looked at no more
+    });
+
+    test("a key of a slider has few elements styled anew", async () => {
+        const client = await page.context().newCDPSession(page);
+        const events = [];
+        client.on("Tracing.dataCollected", ({ value }) => events.push(...value));
+        await page.locator("[data-parameter]").first().focus();
+        await client.send("Tracing.start", { transferMode: "ReportEvents", traceConfig: { includedCategories: ["devtools.timeline"] } });
+        await answered(page, () => page.keyboard.press("ArrowRight"));
+        await settled();
+        const done = new Promise((resolve) => client.once("Tracing.tracingComplete", resolve));
+        await client.send("Tracing.end");
+        await done;
+        const styled = events.filter((e) => e.name === "UpdateLayoutTree").map((e) => e.args.elementCount ?? 0);
+        assert.ok(styled.length > 0 && Math.max(...styled) < 250, `${styled}`); // all of the page are more than a thousand
+    });
+
+    test("the text that nobody sees is there when it is looked at, and has its history", async () => {
+        const [before, now] = await page.evaluate(() => [globalThis.flexwright.state.text, globalThis.flexwright.parts.editor.text]);
+        assert.equal(now, before);
+        await answered(page, () => page.keyboard.press("ArrowLeft"));
+        await settled();
+        const changed = await page.evaluate(() => globalThis.flexwright.state.text);
+        assert.notEqual(changed, before);
+        await answered(page, () => page.click("#undo"));
+        assert.equal(await page.evaluate(() => globalThis.flexwright.state.text), before);
+        await answered(page, () => page.click("#redo"));
+        await page.click("#tab-xml");
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.editor.view.state.doc.toString()), changed);
+        await answered(page, () => page.click("#undo"));
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.editor.view.state.doc.toString()), before);
+        await page.click("#tab-form");
     });
 });

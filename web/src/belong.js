@@ -96,7 +96,8 @@ function look() {
 function mark(element, time) {
     const some = element.shown.filter((x) => x.of !== null);
     const former = some.filter((x) => x.former);
-    element.dataset.of = former.length ? "former" : some.length ? "present" : "nothing";
+    const of = former.length ? "former" : some.length ? "present" : "nothing";
+    if (element.dataset.of !== of) element.dataset.of = of;
     const age = Math.max(...former.map((x) => time - (left.get(x.of) ?? 0)), -Infinity);
     const old = age >= OLD_MS;
     if (old !== element.classList.contains("old")) element.classList.toggle("old", old);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The sign that something is computed, from OLD_MS on, with its time and a button that ends it.
 import { OLD_MS, underWay } from "./belong.js";
-import { button, h } from "./dom.js";
+import { become, button, h } from "./dom.js";
 import { on } from "./store.js";
 
 const TICK_MS = 100;
@@ -20,8 +20,8 @@ export function busySign() {
         const list = underWay();
         const first = list.reduce((a, b) => (!a || b.since < a.since ? b : a), null);
         const age = first ? performance.now() - first.since : 0;
-        box.hidden = !first || age < OLD_MS;
-        cancel.hidden = !list.some((x) => x.cancel);
+        become(box, { hidden: !first || age < OLD_MS });
+        become(cancel, { hidden: !list.some((x) => x.cancel) });
         if (!box.hidden) {
             const now = `${first.words} · ${(age / 1e3).toFixed(age < 1e4 ? 1 : 0)} s`;
             if (now !== said) words.textContent = said = now;

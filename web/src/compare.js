@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The card beside the verdict that sets the present numbers beside those of the pinned version.
 import { Shown } from "./belong.js";
-import { button, h } from "./dom.js";
+import { become, button, h } from "./dom.js";
 import { beside, change, numbersOf } from "./numbers.js";
 import { on, state } from "./store.js";
 import { pin } from "./versions.js";
@@ -24,7 +24,7 @@ export class Compare {
 
     show() {
         const { pinned, preview } = state;
-        this.card.hidden = !pinned;
+        become(this.card, { hidden: !pinned });
         if (!pinned) return this.ofPreview.take(null);
         this.title.textContent = `Compared with ${pinned.name}`;
         this.ofPreview.take(state.previewOf);

@@ -4,7 +4,7 @@ import { alike } from "./alike.js";
 import { newest, post } from "./api.js";
 import { begin, inputKey, look, mayChange, together } from "./belong.js";
 import { announce } from "./dom.js";
-import { emit, on, state } from "./store.js";
+import { emit, on, onFirst, state } from "./store.js";
 
 const TYPING_MS = 90; // that nothing is typed before an answer is asked for
 
@@ -152,7 +152,7 @@ function take(answer, input) {
             told(answer, input, diagnostics);
         });
     });
-    if (first || inputKey() === toldOf) rest();
+    if (first || state.same || inputKey() === toldOf) rest(); // of the same device the picture stays, and its rest can come with it
     afterFrame(() => {
         state.latency.push(performance.now() - input.since);
         if (state.latency.length > 400) state.latency.shift();
@@ -197,7 +197,7 @@ export const askAgain = () => emit("change");
 export function startPreviews() {
     let timer = 0;
     for (const event of ["text", "change", "options"]) on(event, back);
-    on("change", () => {
+    onFirst("change", () => {
         clearTimeout(timer);
         timer = 0;
         state.cancelled = null;

@@ -23,6 +23,60 @@ export const h = (name, attributes, ...children) => fill(document.createElement(
 /** s("path", {d}): an SVG element. */
 export const s = (name, attributes, ...children) => fill(document.createElementNS(SVG, name), attributes, children);
 
+// What is written is laid out anew, be it what stood there or not: so only what differs is written.
+
+export function say(element, text) {
+    if (element.textContent !== text) element.textContent = text;
+}
+
+/** Attributes, of HTML and SVG elements. */
+export function put(element, attributes) {
+    for (const [name, value] of Object.entries(attributes)) if (element.getAttribute(name) !== String(value)) element.setAttribute(name, value);
+}
+
+/** Properties of an element: value, hidden ... */
+export function become(element, properties) {
+    for (const [name, value] of Object.entries(properties)) if (element[name] !== value) element[name] = value;
+}
+
+/**
+ * replaceChildren() that keeps what stands there and changes what differs in it: elements of one kind at one place are one
+ * element. So what somebody has opened or holds by the keyboard stays. Not for children whose listeners know more than their
+ * attributes tell: those of the first time stay, too.
+ */
+export function refill(box, ...children) {
+    let old = box.firstChild;
+    for (const child of children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false)) {
+        const fresh = child instanceof Node ? child : document.createTextNode(child);
+        const next = old?.nextSibling ?? null;
+        if (!old) box.append(fresh);
+        else if (!became(old, fresh)) old.replaceWith(fresh);
+        old = next;
+    }
+    while (old) {
+        const next = old.nextSibling;
+        old.remove();
+        old = next;
+    }
+}
+
+/** Makes a node show what another one does, where both are of one kind. */
+function became(old, fresh) {
+    if (old === fresh) return true;
+    if (old.nodeName !== fresh.nodeName) return false;
+    if (old.nodeType === Node.TEXT_NODE) {
+        become(old, { data: fresh.data });
+        return true;
+    }
+    for (const name of old.getAttributeNames()) if (!fresh.hasAttribute(name) && name !== "open") old.removeAttribute(name);
+    for (const { name, value } of fresh.attributes) {
+        if (name === "style") become(old.style, { cssText: fresh.style.cssText }); // the attribute is forbidden, the CSSOM is not
+        else put(old, { [name]: value });
+    }
+    refill(old, ...fresh.childNodes);
+    return true;
+}
+
 export const $ = (id) => document.getElementById(id);
 
 const ICONS = {

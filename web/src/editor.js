@@ -63,7 +63,7 @@ export class Editor {
     constructor(holder, { onchange }) {
         const root = holder.attachShadow({ mode: "open" });
         this.onchange = onchange;
-        this.quiet = false;
+        this.seen = false;
         this.extensions = [
             lineNumbers(), foldGutter(), highlightActiveLineGutter(), history(), drawSelection(), indentOnInput(),
             bracketMatching(), EditorView.lineWrapping, highlightActiveLine(), highlightSelectionMatches(), search({ top: true }), lintGutter(),
@@ -71,10 +71,13 @@ export class Editor {
             EditorView.contentAttributes.of({ "aria-label": "XML text of the device" }),
             keymap.of([...defaultKeymap, ...historyKeymap, ...searchKeymap, ...foldKeymap]), // Tab leaves the editor, as everywhere; Ctrl ] and Ctrl [ indent
             EditorView.updateListener.of((update) => {
-                if (update.docChanged && !this.quiet) this.onchange(this.text);
+                if (!this.seen) return; // it reads on in a text that is not the present one any more
+                this.state = update.state;
+                if (update.docChanged) this.onchange(this.text);
             }),
         ];
-        this.view = new EditorView({ state: this.#fresh(""), root, parent: root });
+        this.state = this.#fresh("");
+        this.view = new EditorView({ state: this.state, root, parent: root });
         this.view.scrollDOM.tabIndex = 0; // it scrolls; keys must reach it
         this.view.scrollDOM.setAttribute("role", "group");
         this.view.scrollDOM.setAttribute("aria-label", "XML text, scrolled by arrow keys");
@@ -85,17 +88,31 @@ export class Editor {
         this.words = { elements: table.elements, form };
     }
 
+    /** While nobody sees it the view does not follow: it would have the whole page laid out for every change. */
+    show(yes) {
+        this.seen = yes;
+        if (yes && this.view.state !== this.state) this.view.setState(this.state);
+    }
+
+    #dispatch(change) {
+        if (this.seen) return this.view.dispatch(change);
+        const one = this.state.update(change);
+        this.state = one.state;
+        if (one.docChanged) this.onchange(this.text);
+    }
+
     #fresh(doc) {
         return EditorState.create({ doc, extensions: this.extensions });
     }
 
     get text() {
-        return this.view.state.doc.toString();
+        return this.state.doc.toString();
     }
 
     /** A new document without history: another file. */
     open(text) {
-        this.view.setState(this.#fresh(text));
+        this.state = this.#fresh(text);
+        if (this.seen) this.view.setState(this.state);
         this.onchange(this.text);
     }
 
@@ -107,39 +124,39 @@ export class Editor {
         while (from < old.length && from < text.length && old[from] === text[from]) from++;
         let end = 0;
         while (end < old.length - from && end < text.length - from && old.at(-1 - end) === text.at(-1 - end)) end++;
-        this.view.dispatch({
+        this.#dispatch({
             changes: { from, to: old.length - end, insert: text.slice(from, text.length - end) },
             annotations: [isolateHistory.of("full"), Transaction.userEvent.of("input.form")],
         });
     }
 
     undo() {
-        return undo(this.view);
+        return undo({ state: this.state, dispatch: (change) => this.#dispatch(change) });
     }
     redo() {
-        return redo(this.view);
+        return redo({ state: this.state, dispatch: (change) => this.#dispatch(change) });
     }
     get depths() {
-        return [undoDepth(this.view.state), redoDepth(this.view.state)];
+        return [undoDepth(this.state), redoDepth(this.state)];
     }
 
     /** list: diagnostics of the server with line and column from 1; columns count bytes of UTF-8. */
     mark(list) {
-        const doc = this.view.state.doc;
+        const { doc } = this.state;
         const marks = list.filter((d) => d.line >= 1 && d.line <= doc.lines).map((d) => {
             const [from, to] = this.range(d.line, d.column);
             return { from, to, severity: d.severity === "error" ? "error" : d.severity === "warning" ? "warning" : "info", message: d.code ? `${d.message} [${d.code}]` : d.message };
         });
         marks.sort((a, b) => a.from - b.from);
-        // the same ones at the same places: a dispatch reads the selection, for which the whole page is laid out
+        // the same ones at the same places: a view that is seen reads the selection, for which the whole page is laid out
         if (doc === this.markedIn && alike(marks, this.marks)) return;
         Object.assign(this, { marks, markedIn: doc });
-        this.view.dispatch(setDiagnostics(this.view.state, marks));
+        this.#dispatch(setDiagnostics(this.state, marks));
     }
 
     /** The word or value at a line and column, as offsets of the document. */
     range(line, column) {
-        const text = this.view.state.doc.line(Math.min(Math.max(line, 1), this.view.state.doc.lines));
+        const text = this.state.doc.line(Math.min(Math.max(line, 1), this.state.doc.lines));
         let at = 0;
         for (let bytes = 1; at < text.length && bytes < (column || 1); ) {
             const code = text.text.codePointAt(at);

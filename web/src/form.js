@@ -3,7 +3,7 @@
 // for it. It holds nothing: every change goes to the text, and the form is made from the text again.
 import { adding, idsOf, mayAdd } from "./adding.js";
 import { edit, hold, isPresent, letGo } from "./design.js";
-import { button, h, setOptions } from "./dom.js";
+import { become, button, h, put, say, setOptions } from "./dom.js";
 import { number, splitQuantity } from "./format.js";
 import { parse, walk } from "./model.js";
 import { emit, on, state } from "./store.js";
@@ -117,22 +117,19 @@ export class Form {
         });
         const holder = h("div", { class: "slider", "data-name": name() }, h("div", { class: "slider-head" }, label, value), range, ends, wrong, doc);
         const refresh = () => {
-            label.textContent = name();
-            doc.textContent = text("doc") ?? "";
+            say(label, name());
+            say(doc, text("doc") ?? "");
             const present = state.set[name()] ?? text("value") ?? "";
-            if (document.activeElement !== value) value.value = present;
+            if (document.activeElement !== value) become(value, { value: present });
             const b = bounds(name(), present, text("min"), text("max"));
-            range.hidden = ends.hidden = !b;
-            holder.dataset.of = !b?.computed ? "nothing" : isPresent() ? "present" : "former";
+            for (const element of [range, ends]) become(element, { hidden: !b });
+            put(holder, { "data-of": !b?.computed ? "nothing" : isPresent() ? "present" : "former" });
             if (!b) return;
             unit = b.unit;
-            range.min = b.min;
-            range.max = b.max;
-            range.step = b.step;
-            if (!(name() in state.set)) range.value = b.value;
-            range.setAttribute("aria-valuetext", present);
-            ends.firstChild.textContent = `${number(b.min, 4)} ${unit}`;
-            ends.lastChild.textContent = `${number(b.max, 4)} ${unit}`;
+            put(range, { min: b.min, max: b.max, step: b.step, "aria-valuetext": present });
+            if (!(name() in state.set)) become(range, { value: String(b.value) });
+            say(ends.firstChild, `${number(b.min, 4)} ${unit}`);
+            say(ends.lastChild, `${number(b.max, 4)} ${unit}`);
         };
         this.fields.set(`${path} slider`, { refresh });
         refresh();
@@ -153,8 +150,8 @@ export class Form {
         const note = h("span", { class: "element-note" });
         const refresh = () => {
             const now = this.places.get(path) ?? element;
-            id.textContent = title(now);
-            note.textContent = summary(now);
+            say(id, title(now));
+            say(note, summary(now));
         };
         this.fields.set(`${path} summary`, { refresh });
         refresh();
@@ -204,7 +201,7 @@ export class Form {
         const names = attribute.refers_to ? this.#suggest(input, `${id}-names`, attribute) : null;
         input.required = attribute.required;
         const refresh = () => {
-            if (document.activeElement !== input || input.tagName === "SELECT") input.value = now() ?? "";
+            if (document.activeElement !== input || input.tagName === "SELECT") become(input, { value: now() ?? "" });
         };
         this.fields.set(full, { refresh });
         refresh();

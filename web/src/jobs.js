@@ -5,7 +5,7 @@
 import { get, onConnection, post, remove } from "./api.js";
 import { inputKey, mayChange, Shown } from "./belong.js";
 import { isPresent } from "./design.js";
-import { announce, button, h } from "./dom.js";
+import { announce, become, button, h, say } from "./dom.js";
 import { duration } from "./format.js";
 import { emit, on, state } from "./store.js";
 
@@ -238,17 +238,17 @@ export class JobView {
 
     #look(ms = 0) {
         const busy = Boolean(this.working);
-        this.start.hidden = busy;
+        become(this.start, { hidden: busy });
         this.start.classList.toggle("primary", this.job === null || this.stale);
-        this.progress.hidden = this.cancel.hidden = !busy;
-        this.intro.hidden = this.job !== null || busy;
+        for (const element of [this.progress, this.cancel]) become(element, { hidden: !busy });
+        become(this.intro, { hidden: this.job !== null || busy });
         this.bar.classList.toggle("busy", busy);
         if (busy) {
             const j = this.working;
             const seconds = Math.max(j.seconds ?? 0, ms / 1000);
-            this.message.textContent = `${j.stage ?? (j.state === "queued" ? "waiting" : "working")} · ${seconds.toFixed(1)} s`;
+            say(this.message, `${j.stage ?? (j.state === "queued" ? "waiting" : "working")} · ${seconds.toFixed(1)} s`);
         } else if (this.job) {
-            this.message.textContent = this.stale ? "of the former input: something has changed since" : `computed in ${duration(this.job.seconds)}`;
-        } else this.message.textContent = "";
+            say(this.message, this.stale ? "of the former input: something has changed since" : `computed in ${duration(this.job.seconds)}`);
+        } else say(this.message, "");
     }
 }

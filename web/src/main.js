@@ -9,7 +9,7 @@ import { Assembly } from "./assembly.js";
 import { inputKey, settled } from "./belong.js";
 import { busySign } from "./busy.js";
 import { startPreviews, useEditor } from "./design.js";
-import { $, button, h, s } from "./dom.js";
+import { $, become, button, h, s, say } from "./dom.js";
 import { Draw } from "./draw.js";
 import { Editor } from "./editor.js";
 import { Explore } from "./explore.js";
@@ -64,10 +64,11 @@ function headerState() {
     const changed = unsaved();
     const gone = state.file?.gone !== undefined;
     parts.save.disabled = state.file === null ? false : (!changed && !gone) || state.file.writable === false;
-    parts.file.textContent = state.file === null ? `not a file${changed ? ", changed" : ""}` : `${state.file.name}${gone ? ", not on disk" : changed ? ", changed" : ""}`;
+    const where = state.file === null ? `not a file${changed ? ", changed" : ""}` : `${state.file.name}${gone ? ", not on disk" : changed ? ", changed" : ""}`;
+    say(parts.file, where);
     parts.file.classList.toggle("changed", changed);
-    parts.device.textContent = parts.form.name;
-    document.title = `${changed && state.file ? "• " : ""}${parts.form.name || "Flexwright"} – Flexwright`;
+    say(parts.device, parts.form.name);
+    become(document, { title: `${changed && state.file ? "• " : ""}${parts.form.name || "Flexwright"} – Flexwright` });
 }
 
 // ---- the three areas ----
@@ -81,6 +82,7 @@ function editArea() {
     parts.editTabs = makeTabs("Description", [{ id: "form", label: "Form", panel: form }, { id: "xml", label: "XML", panel: xml }],
         { onselect: (id) => {
             document.body.classList.toggle("text-shown", id === "xml");
+            parts.editor?.show(id === "xml");
             emit("view", id);
         } });
     $("edit").append(parts.editTabs.bar, form, xml);

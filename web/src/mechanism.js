@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The device as a picture that moves: real outlines of bodies, flexures bent between them, hinges
 // coloured and numbered by how much of their limit they use, springs and cables, loads as arrows.
+import { alike } from "./alike.js";
 import { Attached } from "./attached.js";
 import { scale } from "./colours.js";
-import { h, s } from "./dom.js";
+import { h, put, s, say } from "./dom.js";
 import { percent } from "./format.js";
 import { Bend, displacement, moved, place } from "./outline.js";
 import { scaleBar, Viewport } from "./viewport.js";
@@ -31,6 +32,9 @@ export function centred(frame, id, frames, centres) {
     const [c, sn] = [Math.cos(frame[2] - phi), Math.sin(frame[2] - phi)];
     return [frame[0] + c * dx - sn * dy, frame[1] + sn * dx + c * dy, frame[2]];
 }
+
+/** Lists of a body's outlines, and the class of each. */
+const OUTLINES = [["frame", "chip"], ["tethers", "tether"], ["islands", "island"], ["outline", undefined]];
 
 const FAR_PIXELS = 60; // most that a hinge's number stands off its edge for its size
 
@@ -81,39 +85,61 @@ export class Mechanism {
                 s("path", { d: "M0 0 10 5 0 10z", class: "arrow-head" })));
     }
 
-    /** Takes a new device; keeps pan and zoom. */
-    show(preview) {
-        const shape = JSON.stringify([preview.bodies, preview.flexures, preview.pins.map((p) => p.id)]);
-        const marks = JSON.stringify(preview.marks ?? []);
-        const attached = JSON.stringify([preview.scene_box_um, preview.ties, preview.springs, preview.loads]);
+    /** Takes a new device; keeps pan and zoom. posed: its pose comes next, and it is placed then. */
+    show(preview, { posed = false } = {}) {
+        const before = this.preview;
+        if (before === preview) return;
         this.preview = preview;
-        if (shape === this.shape && attached === this.attachedShape && marks === this.marksShape) return;
+        const same = (f) => Boolean(before) && alike(f(preview), f(before));
+        const shape = same((p) => [p.bodies, p.flexures, p.pins.map((x) => [x.id, x.a, x.b, x.at_um])]);
+        const marks = same((p) => p.marks ?? []);
+        const attached = same((p) => [p.scene_box_um ?? null, p.ties ?? null, p.springs ?? null, p.loads ?? null]);
+        if (shape && attached && marks) return;
         this.rest = restOf(preview);
-        if (shape !== this.shape) this.#parts(preview);
-        if (shape !== this.shape || marks !== this.marksShape) this.#marks(preview);
-        this.marksShape = marks;
-        const q = shape === this.shape && this.q ? this.q : this.rest;
-        this.shape = shape;
-        this.attachedShape = attached;
-        this.attached.show(preview, this.rest);
-        this.pose(q);
+        if (!shape) this.#parts(preview);
+        if (!shape || !marks) this.#marks(preview);
+        const q = shape && this.q ? this.q : this.rest;
+        if (!shape || !attached) this.attached.show(preview, this.rest);
+        if (posed) this.motion = null;
+        else this.pose(q);
         const room = this.scene && preview.loads?.some((x) => x.kind === "tendon") ? 0.06 : 0; // for the arrows of cables
         const box = this.scene ? preview.scene_box_um : preview.box_um;
         if (box) this.view.setBox(steady(this.view.box, grown(box, Math.max(this.around, room))));
     }
 
+    /** The elements of a device whose parts are the same stay, each with its new outline. */
     #parts(preview) {
+        const kinds = JSON.stringify([preview.bodies.map((b) => [b.id, b.fixed, b.drawn, ...OUTLINES.map(([list]) => b[list]?.length ?? 0)]), preview.flexures.map((f) => f.id), preview.pins.map((x) => x.id)]);
+        if (kinds !== this.kinds) this.#made(preview);
+        this.kinds = kinds;
+        const index = new Map(preview.bodies.map((b, i) => [b.id, i]));
+        const ground = preview.bodies.findIndex((b) => b.fixed);
+        preview.bodies.forEach((body, i) => {
+            const paths = this.bodies[i].querySelectorAll("path");
+            OUTLINES.flatMap(([list]) => body[list] ?? []).forEach((d, k) => put(paths[k], { d }));
+        });
+        preview.flexures.forEach((flexure, i) => {
+            const f = this.flexures[i];
+            [f.a, f.b] = flexure.between.map((id) => index.get(id) ?? ground);
+            if (f.rest === flexure.path && f.line === flexure.centre_line) return;
+            Object.assign(f, { rest: flexure.path, line: flexure.centre_line, bend: flexure.centre_line ? new Bend(flexure.path, lineOf(flexure.centre_line)) : null });
+        });
+        preview.pins.forEach((pin, i) => {
+            const own = preview.flexures.find((f) => f.id === pin.id);
+            const around = own && pin.at_um ? cornersAbout(own.path, pin.at_um) : []; // um: the number stands beside what it is about
+            Object.assign(this.pins[i], { body: index.get(pin.a) ?? index.get(pin.b) ?? ground, at: pin.at_um, around });
+        });
+    }
+
+    #made(preview) {
         this.parts.replaceChildren();
         this.bodies = preview.bodies.map((body) => {
-            const paths = (list, name) => (list ?? []).map((d) => s("path", { d, class: name, "fill-rule": "evenodd" }));
             const g = s("g", { class: body.fixed ? "body fixed" : body.drawn === false ? "body bare" : "body", "data-id": body.id },
-                s("title", {}, body.fixed ? "fixed" : `body ${body.id}`), paths(body.frame, "chip"), paths(body.tethers, "tether"),
-                paths(body.islands, "island"), paths(body.outline));
+                s("title", {}, body.fixed ? "fixed" : `body ${body.id}`),
+                OUTLINES.map(([list, name]) => (body[list] ?? []).map(() => s("path", { class: name, "fill-rule": "evenodd" }))));
             this.parts.append(g);
             return g;
         });
-        const index = new Map(preview.bodies.map((b, i) => [b.id, i]));
-        const ground = preview.bodies.findIndex((b) => b.fixed);
         this.flexures = preview.flexures.map((flexure) => {
             const path = s("path", { class: "flexure", "fill-rule": "evenodd", "data-id": flexure.id });
             const edge = s("path", { class: "flexure-edge" });
@@ -121,10 +147,9 @@ export class Mechanism {
             path.append(title);
             path.addEventListener("click", () => this.onhinge?.(flexure.id));
             this.parts.append(edge, path);
-            const [a, b] = flexure.between.map((id) => index.get(id) ?? ground);
-            return { id: flexure.id, a, b, path, edge, title, bend: flexure.centre_line ? new Bend(flexure.path, lineOf(flexure.centre_line)) : null, rest: flexure.path };
+            return { id: flexure.id, path, edge, title };
         });
-        this.#pins(preview, index, ground);
+        this.#pins(preview);
     }
 
     /** Why the layout cannot be made, or the device is rejected: parts and places in the warning colour. */
@@ -143,7 +168,7 @@ export class Mechanism {
         }));
     }
 
-    #pins(preview, index, ground) {
+    #pins(preview) {
         this.labels.replaceChildren();
         this.pins = preview.pins.map((pin) => {
             const text = s("text", { class: "hinge-label", "text-anchor": "middle" });
@@ -151,9 +176,7 @@ export class Mechanism {
             const g = s("g", { class: "hinge-tag", "data-id": pin.id }, back, text);
             g.addEventListener("click", () => this.onhinge?.(pin.id));
             this.labels.append(g);
-            const own = preview.flexures.find((f) => f.id === pin.id);
-            const around = own && pin.at_um ? cornersAbout(own.path, pin.at_um) : []; // um: the number stands beside what it is about
-            return { id: pin.id, body: index.get(pin.a) ?? index.get(pin.b) ?? ground, at: pin.at_um, around, width: 0, g, text, back, share: null, key: null };
+            return { id: pin.id, width: 0, g, text, back, key: null };
         });
     }
 
@@ -165,9 +188,11 @@ export class Mechanism {
         this.attached.pose(q, acting);
         const motion = q.map((pose, i) => displacement(this.rest[i], pose));
         this.motion = motion;
-        q.forEach((pose, i) => this.bodies[i].setAttribute("transform", place(pose)));
+        q.forEach((pose, i) => put(this.bodies[i], { transform: place(pose) }));
         for (const f of this.flexures) {
             const d = f.bend ? f.bend.path(motion[f.a] ?? REST, motion[f.b] ?? REST) : f.rest;
+            if (d === f.d) continue;
+            f.d = d;
             f.path.setAttribute("d", d);
             f.edge.setAttribute("d", d);
         }
@@ -206,12 +231,12 @@ export class Mechanism {
     colour(shares, chosen) {
         for (const f of this.flexures) {
             const share = shares.get(f.id);
-            const colour = share === undefined || share === null ? "var(--piece)" : scale(share);
-            f.path.style.setProperty("fill", share > 1 ? `url(#${this.id}-over)` : colour);
-            f.path.style.setProperty("stroke", share > 1 ? `url(#${this.id}-over)` : colour);
+            const colour = share === undefined || share === null ? "var(--piece)" : share > 1 ? `url(#${this.id}-over)` : scale(share);
+            if (colour !== f.colour) for (const name of ["fill", "stroke"]) f.path.style.setProperty(name, colour);
+            f.colour = colour;
             f.edge.classList.toggle("chosen", f.id === chosen);
             f.edge.classList.toggle("over", share > 1);
-            f.title.textContent = `hinge ${f.id}${share === undefined || share === null ? "" : `: ${percent(share)} of its limit`}`;
+            say(f.title, `hinge ${f.id}${share === undefined || share === null ? "" : `: ${percent(share)} of its limit`}`);
         }
         let wider = false;
         for (const pin of this.pins) {
@@ -297,6 +322,9 @@ export class Mechanism {
         const { um, text } = scaleBar(this.view.k);
         const length = um * this.view.k;
         const y = height - 14;
+        const bar = JSON.stringify([w, y, length, text]);
+        if (bar === this.barShown) return;
+        this.barShown = bar;
         this.bar.replaceChildren(
             s("path", { d: `M${w - 16 - length} ${y - 4}v4h${length}v-4` }),
             s("text", { x: w - 16 - length / 2, y: y - 7, "text-anchor": "middle" }, text));

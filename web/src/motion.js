@@ -2,10 +2,10 @@
 // The motion of one scene: the mechanism, its plots and the time that couples them; and how it is
 // computed, with what that costs.
 import { Shown } from "./belong.js";
-import { curve, dash } from "./colours.js";
+import { curve, dark, dash } from "./colours.js";
 import { coursesOf, ENERGIES, pointAt, pointsOf } from "./courses.js";
 import { setOption } from "./design.js";
-import { button, h, s, select, setGroups, setOptions } from "./dom.js";
+import { become, button, h, put, s, say, select, setGroups, setOptions } from "./dom.js";
 import { deviceName, FRAMES_A_SECOND, filmMenu, record } from "./film.js";
 import { degrees, micrometres, number, percent, prefixOf, si } from "./format.js";
 import { leftOutCsv, leftOutList, leftOutOf, leftOutSvg } from "./leftout.js";
@@ -137,7 +137,7 @@ export class Motion {
         const scenes = p.scenes.map((x) => [x.name, x.name]);
         const scene = state.options.scene ?? p.motion?.scene ?? ""; // chosen, and maybe none of the list
         setOptions(this.scene, !scene || p.scenes.some((x) => x.name === scene) ? scenes : [...scenes, [scene, scene]], scene);
-        this.player.hidden = this.plots.hidden = this.film.hidden = !p.motion;
+        for (const element of [this.player, this.plots, this.film]) become(element, { hidden: !p.motion });
         if (!p.motion) return this.#still(p);
         const first = this.t === undefined;
         const share = this.t ? this.time / this.#end() : 0;
@@ -146,7 +146,7 @@ export class Motion {
         this.limits = p.pins.map(limitOf);
         const rules = [...new Set(p.pins.map((pin) => pin.shown_criterion).filter(Boolean))];
         this.rule = rules.length === 1 ? `${rules[0]} limit` : "limit";
-        this.mechanism.show(p);
+        this.mechanism.show(p, { posed: true });
         this.mechanism.setLoads(loadsOf(p));
         this.#paths();
         this.paint();
@@ -195,7 +195,7 @@ export class Motion {
             stats.cpu_s !== undefined ? `${si(stats.cpu_s, "s", 2)} CPU` : null, gap <= CLOSED && gap !== null ? `joints closed to ${number(gap, 2)}` : null];
         const hidden = notDrawn(state.preview);
         if (hidden.length) facts.push(`not drawn: ${hidden.join(", ")}`);
-        this.stats.textContent = facts.filter(Boolean).join(" · ");
+        say(this.stats, facts.filter(Boolean).join(" · "));
         this.stats.title = [m.reason, state.preview.hinge_model_why].filter(Boolean).join("; ");
     }
 
@@ -214,17 +214,17 @@ export class Motion {
         let marks = [{ y: 100, text: this.rule }, { y: -100 }];
         if (inDegrees) marks = p.pins.flatMap((pin, i) => (this.limits[i] && (chosen === null || chosen === pin.id) ? [1, -1].map((f) => ({ y: (f * this.limits[i] * 180) / Math.PI, curve: i })) : []));
         const most = Math.max(...m.angle_rad.map((row) => Math.max(...row.map((a, i) => (this.limits[i] ? Math.abs(a) / this.limits[i] : 0)))));
-        this.angles.heading.firstChild.textContent = inDegrees ? "Hinge angle" : "Share of the limit";
-        this.angles.heading.children[1].textContent = inDegrees ? "degrees, over ms" : "%, over ms";
+        say(this.angles.heading.firstChild, inDegrees ? "Hinge angle" : "Share of the limit");
+        say(this.angles.heading.children[1], inDegrees ? "degrees, over ms" : "%, over ms");
         this.angles.show(ms, series, { marks, chosen, range: inDegrees ? undefined : most > 0.4 ? [-112, 112] : undefined });
         const energies = ENERGIES.filter(([, k]) => m.energy?.[k]);
         const largest = Math.max(0, ...energies.flatMap(([, k]) => m.energy[k].map((x) => Math.abs(x ?? 0))));
         const [prefix, size] = prefixOf(largest);
-        this.energy.heading.children[1].textContent = `${prefix}J, over ms`;
+        say(this.energy.heading.children[1], `${prefix}J, over ms`);
         this.energy.show(ms, energies.map(([name, k], i) => ({ name, key: i, values: m.energy[k].map((x) => (x === null ? null : x / size)) })));
         this.gap = m.constraint_norm ? Math.max(0, ...m.constraint_norm.map((x) => x ?? 0)) : null;
         this.plots.classList.toggle("two", energies.length === 0);
-        this.energy.root.hidden = energies.length === 0; // a row of equilibria has none
+        become(this.energy.root, { hidden: energies.length === 0 }); // a row of equilibria has none
         this.#plotCourse(p);
         this.#legend(p, energies);
     }
@@ -259,7 +259,7 @@ export class Motion {
         const required = (id) => (p.verdict?.requirements ?? []).filter((r) => r.probe === id && r.scene === p.motion.scene && (r.flow ?? null) === (p.motion.flow ?? null));
         const usual = this.gap > CLOSED ? list.find((x) => x.id === ":gap") : list.find((x) => x.probe && required(x.id).length) ?? list[0];
         const one = list.find((x) => x.id === this.chosenCourse) ?? usual;
-        this.course.root.hidden = !one;
+        become(this.course.root, { hidden: !one });
         this.courseShown = one ?? null;
         this.courseUnit = 1; // of the plotted numbers, in SI
         if (!one) return;
@@ -271,7 +271,7 @@ export class Motion {
         this.courseUnit = size;
         const levels = one.probe ? required(one.id).filter((r) => ["peak", "maximum", "minimum", "final"].includes(r.measure)) : [];
         const marks = levels.flatMap((r) => [[r.min, "at least"], [r.max, "at most"]].filter(([y]) => y !== null).map(([y, text]) => ({ y: y / size, text: `${r.measure}: ${text}` })));
-        this.course.heading.querySelector(".plot-unit").textContent = [one.kind, one.log ? "norm" : `${prefix}${one.unit}`].filter(Boolean).join(", ");
+        say(this.course.heading.querySelector(".plot-unit"), [one.kind, one.log ? "norm" : `${prefix}${one.unit}`].filter(Boolean).join(", "));
         const key = (i) => (one.probe ? 2 : i);
         const series = curves.map((x, i) => ({ name: x.name, key: key(i), solid: curves.length === 1, values: x.values.map((v) => (v === null ? null : v / size)) }));
         const old = state.pinned?.preview;
@@ -368,8 +368,8 @@ export class Motion {
         this.mechanism.colour(shares, state.hinge);
         this.slider.value = Math.round((1000 * this.time) / this.#end());
         const text = si(this.time, "s", 3);
-        this.slider.setAttribute("aria-valuetext", text);
-        this.clock.textContent = `${text} / ${si(this.#end(), "s", 3)}`;
+        put(this.slider, { "aria-valuetext": text });
+        say(this.clock, `${text} / ${si(this.#end(), "s", 3)}`);
         this.at = { i, angles, shares };
         if (this.plotted === p) this.#cursors();
     }
@@ -424,6 +424,9 @@ export function zoomButtons(view) {
 }
 
 function legend(plot, names, onclick) {
+    const shown = JSON.stringify([names, onclick ? state.hinge : null, dark()]);
+    if (shown === plot.legendShown) return;
+    plot.legendShown = shown;
     const items = names.map(([name, i]) => {
         const key = s("svg", { class: "key", viewBox: "0 0 22 6", "aria-hidden": "true" }, s("path", { d: "M0 3h22", stroke: curve(i), "stroke-width": 2, "stroke-dasharray": dash(i).join(" ") || null }));
         return onclick

@@ -2,7 +2,7 @@
 // Curves over time with one cursor for all of them.
 import uPlot from "uplot";
 import { curve, dash, themed } from "./colours.js";
-import { button, h } from "./dom.js";
+import { become, button, h, put, say } from "./dom.js";
 import { number } from "./format.js";
 import { csvOf, saveAs, svgOf } from "./plotfile.js";
 import { on, state } from "./store.js";
@@ -75,8 +75,8 @@ export class Plot {
     /** In place of curves something else, with files = {csv(), svg()} of its own; null: curves. */
     instead(element, files = null) {
         this.files = files;
-        this.other.hidden = element === null;
-        this.box.hidden = element !== null;
+        become(this.other, { hidden: element === null });
+        become(this.box, { hidden: element !== null });
         this.other.replaceChildren(...(element ? [element] : []));
     }
 
@@ -160,7 +160,7 @@ export class Plot {
             this.shape = shape;
             this.#make();
         }
-        this.box.setAttribute("aria-label", `${this.title}: ${series.map((x) => x.name).join(", ")}`);
+        put(this.box, { "aria-label": `${this.title}: ${series.map((x) => x.name).join(", ")}` });
     }
 
     #make() {
@@ -236,8 +236,9 @@ export class Plot {
 
     /** The cursor: a time in the unit of the axis, and what the heading says there. */
     at(now, text) {
+        say(this.heading.querySelector(".plot-value"), text ?? "");
+        if (this.now === now) return;
         this.now = now;
-        this.heading.querySelector(".plot-value").textContent = text ?? "";
         this.plot?.redraw(false, false);
     }
 

@@ -28,6 +28,8 @@ export const state = {
 
 const bus = new EventTarget();
 export const on = (name, f) => bus.addEventListener(name, (e) => f(e.detail));
+/** Before all others: what the server does meanwhile takes longer than they do. */
+export const onFirst = (name, f) => bus.addEventListener(name, (e) => f(e.detail), { capture: true });
 export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { detail }));
 
 /** Names of events: "text" (editor's text changed), "change" (ask for a preview), "options" (how it is

@@ -5,7 +5,7 @@ import { alike } from "./alike.js";
 import { inputKey, Shown } from "./belong.js";
 import { Compare } from "./compare.js";
 import { askAgain, edit, isPresent } from "./design.js";
-import { announce, button, h, icon, select, setOptions } from "./dom.js";
+import { announce, become, button, h, icon, refill, select, setOptions } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
 import { emit, lookAt, on, state } from "./store.js";
@@ -98,8 +98,19 @@ export class Verdict {
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
         const empty = errors.length === 1 && errors[0].code === "FW-D052" && /^<mechanism> has no <body>/.test(errors[0].message);
         const words = empty ? "Nothing is drawn yet" : `${errors.length} ${errors.length === 1 ? "mistake" : "mistakes"}`;
-        this.made.hidden = empty; // there is nothing that could be made
-        this.problems.hidden = errors.length === 0;
+        become(this.made, { hidden: empty }); // there is nothing that could be made
+        become(this.problems, { hidden: errors.length === 0 });
+        if (!alike(errors, this.listed)) this.#list(errors, empty, words);
+        this.listed = errors;
+        become(this.notes, { hidden: rest.length === 0 });
+        if (!alike(rest, this.noted)) refill(this.notes, h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));
+        this.noted = rest;
+        const said = empty ? words : errors.length ? `${words}: ${errors[0].message}` : "";
+        if (said && said !== this.said) announce(said);
+        this.said = said;
+    }
+
+    #list(errors, empty, words) {
         const unheld = errors.length > 0 && errors.every((d) => d.code === "FW-D082" && / no hinge holds it yet/.test(d.message));
         this.problems.classList.toggle("none-yet", empty || unheld); // an empty page is no mistake, nor is a link whose hinge comes next
         if (unheld) {
@@ -108,12 +119,6 @@ export class Verdict {
                 h("details", {}, h("summary", {}, `${words} in the description until then`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d)))));
         } else if (empty) this.problems.replaceChildren(h("h2", {}, words), h("p", {}, "Draw a link, hold it by a hinge, and pull it by a force or a cable; or write <body> and <revolute> in the text."), button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
         else this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
-        this.notes.hidden = rest.length === 0;
-        if (!alike(rest, this.noted)) this.notes.replaceChildren(h("h2", {}, "Warnings and notes"), h("ul", { class: "diagnostics" }, rest.slice(0, MOST).map((d) => diagnosticItem(d))));
-        this.noted = rest;
-        const said = empty ? words : errors.length ? `${words}: ${errors[0].message}` : "";
-        if (said && said !== this.said) announce(said);
-        this.said = said;
     }
 
     /** Why what is shown is old, in words, as soon as it looks old. */
@@ -154,7 +159,7 @@ export class Verdict {
         const changed = this.last !== word;
         this.last = word;
         this.#decided(top.verdict, unmade ? "reject" : top.verdict);
-        this.banner.replaceChildren(
+        refill(this.banner,
             h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", "data-of": full ? "check" : "preview", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
             ...lines.slice(0, MOST_LINES).map(topLine),
             lines.length > MOST_LINES ? h("details", {}, h("summary", {}, `${lines.length - MOST_LINES} more`), lines.slice(MOST_LINES).map(topLine)) : "",
@@ -183,10 +188,10 @@ export class Verdict {
     #required(v) {
         const asked = v.requirements ?? [];
         const probes = (v.probes ?? []).filter((x) => !asked.some((r) => r.probe === x.id && r.scene === x.scene && r.flow === x.flow));
-        this.required.hidden = asked.length + probes.length === 0;
+        become(this.required, { hidden: asked.length + probes.length === 0 });
         const bound = (r) => [r.min === null ? "" : `at least ${si(r.min, r.unit)}`, r.max === null ? "" : `at most ${si(r.max, r.unit)}`].filter(Boolean).join(", ");
         const where = (x) => [x.scene ?? "at rest", v.flows.length > 1 ? x.flow : null].filter(Boolean).join(", ");
-        this.required.replaceChildren(this.required.firstChild, h("dl", { class: "facts-list purpose" },
+        refill(this.required, this.required.firstChild, h("dl", { class: "facts-list purpose" },
             asked.flatMap((r) => [h("dt", { title: r.why ?? "" }, `${r.probe} (${r.measure ?? r.kind}, ${where(r)})`),
                 h("dd", { class: r.verdict }, r.why ? "not known" : `${si(r.value, r.unit)} \u2013 ${bound(r)}: ${WORDS[r.verdict][0].toLowerCase()}`)]),
             probes.flatMap((x) => [h("dt", {}, `${x.id} (peak, ${where(x)})`), h("dd", {}, si(x.unit === "rad" && Math.abs(x.peak) < ROUNDING_RAD ? 0 : x.peak, x.unit))])));
@@ -222,7 +227,7 @@ export class Verdict {
 
     #bars(v) {
         setOptions(this.whose, [["", "worst of all flows"], ...v.flows.map((f) => [f.id, f.id])], state.flow);
-        this.whose.hidden = v.flows.length < 2;
+        become(this.whose, { hidden: v.flows.length < 2 });
         state.flow = this.whose.value;
         const judged = this.#full() ?? v; // one number of a hinge everywhere: that of the banner
         const own = judged.flows.find((f) => f.id === state.flow);
@@ -237,7 +242,7 @@ export class Verdict {
         const most = Math.max(1.25, ...list.map((x) => Math.min(Math.max(x.utilisation ?? 0, made?.get(x.id)?.utilisation ?? 0), 4)));
         const then = pinnedShares(state.flow, made);
         const rows = list.map((hinge) => bar(hinge, most, governing, made?.get(hinge.id), then(hinge.id)));
-        this.bars.replaceChildren(
+        refill(this.bars,
             h("div", { class: "bar-axis", "aria-hidden": "true", style: { "--at": `${100 / most}%` } }, h("span", {}, "limit")),
             h("div", { class: "bar-list", style: { "--at": `${100 / most}%` } }, rows));
         this.#chosen();
@@ -265,7 +270,7 @@ export class Verdict {
 
     #flows(v) {
         const list = state.preview.flows ?? v.flows ?? [];
-        this.flows.replaceChildren(...list.map((flow) => {
+        refill(this.flows, list.map((flow) => {
             const name = flow.name ?? flow.id;
             const own = (this.#full() ?? v).flows?.find((f) => f.id === name);
             const made = flow.manufacturable;
@@ -285,8 +290,8 @@ export class Verdict {
         const rest = list.length - called.length;
         const last = called.length === 0 ? h("p", { class: "empty" }, state.preview.motion ? "This scene calls for no effect." : "Nothing was moved.")
             : rest > 0 ? h("p", { class: "doc" }, `${rest} other effects are not called for by this scene and cost nothing.`) : "";
-        this.ledger.replaceChildren(
-            ...called.map((e) => h("details", { class: e.active ? "effect active" : "effect" },
+        refill(this.ledger,
+            called.map((e) => h("details", { class: e.active ? "effect active" : "effect" },
                 h("summary", {}, h("span", { class: "effect-mark", "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", {}, e.id ?? e.name),
                     h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "no bound" : percent(e.bound, 2)),
                     h("span", { class: "state" }, e.active ? "computed" : "left out")),
@@ -304,9 +309,9 @@ export class Verdict {
             ["energy balance", number(stats.energy_error, 2)],
             ["constraints", number(stats.max_constraint_norm, 2)],
         ];
-        this.cost.replaceChildren(...rows.flatMap(([k, x]) => [h("dt", {}, k), h("dd", {}, x)]));
+        refill(this.cost, rows.map(([k, x]) => [h("dt", {}, k), h("dd", {}, x)]));
         const left = [...(p.left_out ?? []).map((x) => `${x.sentence}${x.could_reject ? " It could reject." : ""}`), ...(p.not_drawn ?? []).map((x) => `${x}: acts, and no picture shows it.`)];
-        this.left.replaceChildren(left.length ? h("details", {}, h("summary", {}, `${left.length} ${left.length === 1 ? "thing was" : "things were"} left out of the live answer`), h("ul", {}, left.map((x) => h("li", {}, x)))) : "");
+        refill(this.left, left.length ? h("details", {}, h("summary", {}, `${left.length} ${left.length === 1 ? "thing was" : "things were"} left out of the live answer`), h("ul", {}, left.map((x) => h("li", {}, x)))) : "");
     }
 
     #fabricated(v, into) {
@@ -374,7 +379,7 @@ function bar(hinge, most, governing, made, then) {
     const x = (v) => `${(100 * Math.min(Math.max(v, 0), most)) / most}%`;
     return h("button", {
         type: "button", class: `bar${use > 1 ? " over" : ""}${governing?.id === hinge.id ? " governs" : ""}`, "data-hinge": hinge.id, "aria-pressed": "false",
-        "aria-label": `Hinge ${hinge.id}: ${shown} of its limit${made ? " as made" : ""}${drawn}${then === undefined ? "" : `, ${percent(then)} in ${state.pinned.name}`}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: () => lookAt(hinge.id),
+        "aria-label": `Hinge ${hinge.id}: ${shown} of its limit${made ? " as made" : ""}${drawn}${then === undefined ? "" : `, ${percent(then)} in ${state.pinned.name}`}${governing?.id === hinge.id ? ", governs" : ""}`, onclick: (e) => lookAt(e.currentTarget.dataset.hinge),
     },
     h("span", { class: "bar-id", "aria-hidden": "true" }, hinge.id), " ", // the button's name says both, in this order
     h("span", { class: "bar-track" },
@@ -385,11 +390,15 @@ function bar(hinge, most, governing, made, then) {
     h("span", { class: "bar-value", "aria-hidden": "true" }, shown));
 }
 
+function jumpTo({ currentTarget: { dataset } }) {
+    document.dispatchEvent(new CustomEvent("jump", { detail: { line: Number(dataset.line), column: Number(dataset.column) } }));
+}
+
 export function diagnosticItem(d, jump = true) {
     const here = d.in_text !== false;
     const place = !d.line ? "" : here ? `${d.line}:${d.column}` : (d.file ?? "").split("/").at(-1);
     const text = [place ? h("span", { class: "place" }, place) : null, h("span", { class: "what" }, d.message), d.code ? h("span", { class: "code" }, d.code) : null];
     return h("li", { class: d.severity },
-        jump && d.line && here ? h("button", { type: "button", class: "jump", onclick: () => document.dispatchEvent(new CustomEvent("jump", { detail: d })) }, text) : h("div", { class: "jump" }, text),
+        jump && d.line && here ? h("button", { type: "button", class: "jump", "data-line": d.line, "data-column": d.column, onclick: jumpTo }, text) : h("div", { class: "jump" }, text),
         d.explain ? h("details", { class: "explain" }, h("summary", {}, d.title ?? "more"), h("p", {}, d.explain)) : null);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A picture that is panned and zoomed: an <svg> in screen pixels with a world group (micrometres, y up)
 // and an overlay group on top whose things keep their size on the screen.
-import { s } from "./dom.js";
+import { put, s } from "./dom.js";
 
 const LEAST_PIXELS = 40; // of the whole picture: nobody loses it by zooming out
 const MOST_SCALE = 400; // pixels per micrometre
@@ -28,6 +28,7 @@ export class Viewport {
         this.fitted = true;
         this.fingers = new Map(); // pointers that are down -> where
         this.tapped = null;
+        this.seen = [0, 0]; // its size, as it was told last: to ask for it would have the whole page laid out
         new ResizeObserver(() => this.#resized()).observe(svg);
         svg.addEventListener("wheel", (e) => this.#wheel(e), { passive: false });
         svg.addEventListener("pointerdown", (e) => this.#down(e));
@@ -35,7 +36,7 @@ export class Viewport {
     }
 
     get size() {
-        return [this.svg.clientWidth || 1, this.svg.clientHeight || 1];
+        return this.seen[0] && this.seen[1] ? this.seen : [this.svg.clientWidth || 1, this.svg.clientHeight || 1];
     }
 
     /** Sets what is to be seen; keeps the user's place unless it was the whole. */
@@ -94,12 +95,13 @@ export class Viewport {
     }
 
     #apply() {
-        this.world.setAttribute("transform", `matrix(${this.k} 0 0 ${-this.k} ${this.x} ${this.y})`);
+        put(this.world, { transform: `matrix(${this.k} 0 0 ${-this.k} ${this.x} ${this.y})` });
         this.svg.classList.toggle("zoomed", !this.fitted); // then one finger moves it; else it scrolls the page
         this.onview(this);
     }
 
     #resized() {
+        this.seen = [this.svg.clientWidth, this.svg.clientHeight];
         if (this.fitted) this.fit();
         else this.#apply();
     }
