@@ -297,6 +297,11 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
     fw_plan_design_cancel_with(design, cancel);
     fw_verdict_options *verdict = &fw_plan_design_plan(design)->options.verdict;
     verdict->hinges_only = study->asked && study->asked->judge == FW_JUDGE_HINGES;
+    verdict->unheld = true;
+    verdict->all_made =
+        study->asked && study->asked->judge == FW_JUDGE_MADE &&
+        (study->asked->kind == FW_STUDY_IS_sweep || study->asked->kind == FW_STUDY_IS_sensitivity ||
+         study->asked->kind == FW_STUDY_IS_worst_case);
     /* of a die nobody reads the drawn device, which says where there is something to look at */
     if (study->asked && study->asked->judge == FW_JUDGE_DIE)
         verdict->at_a_glance = verdict->bounded = true;

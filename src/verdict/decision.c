@@ -375,6 +375,21 @@ static bool frequency_asked(const fw_device *d, int scene) {
     return false;
 }
 
+/* What two runs differ by in what their forces tip, times the margin of estimates: forces that are round-off differ many times
+   over, and tip nothing beside a moment that is known. Not more than the forces differ by */
+static fw_status tipping_off(fw_arena *arena, const fw_mechanism_plates *p,
+                             const fw_dynamics_motion *motion, const double *acting, int n,
+                             double *looked, double tips, double *off) {
+    const fw_verdict_strain_monitor *other = motion->compared;
+    double loose;
+    int hinge;
+    FW_TRY(least_factor(arena, p, &other->bending, acting, n, looked, &loose, &hinge, NULL));
+    if (loose > 0)
+        *off =
+            fmin(*off, isinf(loose) ? 0 : motion->stats.estimate_margin * fabs(tips / loose - 1));
+    return FW_OK;
+}
+
 fw_status fw_verdict_across_tipping(fw_arena *arena, const fw_mechanism_plates *p,
                                     const fw_device_scene *s, double error,
                                     fw_verdict_variant_verdict *v, fw_verdict_across *to) {
@@ -391,10 +406,12 @@ fw_status fw_verdict_across_tipping(fw_arena *arena, const fw_mechanism_plates *
     fw_verdict_across_acting(m, s, other);
     FW_TRY(least_factor(arena, p, &saw->bending, other, 2 * n, looked, &to->tips, &hinge,
                         frequency_asked(m->device, to->scene_index) ? &to->stiffened : NULL));
+    to->tips_error = forces_off(motion);
+    if (to->tips_error > 1) /* what little there is differs */
+        FW_TRY(tipping_off(arena, p, motion, other, 2 * n, looked, to->tips, &to->tips_error));
     to->stiffened *= 1 + error;
     to->tips *= 1 - error;
     if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
-    to->tips_error = forces_off(motion);
     const double sure = to->tips / (1 + to->tips_error);
     if (!(sure < 1)) return FW_OK;
     char by[32];

@@ -288,7 +288,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
        why */
     const fw_dynamics_motion **motion;
     const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
-    double *left; /* (device->nscene) of the stiffness (fw_statics_stability_find); NaN: not known */
+    double
+        *left; /* (device->nscene) of the stiffness (fw_statics_stability_find); NaN: not known */
     /* (device->nscene) where a mode lies within its error (verdict_parts.h, FW-D642) */
     fw_verdict_shaken *shaken;
     bool beyond_pull_in; /* a scene may ask for more than its pull-in voltage */
@@ -444,13 +445,11 @@ typedef struct fw_verdict_options {
     bool decision_only; /* clearances are bounded until they decide, not found: for trials */
     bool values;        /* of the drawn device they are found all the same: for trials */
     bool ways;          /* of a corner: what would meet first if all went further is looked for */
-    /* as drawn, only hinges and requirements are read: clearances are bounded where that is enough to accept them, and
-       tethers are not watched: for studies */
-    bool bounded;
-    bool
-        grid_ways; /* bounded: bodies give too much for plain ways to be enough (fw_verdict.soft_bodies) */
-    bool
-        hinges_only; /* nothing is judged but hinges, requirements and whether motions are to be relied on */
+    bool bounded; /* clearances are bounded where that accepts, tethers not watched: for studies */
+    bool grid_ways;    /* bounded: bodies give too much for plain ways (fw_verdict.soft_bodies) */
+    bool hinges_only;  /* nothing is judged but hinges, requirements, and if motions hold */
+    bool all_made;     /* at all corners, whatever is decided before: a response is one quantity */
+    bool unheld;       /* what would have to be held is not looked for: nobody reads it */
     bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
     fw_workspace_kept *kept;      /* what devices of a study have in common; NULL: nothing */
     fw_verdict_restated restated; /* with NULL: no advice */

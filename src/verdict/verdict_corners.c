@@ -244,14 +244,17 @@ static fw_status run_all(fw_verdict_search *s) {
     return FW_OK;
 }
 
-fw_status fw_verdict_search_corners(fw_verdict_search *s) {
+static fw_status run_nominal(fw_verdict_search *s) {
     double x[FW_FABRICATION_INPUTS];
-    const bool trial =
-        s->options.corners != FW_CORNERS_AUTO; /* its nominal device is often refused */
-    if (!trial) FW_TRY(slopes_ahead(s, true));
     nominal_point(s->v, x);
-    FW_TRY(fw_verdict_search_run(s, x, FW_NO_CORNER));
-    if (s->fabricated->corner[0].decision == FW_REJECT) return FW_OK;
+    return fw_verdict_search_run(s, x, FW_NO_CORNER);
+}
+
+fw_status fw_verdict_search_corners(fw_verdict_search *s) {
+    const bool trial = s->options.corners != FW_CORNERS_AUTO; /* often refused at once */
+    if (!trial) FW_TRY(slopes_ahead(s, true));
+    FW_TRY(run_nominal(s));
+    if (s->fabricated->corner[0].decision == FW_REJECT && !s->options.all_made) return FW_OK;
     if (trial) FW_TRY(slopes_ahead(s, false));
     FW_TRY(slopes(s));
     if (no_slope(s) || fw_verdict_ends_unknown(s)) return run_all(s);
@@ -264,12 +267,6 @@ fw_status fw_verdict_search_ends(fw_verdict_search *s, int check) {
     double x[FW_FABRICATION_INPUTS];
     bool one = s->first == 0 || fw_verdict_search_without_range(s->v) + 1u == 1u << s->v->ninput;
     if (one || s->fabricated->all || isnan(s->ln[check])) return FW_OK; /* no other corner */
-    const size_t width = (size_t)s->v->ninput;
-    double *both = fw_arena_array(s->arena, double, 2 * width);
-    FW_NEED(both);
-    for (int up = 0; up < 2; up++)
-        fw_verdict_search_corner_point(s, choose(s, check, up), both + (size_t)up * width);
-    FW_TRY(fw_verdict_search_ahead(s, both, NULL, 2));
     for (int up = 0; up < 2; up++) {
         unsigned bits = choose(s, check, up);
         if (fw_verdict_search_find(s, bits) != FW_NONE) continue;
@@ -557,18 +554,24 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     fw_verdict_search s;
     bool decided, alone = options->corners == FW_CORNERS_SUSPECT && v->nsuspect > 0;
     bool quick = alone || options->corners != FW_CORNERS_AUTO;
-    if (v->ninput == 0 || options->corners == FW_CORNERS_NONE || v->drawn == FW_REJECT)
-        return FW_OK;
-    /* what is undecided as drawn stays so; a glance, which does not refine, is told how much further
-       its corner is from the limit */
-    if (!alone && v->drawn != FW_ACCEPT) return FW_OK;
+    if (v->ninput == 0 || options->corners == FW_CORNERS_NONE) return FW_OK;
+    if (v->drawn == FW_REJECT && !options->all_made) return FW_OK;
+    /* What is undecided as drawn stays so, but for what the flow makes of it without any deviation; a glance, which does not
+       refine, is told how much further its corner is from the limit */
+    const bool nominal = v->drawn != FW_ACCEPT && !options->all_made && !alone;
+    if (nominal && (quick || options->at_a_glance)) return FW_OK;
     FW_TRY(fw_verdict_search_begin(arena, device, layout, options, v, &s));
     if (quick && !alone) s.options.corners = FW_CORNERS_FIRST;
     FW_TRY(fw_verdict_search_suspects(&s, &decided));
     double *apart_most = fw_arena_array(arena, double, (size_t)v->nhinge);
     FW_NEED(apart_most);
-    if (!decided) FW_TRY(fw_verdict_search_corners(&s));
-    if (!decided) FW_TRY(hinges_apart(&s, apart_most));
+    if (nominal) {
+        FW_TRY(run_nominal(&s));
+        if (s.fabricated->corner[0].decision != FW_REJECT) return FW_OK;
+    } else if (!decided) {
+        FW_TRY(fw_verdict_search_corners(&s));
+        FW_TRY(hinges_apart(&s, apart_most));
+    }
     for (int k = 0; k < v->nhinge; k++) {
         tightest(&s, k);
         if (!decided && s.first > 0) first_order(&s, k);
@@ -587,7 +590,8 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
         return FW_OK;
     }
     FW_TRY(explain(&s));
-    if (s.fabricated->decision == FW_INCONCLUSIVE) FW_TRY(fw_verdict_fabrication_control(&s));
+    if (s.fabricated->decision == FW_INCONCLUSIVE && !options->unheld)
+        FW_TRY(fw_verdict_fabrication_control(&s));
     v->decision = fw_verdict_worse(v->decision, s.fabricated->decision);
     return add_reason(&s, v);
 }

@@ -43,3 +43,12 @@ def loose_gripper(pull="18 uN", copper_pull="1.8 uN"):
     for name, value in (("pull", pull), ("copper_pull", copper_pull)):
         text = re.sub(rf'(<parameter name="{name}" value=)"[^"]*"', rf'\1"{value}"', text)
     return text.replace('"14 ms"', '"20 ms"')
+
+# a pure torque, which strains in proportion: as made at worst a tenth more than as drawn
+TURNED_LEAF = """<device xmlns="urn:flexwright:device:1" name="turned-leaf"><parameter name="push" value="0.2 mN"/>
+<material ref="silicon-100" thickness="50 um" youngs-modulus="169 GPa" strength="1 GPa"/><limits safety-factor="2"/><flow ref="al-masked-rie"/>
+<die clearance="400 um"/><flexure id="leaf" kind="leaf" length="400 um" width="8 um" gap="12 um"/><mechanism>
+<body id="arm" x="0 mm" y="0.75 mm" width="150 um"/>
+<revolute id="A" a="ground" b="arm" b-y="-0.75 mm" hinge="leaf" damping="1e-8 N m s/rad" axis="0 deg"/></mechanism>
+<scene name="turn" duration="200 ms"><torque on="arm" value="push*1 mm" law="ramp" rise="100 ms"/></scene></device>
+"""

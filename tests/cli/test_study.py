@@ -18,7 +18,7 @@ import tempfile
 import time
 import unittest
 
-from common import ALL, GALLERY, PROGRAM, only_all, run
+from common import ALL, GALLERY, PROGRAM, TURNED_LEAF, only_all, run
 
 FLOW = ("--flow", "al-masked-rie")
 
@@ -112,6 +112,25 @@ class Study(unittest.TestCase):
                 db.execute("COMMIT")
                 self.assertEqual(resumed.wait(timeout=60), 0, resumed.stderr.read())
         self.assertEqual((self.place / "out/study.csv").read_bytes(), wanted)
+
+    def test_as_made_is_one_quantity(self):
+        """Strain goes with the torque. What a flow makes of a device is asked whatever the drawing is decided as: of a rejected one the drawn
+        share stood in the same column, so that the largest of a range was where the drawing was just accepted. And more load is never judged
+        more gently: an undecided drawing of which the flow makes what breaks is rejected."""
+        device = self.write(TURNED_LEAF, "turned.xml")
+        pushes = [0.14, 0.17, 0.19, 0.2, 0.21, 0.218, 0.222, 0.226, 0.23, 0.235, 0.25]
+        self.run_study(self.write(study("s", "sweep", f'<vary what="push" values="{"; ".join(f"{x} mN" for x in pushes)}"/>'
+                                        '<respond name="used" value="governing.utilisation"/>', device=device)), "out")
+        rows = self.rows("out")
+        shares = [float(row["used"]) / x for row, x in zip(rows, pushes)]
+        self.assertLess(max(shares) / min(shares), 1.02)
+        states = [row["state"] for row in rows]
+        self.assertEqual(states, sorted(states, key=["accept", "inconclusive", "reject"].index), states)
+        self.assertEqual(set(states), {"accept", "inconclusive", "reject"})
+        quick = ("--json", "--advice", "none", "--measurements", "none")
+        drawn = [json.loads(run("check", device, "--set", f"push={x} mN", *quick).stdout) for x in pushes[4:]]
+        self.assertEqual([d["verdict"] for d in drawn], states[4:])
+        self.assertTrue(any(d["drawn"] == "inconclusive" and d["verdict"] == "reject" for d in drawn), [(d["drawn"], d["verdict"]) for d in drawn])
 
     def test_a_sample_says_what_check_says(self):
         result = self.run_study(self.write(study("s", "sweep", SWEEP).replace("<study", "<study as=\"drawn\"")), "out")
