@@ -3,7 +3,8 @@
    pieces of all laws, the lowest eigenvalue mu of the reduced stiffness at the position of the
    motion, its rapid modes at rest, under the loads of that time (forces, drivers, elements;
    friction left out, as in statics). A disturbance grows by e^G, G = integral of sqrt(max(0, -mu)) dt, by the trapezoidal
-   rule: without damping, which would only slow it. It is reported where G is at least 2 and the
+   rule: without damping, which would only slow it. Where less than half of the stiffness is left at some look, eight times as many
+   follow. It is reported where G is at least 2 and the
    motion has moved along the unstable mode phi by less than a tenth of the way to the stable
    equilibrium u_s that descent reaches from there: max_t |phi^T M (u(t) - u)| < 0.1 |u_s - u|_M, t
    from the last look before the first unstable one on, so that a motion that falls, or swings
@@ -33,8 +34,10 @@ enum {
     FW_STEADY_LOOKS = 4,
     FW_MOST_LOOKS = 12,
     FW_MOST_BREAKS = 4096,
-    FW_SETTLE_TRIES = 8
+    FW_SETTLE_TRIES = 8,
+    FW_FINER = 8
 };
+static const double fw_softly = 0.5; /* of the stiffness */
 
 typedef struct looker {
     fw_statics_equilibrium w;
@@ -43,7 +46,9 @@ typedef struct looker {
     int pieces;
     bool vary; /* some law does within a piece */
     double lowest, growth;
-    double least;   /* of all looks, unstable ones too */
+    double least; /* of all looks, unstable ones too */
+    double
+        pushed; /* how far the equilibrium lies beside the first place that is unstable, along its mode */
     double since_s; /* the last look before the first that is unstable, or the start */
     double t_s, piece_s, *where, *shape; /* of the lowest: u and its mode (n) */
     fw_statics_stability *out;
@@ -172,6 +177,7 @@ static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     FW_TRY(status);
     if (stands(k, t_s)) return FW_OK;
     double lowest = w->reduced.value[0];
+    if (k->growth == 0) k->pushed = fabs(w->gradient[0] / lowest);
     k->growth += sqrt(-lowest) * weight_s / w->model->scale.time_s;
     if (lowest >= k->lowest) return FW_OK;
     k->lowest = lowest;
@@ -183,9 +189,10 @@ static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
 }
 
 /* pieces that are many share the looks: then one in the middle of every so many */
-static fw_status look_along(looker *k) {
+static fw_status look_along(looker *k, int finer) {
     double n = k->w.model->nq, most = fw_most_work / (30 * n * n * n);
-    int usual = k->pieces > 1 || k->vary ? FW_MOST_LOOKS : FW_STEADY_LOOKS;
+    int usual = finer * (k->pieces > 1 || k->vary ? FW_MOST_LOOKS : FW_STEADY_LOOKS);
+    k->growth = k->since_s = 0;
     int looks = (int)fmin(fmax(most, FW_LEAST_LOOKS), usual), each = looks / k->pieces;
     double end = k->at[k->pieces];
     if (each < 2) {
@@ -206,25 +213,27 @@ static fw_status look_along(looker *k) {
     return FW_OK;
 }
 
-/* the lowest eigenvalue at rest, drawn and without loads; NaN: none is known. Loads are set anew by every look */
+/* the lowest eigenvalue at rest, drawn and without loads; NaN: none is known. Loads are then what they were: those without a
+   law are set once */
 static fw_status at_rest(looker *k, double *lowest) {
     fw_statics_equilibrium *w = &k->w;
     fw_multibody_loading *l = &w->system->loading;
-    const size_t n = (size_t)w->model->nq;
-    const fw_multibody_loading had = *l;
-    double *constant;
-    *lowest = (double)NAN;
-    FW_NEED(constant = fw_arena_array(w->arena, double, n));
+    const size_t n = (size_t)w->model->nq * sizeof *l->constant,
+                 f = 2 * (size_t)w->model->nload * sizeof *l->force;
     loads_of(k, 0, 0);
-    memcpy(constant, l->constant, n * sizeof *constant);
-    memset(l->constant, 0, n * sizeof *l->constant);
-    memset(l->force, 0, 2 * (size_t)w->model->nload * sizeof *l->force);
+    const double actuation = l->actuation, drive = l->drive;
+    double *constant, *force;
+    *lowest = (double)NAN;
+    FW_NEED(constant = fw_arena_alloc(w->arena, 1, n));
+    FW_NEED(force = fw_arena_alloc(w->arena, 1, f));
+    memcpy(constant, l->constant, n), memcpy(force, l->force, f);
+    memset(l->constant, 0, n), memset(l->force, 0, f);
     l->actuation = l->drive = 0;
     memset(w->y, 0, (size_t)w->model->ny * sizeof *w->y);
     const fw_status status = fw_statics_equilibrium_evaluate(w);
     if (status == FW_OK && w->reduced.dof > 0) *lowest = w->reduced.value[0];
-    memcpy(l->constant, constant, n * sizeof *constant);
-    l->actuation = had.actuation, l->drive = had.drive;
+    memcpy(l->constant, constant, n), memcpy(l->force, force, f);
+    l->actuation = actuation, l->drive = drive;
     return status == FW_SOLVER ? FW_OK : status;
 }
 
@@ -250,6 +259,13 @@ static double travelled(looker *k) {
         most = fmax(most, fabs(product(m, k->shape, u)));
     }
     return most;
+}
+
+/* It has left to one of two sides. Where hardly anything pushed it to one when it became unstable, the side was decided by
+   round-off, and is by whatever deviates in what is made. */
+static bool is_chance(const looker *k, double way) {
+    const double hardly = 1e-5;
+    return k->pushed < hardly * way;
 }
 
 /* what goes furthest on the way in w->step: a body's centre, or, in scaled lengths, what turns */
@@ -352,6 +368,22 @@ static fw_status say(looker *k, fw_diags *diags) {
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
+static fw_status say_chance(looker *k, fw_diags *diags) {
+    fw_statics_stability *out = k->out;
+    const fw_statics_equilibrium *w = &k->w;
+    char at[32];
+    out->chance = true;
+    FW_NEED(out->text = fw_arena_printf(
+                w->arena,
+                "%s%s leaves an unstable equilibrium (at %s ms) to a side that nothing in the "
+                "description decides: %s%s may go to the other side as well. Lower the load, "
+                "stiffen the joints, or decide the side by a small eccentricity or angle",
+                FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)),
+                fw_number_text(at, sizeof at, 1e3 * out->t_s, 4), FW_NAMED("body", out->body)));
+    fw_diag_warning(diags, 259, w->scene->place, "%s", out->text);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability **stability) {
     double way;
     FW_NEED(k->out = fw_arena_one(k->w.arena, fw_statics_stability));
@@ -362,9 +394,10 @@ static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability
     const char *id = k->w.mechanism->body[fw_statics_equilibrium_mover(&k->w, k->shape)].id;
     k->out->body = fw_text_name(id);
     FW_TRY(fall(k, &way));
-    if (travelled(k) >= fw_left * way) return FW_OK;
+    const bool left = travelled(k) >= fw_left * way;
+    if (left && !is_chance(k, way)) return FW_OK;
     FW_TRY(share(k));
-    FW_TRY(say(k, diags));
+    FW_TRY(left ? say_chance(k, diags) : say(k, diags));
     *stability = k->out;
     return FW_OK;
 }
@@ -404,7 +437,9 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     FW_NEED(k.shape = fw_arena_array(arena, double, n));
     FW_TRY(find_pieces(&k, &loads));
     FW_TRY(at_rest(&k, &rest));
-    FW_TRY(look_along(&k));
+    FW_TRY(look_along(&k, 1));
+    /* what passed through an unstable equilibrium did so between two looks, and was soft at them */
+    if (k.growth < fw_least_growth && k.least < fw_softly * rest) FW_TRY(look_along(&k, FW_FINER));
     if (rest > 0 && isfinite(k.least)) *left = fmax(k.least / rest, 0);
     if (steady && k.growth == 0) *steady = *left > 0 ? *left : 1;
     return k.growth >= fw_least_growth ? conclude(&k, diags, stability) : FW_OK;

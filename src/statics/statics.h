@@ -422,7 +422,8 @@ typedef struct fw_statics_stability {
     const char *goes;  /* that body, where that is more than what bodies turn; else NULL */
     double share;      /* of the loads that it would bear, by the eigenvalues with and without them;
                           0: it does not stand without them either */
-    const char *text;  /* all that in a sentence */
+    bool chance; /* it leaves, to one of two sides: which is decided by nothing that is described */
+    const char *text; /* all that in a sentence */
 } fw_statics_stability;
 
 enum { FW_STABILITY_MOST = 300 }; /* unknowns: two to twelve dense evaluations of 30 n^3 */

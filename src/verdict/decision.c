@@ -459,7 +459,7 @@ double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
 /* ---- what loads leave of the stiffness ----
    Bands hold what a stiffness is off by in proportion, and a displacement goes by what loads leave of it: by the inverse of
    that share, and without end at a fold. So where a scene's loads leave less than `soft` of it, the scene is moved twice
-   more, with its loads (1 + e) and 1/(1 + e) times as large, e = what hinges and bodies may give more than computed: that is
+   more, with its loads (1 + e) and 1/(1 + e) times as large, e = what hinges, and bodies where that moves anything, may give more than computed: that is
    the device with all of its stiffness so much less, or more. What goes further than in proportion, f over (1 + e), is a factor on what
    moves, as near a resonance: of a hinge by its angle, of bodies by the one of which that is most; those that go less than a
    twentieth of the largest way are left out. Where there is no such motion the device may have snapped: undecided.
@@ -518,7 +518,9 @@ static fw_status move_with(fw_arena *arena, const fw_mechanism *m, const fw_devi
     const fw_dynamics_motion *x;
     FW_TRY(fw_device_own_scene(arena, &changed));
     fw_effects_scale(&changed, by);
-    o.observe = NULL, o.trace = NULL, o.glance = NULL, o.like = NULL;
+    o.observe = NULL, o.trace = NULL, o.glance = NULL, o.unsettled = NULL, o.other = NULL;
+    o.like = NULL, o.tapes = NULL, o.late_rows = false;
+    o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
     o.samples = like->nsample, o.hinge_accuracy = 1;
     o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
     const fw_status status = fw_statics_move_scene(arena, m, &changed, &o, &own, &x);

@@ -463,10 +463,11 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
             f[h] = 1;
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
         const double shakes = largest_of(f, 2 * nh + 2);
-        if (v->motion[i])
-            FW_TRY(fw_verdict_softened(arena, m, i,
-                                       bodies[i] + fw_verdict_motion_model_error(m, v->motion[i]),
-                                       options, brief, diags, v));
+        if (v->motion[i] && !v->beyond_pull_in) { /* of which it is said already */
+            const double e = fw_verdict_bending_counted(v->motion[i]) +
+                             fw_verdict_motion_model_error(m, v->motion[i]);
+            FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
+        }
         if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
         FW_TRY(may_meet(arena, i, f[2 * nh], v));
         FW_TRY(may_ring(arena, i, v));

@@ -197,7 +197,8 @@ static fw_status judge_stability(fw_arena *arena, const fw_device_scene *scene, 
         double limit = m->hinge[k].closed_form.limit_angle_rad;
         used = fmax(used, fabs(stability->angle_rad[m->hinge[k].pin]) / limit);
     }
-    bool beyond_limit = used * (1 - model) > 1 && stability->growth > fw_workspace_reached;
+    bool beyond_limit =
+        used * (1 - model) > 1 && stability->growth > fw_workspace_reached && !stability->chance;
     return fw_verdict_scene_reason(v, scene, 259, beyond_limit ? FW_REJECT : FW_INCONCLUSIVE,
                                    0.95 * stability->share, stability->text);
 }

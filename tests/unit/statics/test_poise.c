@@ -79,6 +79,23 @@ static void what_falls_is_not_reported(void **state) {
     fw_arena_free(f.arena);
 }
 
+/* it falls, to a side that only round-off, or a billionth of its length, decides: what is made goes to either */
+static void which_way_is_chance(void **state) {
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        fixture f = begin();
+        rig r = rig_mast(&f, 1, 40, 120);
+        r.scene.force[0].x_m = i == 0 ? 1e-3 : i == 1 ? 1e-9 : 0;
+        r.scene.duration_s *= i == 0 ? 1 : 3;
+        if (i == 2) r.scene.force[0].fx_N = 1e-8;
+        const fw_statics_stability *p = find(&f, &r, 101);
+        assert_int_equal(p != NULL, i > 0);
+        if (p) assert_true(p->chance);
+        if (p) assert_non_null(strstr(p->text, "to a side that nothing in the description decides"));
+        fw_arena_free(f.arena);
+    }
+}
+
 /* as in a scene that is over, or a load that is gone, before a disturbance has grown */
 static void too_short_to_grow(void **state) {
     (void)state;
@@ -230,7 +247,7 @@ static void too_large(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mast),
-        cmocka_unit_test(what_falls_is_not_reported),
+        cmocka_unit_test(what_falls_is_not_reported), cmocka_unit_test(which_way_is_chance),
         cmocka_unit_test(too_short_to_grow),
         cmocka_unit_test(rising_load),
         cmocka_unit_test(it_moves_along_the_symmetry),
