@@ -14,25 +14,6 @@ static bool same_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_ent
     return a->wafer == b->wafer || (a->wafer && b->wafer && strcmp(a->wafer, b->wafer) == 0);
 }
 
-bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
-        if (later->step == e->step && same_wafer(later, e)) return false;
-    return true;
-}
-
-/* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
-   for them, and (*together) how many share it. */
-double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                             int *together) {
-    *together = 1;
-    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
-    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
-        *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
-                     o->start_s == e->start_s && o->end_s == e->end_s &&
-                     fw_recipe_asrun_is_last(run, o);
-    return (*together + e->step->batch - 1) / e->step->batch;
-}
-
 static double booked_stop_s(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     int together;
     return e->step->booked_stop_s * fw_recipe_asrun_loads(run, e, &together);

@@ -47,7 +47,7 @@ fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *w
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
 
-/* asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
+/* asrun.c, asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
    limit as it is written; does what was measured and set keep its limits? */
 bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure);

@@ -329,64 +329,80 @@ static fw_status find_files(fw_study *study, const char **files) {
 }
 
 /* what is asked: kind, inputs, responses */
-static fw_status find_asked(fw_study *study, const char **asked) {
+static fw_status add_asked(const fw_study *study, fw_text *t) {
     const fw_device_study *a = study->asked;
-    fw_text t = fw_text_new(study->arena);
-    char digits[65];
-    fw_text_printf(&t, "%s %s %s %d %ld", fw_device_study_kind_text(a->kind),
+    fw_text_printf(t, "%s %s %s %d %ld", fw_device_study_kind_text(a->kind),
                    fw_device_study_points_text(a->points), fw_device_study_judge_text(a->judge),
                    a->samples, a->seed);
-    add_text(&t, a->name);
-    add_real(&t, a->confidence);
-    if (a->yield > 0) add_real(&t, a->yield);
-    if (a->fitted > 0) fw_text_add(&t, " fitted"), add_real(&t, a->fitted);
+    add_text(t, a->name);
+    add_real(t, a->confidence);
+    if (a->yield > 0) add_real(t, a->yield);
+    if (a->fitted > 0) fw_text_add(t, " fitted"), add_real(t, a->fitted);
     for (int k = 0; k < a->nvary; k++) {
         const fw_device_vary *v = &a->vary[k];
-        add_text(&t, v->what);
-        add_real(&t, v->from), add_real(&t, v->to);
-        fw_text_printf(&t, " %s %d %d", v->unit, v->steps, v->logarithmic);
+        add_text(t, v->what);
+        add_real(t, v->from), add_real(t, v->to);
+        fw_text_printf(t, " %s %d %d", v->unit, v->steps, v->logarithmic);
         for (int i = 0; i < v->ntext; i++)
-            add_text(&t, v->text[i]);
+            add_text(t, v->text[i]);
     }
     for (int k = 0; k < a->nuncertain; k++) {
         const fw_device_uncertain *u = &a->uncertain[k];
-        add_text(&t, u->what);
-        fw_text_printf(&t, " %d %s", (int)u->spread, u->unit);
-        add_real(&t, u->mean), add_real(&t, u->sd), add_real(&t, u->from), add_real(&t, u->to);
+        add_text(t, u->what);
+        fw_text_printf(t, " %d %s", (int)u->spread, u->unit);
+        add_real(t, u->mean), add_real(t, u->sd), add_real(t, u->from), add_real(t, u->to);
         for (int i = 0; i < u->ntable; i++)
-            add_real(&t, u->x[i]), add_real(&t, u->p[i]);
-        if (u->flow || u->levelled) add_text(&t, u->flow), fw_text_printf(&t, " %d", (int)u->level);
+            add_real(t, u->x[i]), add_real(t, u->p[i]);
+        if (u->flow || u->levelled) add_text(t, u->flow), fw_text_printf(t, " %d", (int)u->level);
     }
     for (int k = 0; k < a->ntrend; k++) {
         const fw_device_trend *q = &a->trend[k];
-        add_text(&t, q->what), add_text(&t, q->flow);
-        add_real(&t, q->radial), add_real(&t, q->along_x), add_real(&t, q->along_y);
+        add_text(t, q->what), add_text(t, q->flow);
+        add_real(t, q->radial), add_real(t, q->along_x), add_real(t, q->along_y);
     }
     for (int k = 0; k < a->ncorrelation; k++)
-        add_text(&t, a->correlation[k].of), add_text(&t, a->correlation[k].with),
-            add_text(&t, a->correlation[k].flow), add_real(&t, a->correlation[k].value);
+        add_text(t, a->correlation[k].of), add_text(t, a->correlation[k].with),
+            add_text(t, a->correlation[k].flow), add_real(t, a->correlation[k].value);
     for (int k = 0; k < a->nrespond; k++) {
         const fw_device_respond *q = &a->respond[k];
-        add_text(&t, q->name), add_text(&t, q->value);
-        fw_text_printf(&t, " %d %d", (int)q->take, (int)q->goal);
-        add_real(&t, q->min), add_real(&t, q->max);
+        add_text(t, q->name), add_text(t, q->value);
+        fw_text_printf(t, " %d %d", (int)q->take, (int)q->goal);
+        add_real(t, q->min), add_real(t, q->max);
     }
-    FW_TRY(fw_text_end(&t));
-    fw_sha256(t.data, t.length, digits);
-    FW_NEED(*asked = fw_arena_strdup(study->arena, digits));
+    return fw_text_end(t);
+}
+
+/* the hash is of the words of the options as they were given, in one line */
+static fw_status add_given(fw_study *study, fw_text *t) {
+    const fw_design_options *o = &study->options.design;
+    const char *files;
+    FW_TRY(fw_study_files_hash(study->arena, study->plan, &files));
+    fw_text_printf(t, "flexwright %s %s\n", FW_VERSION, files);
+    const char *const words[] = {
+        o->flow,         o->effects, o->method,         o->integrator, o->stabilise,
+        o->hinge_model,  o->corners, o->scene,          o->at,         o->mask_formats,
+        o->mask_flatten, o->day,     o->planning_times, o->cut};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        add_text(t, words[i]);
+    add_real(t, o->accuracy);
+    add_real(t, o->rtol);
+    for (int i = 0; i < study->options.nset; i++)
+        add_text(t, study->options.set[i].path), add_text(t, study->options.set[i].value);
     return FW_OK;
 }
 
 fw_status fw_study_find_hash(fw_study *study) {
     fw_study_origin *o = &study->origin;
-    fw_text t = fw_text_new(study->arena);
+    fw_text t = fw_text_new(study->arena), asked = fw_text_new(study->arena);
     char digits[65];
     o->program = FW_VERSION;
     FW_TRY(find_options(study, &o->options));
     FW_TRY(find_files(study, &o->files));
-    FW_TRY(find_asked(study, &o->asked));
-    add_text(&t, o->program), add_text(&t, o->options);
-    add_text(&t, o->files), add_text(&t, o->asked);
+    FW_TRY(add_asked(study, &asked));
+    fw_sha256(asked.data, asked.length, digits);
+    FW_NEED(o->asked = fw_arena_strdup(study->arena, digits));
+    FW_TRY(add_given(study, &t));
+    fw_text_printf(&t, "\n%s", asked.data);
     FW_TRY(fw_text_end(&t));
     fw_sha256(t.data, t.length, digits);
     FW_NEED(study->hash = fw_arena_strdup(study->arena, digits));
@@ -440,7 +456,8 @@ static void add_options(fw_text *out, const char *then, const char *now) {
     if (n) fw_text_printf(out, "; now there is %.*s", (int)n, line);
 }
 
-fw_status fw_study_difference(fw_study *study, const char *directory, const char **words) {
+fw_status fw_study_difference(fw_study *study, fw_study_says *says, struct sqlite3 *db,
+                              const char **words) {
     const fw_study_origin *now = &study->origin;
     fw_study_origin then;
     fw_text t = fw_text_new(study->arena);
@@ -452,7 +469,7 @@ fw_status fw_study_difference(fw_study *study, const char *directory, const char
               {"asked", &then.asked}};
     *words = "";
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
-        FW_TRY(fw_study_store_said(study->arena, &study->diags, directory, of[i].key, of[i].value));
+        *of[i].value = says(study->arena, db, of[i].key);
         if (!*of[i].value) return FW_OK;
     }
     fw_text_add(&t, "");

@@ -91,10 +91,13 @@ int fw_study_stages_run(fw_design *design, unsigned stages);
 /* one hash of all files that a plan has read */
 fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char **hash);
 
-/* study_engine.c: origin and hash of a study; in what the one whose store is in a directory differs: "; it had --accuracy
-   1e-6", "" where the store does not say */
+/* study_engine.c: origin and hash of a study; in what one differs whose store says its own by key: "; it had --accuracy
+   1e-6", "" where it does not say */
+struct sqlite3;
+typedef const char *fw_study_says(fw_arena *arena, struct sqlite3 *db, const char *key);
 fw_status fw_study_find_hash(fw_study *study);
-fw_status fw_study_difference(fw_study *study, const char *directory, const char **words);
+fw_status fw_study_difference(fw_study *study, fw_study_says *says, struct sqlite3 *db,
+                              const char **words);
 
 /* is what a design was read from what the study was? */
 bool fw_study_same_files(const fw_study *study, fw_design *design);

@@ -211,7 +211,7 @@ static fw_status check_same(const fw_study_store *store) {
     const char *hash = said(store->study->arena, store->db, "hash"), *words;
     const char *name = said(store->study->arena, store->db, "study");
     if (hash && strcmp(hash, store->study->hash) == 0) return FW_OK;
-    FW_TRY(fw_study_difference(store->study, store->study->options.output, &words));
+    FW_TRY(fw_study_difference(store->study, said, store->db, &words));
     return fw_diag_error(&store->study->diags, 495, (fw_place){.file = store->path},
                          "it holds the samples of study '%s' of other inputs, options or another "
                          "version of the program, not those of '%s' as it is now%s; name another "
@@ -521,7 +521,7 @@ static fw_status shard_of(fw_study *study, const char *directory, sqlite3 *db, i
     fw_place place = {.file = directory};
     int i = shard ? atoi(shard) : 0, of = shards ? atoi(shards) : 0;
     if (!hash || strcmp(hash, study->hash) != 0) {
-        FW_TRY(fw_study_difference(study, directory, &words));
+        FW_TRY(fw_study_difference(study, said, db, &words));
         return fw_diag_error(&study->diags, 497, place,
                              "its store is of another study, inputs, options or version of the "
                              "program than %s is now%s; merge takes the options of the shards",
