@@ -885,6 +885,20 @@ static void coupons_of_other_flows(void **state) {
     run.table = &table;
     assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry("coupon=plating-pads, drawn=10 um, value=9.1 um, u=0.1 um, at=25 C/cm2"),
                                          (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+    /* a width that the die does not have is asked after, with those that there are */
+    const fw_layout_pattern sized = {.kind = &pads, .id = "pads", .size_m = {10e-6, 30e-6}, .nsize = 2};
+    const fw_mask_table widths = {.pattern = &sized, .npattern = 1};
+    static const char *const drawn[] = {"12", "10", "30"};
+    for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++) {
+        bool told = false;
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        run.table = &widths;
+        const char *of = fw_arena_printf(arena, "coupon=plating-pads, drawn=%s um, value=9.1 um, u=0.1 um, at=25 C/cm2", drawn[i]);
+        assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry(of), (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            told = told || strstr(diags.item[k].message, "coupon plating-pads, drawn=12 um: on the test die it is drawn with 10, 30 um");
+        assert_int_equal(told, i == 0);
+    }
 }
 
 /* the year 2126 has not come; ages ago is asked about; before 1970 and far ahead are dates like others */
