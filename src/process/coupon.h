@@ -55,13 +55,15 @@ typedef struct fw_process_coupon {
     /* what a row must say, checked where it is written down too, since a line of a log cannot be taken back: one of these
        features (any: none is listed), and under `at` one of these (any: the first is a plain number) */
     const char *features[3];
-    const char *features_said; /* how they go together; NULL: any one of them will do */
-    const char *sides[2];      /* features that bound from either side, and say nothing alone */
-    bool sides_measured;       /* ... with a value; else they are looked at */
+    const char *
+        features_said; /* how they go together, or what is measured where there are none; NULL: any one of them will do */
+    const char *sides[2]; /* features that bound from either side, and say nothing alone */
+    bool sides_measured;  /* ... with a value; else they are looked at */
     fw_quantity_dimension under[2];
     const char *mistaken; /* what is often taken for it; NULL */
     bool plain;           /* read on any wafer: stands on no test die */
     bool rate;            /* its feature is the id of a rate of the flow */
+    bool of_mask; /* what the layer loses that masks the etch: no more than there is of it */
 } fw_process_coupon;
 
 /* process_calibrate.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the
@@ -106,6 +108,7 @@ typedef struct
     fw_process_etch { /* quantities of the etch that cuts the device layer; each may be NULL */
     const fw_quantity *rate, *lag, *anisotropy;
     const fw_quantity *selectivity; /* to what masks it */
+    const fw_quantity *mask;        /* thickness of that, as it was put there; NULL: not known */
     const fw_quantity *over_etch;
 } fw_process_etch;
 /* of the step that removes the flow's own material in a direction */

@@ -211,6 +211,17 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
     return FW_OK;
 }
 
+/* how thick the material was when it was put there last, before the step */
+static const fw_quantity *put_there(const fw_process_flow *flow, int before, const char *material) {
+    for (int i = before - 1; i >= 0; i--)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (strcmp(c->kind, "add") == 0 && strcmp(c->material, material) == 0)
+                return c->thickness;
+        }
+    return NULL;
+}
+
 fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
@@ -223,8 +234,10 @@ fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
                                  .lag = fw_process_step_argument(s, "probability"),
                                  .anisotropy = c->anisotropy,
                                  .over_etch = s->overrun_from};
-            for (int x = 0; x < s->nexposed && !e.selectivity; x++)
+            for (int x = 0; x < s->nexposed && !e.selectivity; x++) {
                 e.selectivity = s->exposed[x].selectivity;
+                if (e.selectivity) e.mask = put_there(flow, i, s->exposed[x].material);
+            }
             return e;
         }
     }

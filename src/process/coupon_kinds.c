@@ -91,7 +91,18 @@ const fw_process_coupon fw_process_coupon_etch_rate = {
     "etch-rate", FW_DIM_LENGTH,          false,         false,       true, false,
     rates,       .under = {FW_DIM_TIME}, .plain = true, .rate = true};
 const fw_process_coupon fw_process_coupon_step = {
-    "al-step", FW_DIM_LENGTH, false, false, true, false, selectivity, .under = {FW_DIM_LENGTH}};
+    "al-step",
+    FW_DIM_LENGTH,
+    false,
+    false,
+    true,
+    false,
+    selectivity,
+    .features_said =
+        "value what the mask lost (its step before the etch less that after it), at the "
+        "etched depth",
+    .under = {FW_DIM_LENGTH},
+    .of_mask = true};
 
 /* ---- lines undercut in a ladder of widths ---- */
 

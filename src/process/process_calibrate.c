@@ -57,7 +57,7 @@ static void put_form(const fw_process_coupon *kind, const char *feature, fw_text
     for (int i = 0; i < FEATURES && kind->features[i] && !kind->features_said; i++)
         fw_text_printf(out, "%s%s", i ? "|" : ", ", kind->features[i]);
     if (kind->features_said) fw_text_printf(out, ", %s", kind->features_said);
-    if (!kind->features[0])
+    if (!kind->features[0] && !kind->features_said)
         fw_text_printf(out, ", %s", kind->rate && feature ? feature : "FEATURE");
     if (kind->drawn) fw_text_add(out, ", drawn=__ um");
     fw_text_printf(out, ", value=__ __ __ __ __%s, u=__%s", kind->any_measured ? " UNIT" : unit,
@@ -153,9 +153,28 @@ bool fw_process_coupon_on_test_die(const char *coupon) {
     return kind && !kind->plain;
 }
 
+/* a mask cannot lose more than there was of it: what is left is mistaken for that, or a unit is wrong */
+static fw_status check_lost(const fw_process_flow *flow, const fw_process_measurement *r,
+                            fw_diags *diags) {
+    static const double sure = 3.0;
+    const fw_process_coupon *kind = kind_named(r->coupon);
+    const fw_quantity *mask = kind && kind->of_mask ? fw_process_flow_etch(flow).mask : NULL;
+    char lost[32], there[32];
+    if (!mask || mask->unknown) return FW_OK;
+    const double most = mask->value + sure * hypot(mask->uncertainty, r->uncertainty);
+    if (!(r->value > most)) return FW_OK;
+    return fw_diag_error(
+        diags, 211, r->place,
+        "%s: the mask lost %s um, and there were %s um of it (%s): give what the etch took of it, "
+        "its step before the etch less that after it",
+        r->coupon, fw_number_text(lost, sizeof lost, r->value * 1e6, 4),
+        fw_number_text(there, sizeof there, mask->value * 1e6, 4), mask->id);
+}
+
 fw_status fw_process_measurement_of_flow(const fw_process_flow *flow,
                                          const fw_process_measurement *r, fw_diags *diags) {
     const fw_process_coupon *kind = kind_named(r->coupon);
+    FW_TRY(check_lost(flow, r, diags));
     if (!kind || !kind->rate) return FW_OK;
     const fw_quantity *q = fw_process_flow_quantity(flow, r->feature);
     if (q && fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_SPEED))
@@ -282,6 +301,7 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
         .arena = arena, .flow = flow, .known = out, .out = out, .diags = diags};
     for (int i = 0; i < n; i++) {
         fw_status of_row = fw_process_measurement_check(&measurement[i], diags);
+        if (of_row == FW_OK) of_row = check_lost(flow, &measurement[i], diags);
         if (of_row == FW_NOMEM) return of_row;
         if (of_row != FW_OK) status = of_row;
     }

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "recipe/asrun.h"
 #include "recipe/asrun_parts.h"
+#include "schedule/schedule.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -330,6 +331,182 @@ static void ask_place(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *ru
     }
 }
 
+static bool same_text(const char *a, const char *b) {
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && same_text(later->wafer, e->wafer)) return false;
+    return true;
+}
+
+/* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
+   for them, and (*together) how many share it. */
+double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             int *together) {
+    *together = 1;
+    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
+                     o->start_s == e->start_s && o->end_s == e->end_s &&
+                     fw_recipe_asrun_is_last(run, o);
+    return (*together + e->step->batch - 1) / e->step->batch;
+}
+
+/* ---- what a wafer waited ---- */
+
+/* of which entry of the step the wafer came to e: the last one, which takes the place of those before; one that was run again
+   after e is another run, where there was one for e already. NULL: it is not in the log */
+static const fw_recipe_asrun_entry *came_from(const fw_recipe_asrun *run, const char *step,
+                                              const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *from = NULL;
+    for (const fw_recipe_asrun_entry *of = run->entry; of < run->entry + run->nentry; of++) {
+        if (!of->step || strcmp(of->step->id, step) != 0 || !same_wafer(of, e)) continue;
+        const bool again = from && of > e && of->start_s >= e->start_s;
+        if (!again) from = of;
+    }
+    return from;
+}
+
+/* what is looked at while what it will be a part of is made elsewhere: the second wafer of a bond, before it is there */
+static bool is_beside(const fw_process_step *step) {
+    for (int i = 0; i < step->nrequired; i++)
+        if (step->required[i].material && !step->required[i].present &&
+            strcmp(step->op, "inspect") == 0)
+            return true;
+    return fw_process_step_is_of_lot(step);
+}
+
+/* the step of the flow that the log has of this wafer before that of e; NULL: none, or e is beside the wafer */
+static const fw_process_step *step_before(const fw_recipe_asrun *run,
+                                          const fw_recipe_asrun_entry *e) {
+    const fw_process_step *before = NULL;
+    for (int i = 0; i < run->nentry && !is_beside(e->step); i++) {
+        const fw_recipe_asrun_entry *of = &run->entry[i];
+        if (of->step && of->step < e->step && same_wafer(of, e) && !is_beside(of->step) &&
+            (!before || of->step > before))
+            before = of->step;
+    }
+    return before;
+}
+
+/* of several loads in one entry, or in entries that share their time, one wafer is through while another is not */
+static bool in_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    int together;
+    return fw_recipe_asrun_loads(run, e, &together) > 1.0;
+}
+
+static void wait_since(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                       fw_recipe_wait *wait) {
+    const fw_recipe_asrun_entry *from = came_from(run, wait->since, e);
+    wait->from = from;
+    wait->waited_s = from ? e->start_s - from->end_s : (double)NAN;
+    if (wait->waited_s < 0.0 && (in_loads(run, e) || in_loads(run, from)))
+        wait->waited_s = (double)NAN;
+    wait->fine = !(wait->waited_s < wait->min_s) && !(wait->waited_s > wait->max_s);
+}
+
+bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
+                          fw_recipe_wait *wait) {
+    const int k = (*i)++;
+    if (k < e->step->nlag) {
+        const fw_process_lag *lag = &e->step->lag[k];
+        *wait = (fw_recipe_wait){
+            .since = lag->from, .min_s = isnan(lag->min_s) ? 0.0 : lag->min_s, .max_s = lag->max_s};
+        wait_since(run, e, wait);
+        return true;
+    }
+    const fw_process_step *before = k == e->step->nlag ? step_before(run, e) : NULL;
+    for (int n = 0; before && n < e->step->nlag; n++)
+        if (strcmp(e->step->lag[n].from, before->id) == 0) return false; /* it has been told */
+    if (!before) return false;
+    *wait = (fw_recipe_wait){.since = before->id, .max_s = (double)NAN};
+    wait_since(run, e, wait);
+    return wait->waited_s < 0.0;
+}
+
+void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait) {
+    fw_schedule_put_duration(out, wait->min_s);
+    fw_text_add(out, isnan(wait->max_s) ? " or more" : " to ");
+    if (!isnan(wait->max_s)) fw_schedule_put_duration(out, wait->max_s);
+}
+
+void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait) {
+    const bool early = wait->waited_s < 0.0;
+    fw_text_add(out, early ? "began " : "waited ");
+    fw_schedule_put_duration(out, fabs(wait->waited_s));
+    fw_text_printf(out, early ? " before %s ended" : " since %s", wait->since);
+}
+
+static fw_status ask_wait(const fw_recipe_asrun_entry *e, const fw_recipe_wait *wait,
+                          fw_place place, fw_diags *diags) {
+    fw_text text = fw_text_new(diags->arena);
+    /* of one wafer at two steps at once ask_place has said it */
+    if (e->start_s < wait->from->end_s && wait->from->start_s < e->end_s &&
+        !fw_process_step_is_of_lot(e->step) && !fw_process_step_is_of_lot(wait->from->step))
+        return FW_OK;
+    fw_text_printf(&text, "step %s%s%s ", e->step->id, e->wafer ? " of wafer " : "",
+                   e->wafer ? e->wafer : "");
+    fw_recipe_put_waited(&text, wait);
+    if (wait->waited_s < 0.0) {
+        fw_text_printf(&text,
+                       " (%s to %s), and comes after it: one of these times is wrong; an entry "
+                       "with the right ones takes the place of the wrong one",
+                       wait->from->start, wait->from->end);
+    } else {
+        fw_text_add(&text, ", and allowed is ");
+        fw_recipe_put_wait_limits(&text, wait);
+        fw_text_add(&text, "; look at what that leaves before the next step");
+        fw_text_add(&text, e->deviation ? "" : ", and write down why (deviation=...)");
+    }
+    FW_TRY(fw_text_end(&text));
+    fw_diag_warning(diags, 648, place, "%s", text.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                    fw_place place, fw_diags *diags) {
+    for (const fw_recipe_asrun_entry *of = run->entry; of <= e; of++) {
+        int i = 0;
+        if (!of->step || (of != e && !fw_recipe_asrun_is_last(run, of))) continue;
+        for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, of, &i, &wait);)
+            if (!wait.fine && (of == e || wait.from == e))
+                FW_TRY(ask_wait(of, &wait, place, diags));
+    }
+    return FW_OK;
+}
+
+/* an entry with nothing that the other does not say, too */
+static bool says_the_same(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    bool same = a->step == b->step && same_text(a->wafer, b->wafer) && a->start_s == b->start_s &&
+                a->end_s == b->end_s && same_text(a->deviation, b->deviation) &&
+                same_text(a->note, b->note) && a->nmeasured == b->nmeasured && a->nset == b->nset &&
+                a->ncoupon == b->ncoupon;
+    for (int i = 0; same && i < a->nmeasured; i++)
+        same = strcmp(a->measured[i].measure, b->measured[i].measure) == 0 &&
+               strcmp(a->measured[i].value, b->measured[i].value) == 0;
+    for (int i = 0; same && i < a->nset; i++)
+        same = strcmp(a->set[i].name, b->set[i].name) == 0 &&
+               strcmp(a->set[i].text, b->set[i].text) == 0;
+    for (int i = 0; same && i < a->ncoupon; i++)
+        same = strcmp(a->coupon[i].text, b->coupon[i].text) == 0;
+    return same;
+}
+
+static void ask_twice(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
+                      const fw_recipe_asrun_entry *e) {
+    for (int i = run->nentry - 1; i >= 0; i--) {
+        if (run->entry[i].fate != FW_FATE_RUN || !says_the_same(&run->entry[i], e)) continue;
+        fw_diag_warning(r->diags, 283, r->place,
+                        "step %s%s%s from %s to %s is in the log already, with the same values "
+                        "(line %d)",
+                        e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "",
+                        e->start, e->end, run->entry[i].line);
+        return;
+    }
+}
+
 static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
@@ -346,6 +523,7 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                         "step %s starts before step %s, which was entered before it", e->step->id,
                         last->at->id);
     ask_place(r, run, e);
+    ask_twice(r, run, e);
     ask_units(r, e);
     ask_missing(r, run, e);
     ask_other_side(r, run, e);

@@ -14,27 +14,9 @@ static bool same_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_ent
     return a->wafer == b->wafer || (a->wafer && b->wafer && strcmp(a->wafer, b->wafer) == 0);
 }
 
-bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
-        if (later->step == e->step && same_wafer(later, e)) return false;
-    return true;
-}
-
-/* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
-   for them, and (*together) how many share it. */
-static double loads_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *together) {
-    *together = 1;
-    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
-    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
-        *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
-                     o->start_s == e->start_s && o->end_s == e->end_s &&
-                     fw_recipe_asrun_is_last(run, o);
-    return (*together + e->step->batch - 1) / e->step->batch;
-}
-
 static double booked_stop_s(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     int together;
-    return e->step->booked_stop_s * loads_of(run, e, &together);
+    return e->step->booked_stop_s * fw_recipe_asrun_loads(run, e, &together);
 }
 
 /* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
@@ -78,7 +60,7 @@ static fw_status amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
                                const fw_recipe_asrun_entry *e, fw_recipe_amount_in_time *a,
                                fw_text *planned, fw_text *actual) {
     int together;
-    const double loads = loads_of(run, e, &together);
+    const double loads = fw_recipe_asrun_loads(run, e, &together);
     FW_TRY(fw_recipe_asrun_amount_in_time(arena, e, loads, clock_s(e), a));
     if (a->fits) return FW_OK;
     const char *unit = fw_recipe_asrun_accept(e->step, a->measured->measure)->unit;
@@ -123,6 +105,7 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     if (e->fate != FW_FATE_RUN || !e->step)
         return FW_OK; /* what became of a wafer is no step that was run */
     FW_TRY(ask_amount(arena, run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_waits(run, e, place, diags));
     FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;
     fw_diag_warning(diags, 283, place,
@@ -138,24 +121,6 @@ bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measur
         if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(a->low, a->high, m->site[i]))
             return false;
     return true;
-}
-
-/* waited from the end of the step that the lag names; NaN: that step is not in the log */
-double fw_recipe_asrun_waited(const fw_recipe_asrun *run, const fw_process_lag *lag,
-                              const fw_recipe_asrun_entry *e) {
-    const fw_recipe_asrun_entry *from = NULL;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *other = &run->entry[i];
-        bool of_it = !other->step
-                         ? false
-                         : !other->wafer || !e->wafer || strcmp(other->wafer, e->wafer) == 0;
-        if (of_it && strcmp(other->step->id, lag->from) == 0) from = other;
-    }
-    return from ? e->start_s - from->end_s : (double)NAN;
-}
-
-bool fw_recipe_asrun_wait_is_fine(const fw_process_lag *lag, double wait_s) {
-    return !(wait_s < lag->min_s) && !(wait_s > lag->max_s); /* NaN: no limit, or not known */
 }
 
 /* ---- the list of what is out ---- */
@@ -186,13 +151,6 @@ static void put_span(fw_text *out, const char *low, const char *high) {
     fw_text_printf(out, "%s%s%s", low, between, high);
 }
 
-/* the limits of a wait */
-static void put_wait(fw_text *out, const fw_process_lag *lag) {
-    fw_schedule_put_duration(out, isnan(lag->min_s) ? 0.0 : lag->min_s);
-    fw_text_add(out, isnan(lag->max_s) ? " or more" : " to ");
-    if (!isnan(lag->max_s)) fw_schedule_put_duration(out, lag->max_s);
-}
-
 static void put_unit(fw_text *out, const char *unit) {
     if (strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
 }
@@ -200,7 +158,7 @@ static void put_unit(fw_text *out, const char *unit) {
 static fw_status durations_of(builder *b, const fw_recipe_asrun *run,
                               const fw_recipe_asrun_entry *e) {
     int together;
-    const double actual = e->end_s - e->start_s, loads = loads_of(run, e, &together);
+    const double actual = e->end_s - e->start_s, loads = fw_recipe_asrun_loads(run, e, &together);
     if (!is_out_of_time(fw_recipe_asrun_in_time(run, e))) return FW_OK;
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
     fw_schedule_put_duration(&planned, e->step->booked_s * loads);
@@ -269,14 +227,16 @@ static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
 }
 
 static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    for (int i = 0; i < e->step->nlag; i++) {
-        const fw_process_lag *l = &e->step->lag[i];
-        double wait = fw_recipe_asrun_waited(run, l, e);
-        if (fw_recipe_asrun_wait_is_fine(l, wait)) continue;
+    int i = 0;
+    for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &i, &wait);) {
+        if (wait.fine) continue;
         fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
-        put_wait(&planned, l);
-        fw_schedule_put_duration(&is, fmax(wait, 0.0));
-        FW_TRY(add(b, e, fw_arena_printf(b->arena, "wait since %s", l->from), &planned, &is));
+        fw_recipe_put_wait_limits(&planned, &wait);
+        if (wait.waited_s < 0.0)
+            fw_recipe_put_waited(&is, &wait);
+        else
+            fw_schedule_put_duration(&is, wait.waited_s);
+        FW_TRY(add(b, e, fw_arena_printf(b->arena, "wait since %s", wait.since), &planned, &is));
     }
     return FW_OK;
 }
@@ -368,14 +328,13 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
         put_setting(out, &e->set[i]);
     for (int i = 0; i < e->ncoupon; i++)
         fw_text_printf(out, "      coupon %s\n", e->coupon[i].text);
-    for (int i = 0; i < e->step->nlag; i++) {
-        const fw_process_lag *l = &e->step->lag[i];
-        double wait = fw_recipe_asrun_waited(run, l, e);
-        if (isnan(wait) || fw_recipe_asrun_wait_is_fine(l, wait)) continue;
-        fw_text_printf(out, "      waited ");
-        fw_schedule_put_duration(out, fmax(wait, 0.0));
-        fw_text_printf(out, " since %s: OUT of ", l->from);
-        put_wait(out, l);
+    int next = 0;
+    for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &next, &wait);) {
+        if (wait.fine) continue;
+        fw_text_add(out, "      ");
+        fw_recipe_put_waited(out, &wait);
+        fw_text_add(out, ": OUT of ");
+        fw_recipe_put_wait_limits(out, &wait);
         fw_text_add(out, "\n");
     }
     if (e->note) fw_text_printf(out, "      note: %s\n", e->note);
@@ -397,7 +356,7 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
                 continue;
             }
             int together;
-            const double loads = loads_of(run, e, &together);
+            const double loads = fw_recipe_asrun_loads(run, e, &together);
             t->actual_s += (e->end_s - e->start_s) / together;
             if (s->time.computable) t->planned_s += s->booked_s * loads / together;
         }

@@ -182,24 +182,52 @@ static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     return FW_OK;
 }
 
+static bool is_of(const fw_layout_pattern *pattern, const fw_process_measurement *row) {
+    return strcmp(pattern->kind->name, row->coupon) == 0 || strcmp(pattern->id, row->coupon) == 0;
+}
+
 /* A line of a log cannot be taken back, and what the flow does not have is of no use to calibrate. */
 static fw_status check_coupon(const fw_recipe_asrun_reader *r, const fw_process_measurement *row) {
     const fw_mask_table *table = r->run->table;
     bool there = !table || !fw_process_coupon_on_test_die(row->coupon);
     for (int i = 0; !there && i < table->npattern; i++)
-        there = strcmp(table->pattern[i].kind->name, row->coupon) == 0 ||
-                strcmp(table->pattern[i].id, row->coupon) == 0;
+        there = is_of(&table->pattern[i], row);
     if (there) return fw_process_measurement_of_flow(r->flow, row, r->diags);
     return fw_diag_error(r->diags, 605, r->place,
                          "coupon %s stands on the test dies of other flows; that of %s has none",
                          row->coupon, r->flow->id);
 }
 
+/* a width that the test die does not have is another one that was read, or a slip */
+static fw_status ask_drawn(const fw_recipe_asrun_reader *r, const fw_process_measurement *row) {
+    static const double close = 1e-6; /* relatively: as it is written */
+    const fw_mask_table *table = r->run->table;
+    fw_text sizes = fw_text_new(r->arena);
+    int n = 0;
+    for (int i = 0; table && i < table->npattern && !isnan(row->drawn_m); i++) {
+        const fw_layout_pattern *p = &table->pattern[i];
+        for (int k = 0; is_of(p, row) && k < p->nsize; k++) {
+            if (fabs(p->size_m[k] - row->drawn_m) <= close * row->drawn_m) return FW_OK;
+            fw_text_add(&sizes, n++ ? ", " : "");
+            fw_text_number(&sizes, p->size_m[k] * 1e6, 4);
+        }
+    }
+    if (n == 0) return FW_OK;
+    FW_TRY(fw_text_end(&sizes));
+    char drawn[32];
+    fw_diag_warning(r->diags, 283, r->place,
+                    "coupon %s, drawn=%s um: on the test die it is drawn with %s um", row->coupon,
+                    fw_number_text(drawn, sizeof drawn, row->drawn_m * 1e6, 4), sizes.data);
+    return r->diags->failed ? FW_NOMEM : FW_OK;
+}
+
 static fw_status read_coupon(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                              const char *value) {
     fw_recipe_coupon *c = &e->coupon[e->ncoupon++];
     FW_TRY(fw_recipe_asrun_coupon_read(r, value, c));
-    return r->fresh ? check_coupon(r, &c->row) : FW_OK;
+    if (!r->fresh) return FW_OK;
+    FW_TRY(check_coupon(r, &c->row));
+    return ask_drawn(r, &c->row);
 }
 
 static fw_status check_wafer(const fw_recipe_asrun_reader *r, const char *id) {

@@ -47,7 +47,7 @@ fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *w
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
 
-/* asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
+/* asrun.c, asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
    limit as it is written; does what was measured and set keep its limits? */
 bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure);
@@ -57,12 +57,32 @@ bool fw_recipe_asrun_inside(const char *low, const char *high, double value);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
 
-/* "short", "in window", "long" or "no plan": an entry's duration; what was waited since the end of the step that a lag names
-   (NaN: that is not in the log), and whether that is fine */
+/* "short", "in window", "long" or "no plan": an entry's duration */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
-double fw_recipe_asrun_waited(const fw_recipe_asrun *run, const fw_process_lag *lag,
-                              const fw_recipe_asrun_entry *e);
-bool fw_recipe_asrun_wait_is_fine(const fw_process_lag *lag, double wait_s);
+/* loads one after the other that share the time of the entry, and how many entries do (*together) */
+double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             int *together);
+
+/* ---- what a wafer waited before an entry: asrun.c ---- */
+
+typedef struct fw_recipe_wait {
+    const char *since;                 /* id of the step from whose end on */
+    const fw_recipe_asrun_entry *from; /* that counts of it; NULL: it is not in the log */
+    double waited_s;     /* below 0: it began before that step ended; NaN: not known */
+    double min_s, max_s; /* max_s NaN: no limit */
+    bool fine;
+} fw_recipe_wait;
+/* The next wait of an entry, from *i on, which begins with 0: of each lag of its step, and of the step before it where that
+   is below 0. false: there is none */
+bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
+                          fw_recipe_wait *wait);
+/* "0 s to 10 min"; "waited 21 min since C20", or "began 5 min before C20 ended" */
+void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait);
+void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);
+/* FW-D648 where an entry that was just added, or one of before that follows on it, did not wait as it should */
+fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                    fw_place place, fw_diags *diags);
+
 /* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set:
    asrun_values.c. loads: that may share its time, one after the other; read_s: how far a clock may be off */
 typedef struct fw_recipe_amount_in_time {

@@ -368,18 +368,17 @@ static void settings_json(const fw_recipe_asrun_entry *e, fw_json *out) {
 
 static void waited_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_json *out) {
     fw_json_list(out, "waited");
-    for (int i = 0; i < e->step->nlag; i++) {
-        const fw_process_lag *l = &e->step->lag[i];
-        double wait = fw_recipe_asrun_waited(run, l, e);
+    int i = 0;
+    for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &i, &wait);) {
         fw_json_object(out, NULL);
-        fw_json_text(out, "from", l->from);
-        put_number(out, "waited_s", wait);
-        put_number(out, "min_s", l->min_s);
-        put_number(out, "max_s", l->max_s);
-        if (isnan(wait))
+        fw_json_text(out, "from", wait.since);
+        put_number(out, "waited_s", wait.waited_s);
+        put_number(out, "min_s", wait.min_s);
+        put_number(out, "max_s", wait.max_s);
+        if (isnan(wait.waited_s))
             fw_json_null(out, "accepted");
         else
-            fw_json_truth(out, "accepted", fw_recipe_asrun_wait_is_fine(l, wait));
+            fw_json_truth(out, "accepted", wait.fine);
         fw_json_end(out);
     }
     fw_json_end(out);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sensitivity: derivatives of every response at the description as it stands, and the shares of its
-   variance over the ranges (Sobol' indices).
+/* Sensitivity: derivatives of every response at the description as it stands (of an input that the description has outside
+   of its range at the middle of that, which is said), and the shares of its variance over the ranges (Sobol' indices).
 
    A derivative is that of the polynomial through seven devices, evenly spaced over a tenth of the range
    either side (moved inside where the range ends), judged at an accuracy of 1e-9; its error is the
@@ -49,9 +49,12 @@ typedef struct sensing {
     fw_arena *chance;
 } sensing;
 
-static double centre_of(const fw_study_input *in) {
-    bool inside = in->now >= in->from && in->now <= in->to;
-    if (inside) return in->now;
+bool fw_study_input_is_inside(const fw_study_input *in) {
+    return in->now >= in->from && in->now <= in->to;
+}
+
+double fw_study_input_centre(const fw_study_input *in) {
+    if (fw_study_input_is_inside(in)) return in->now;
     return in->logarithmic ? sqrt(in->from * in->to) : 0.5 * (in->from + in->to);
 }
 
@@ -113,8 +116,8 @@ static fw_status derivatives(sensing *s, fw_study_result *result) {
     for (size_t k = 0; k < inputs; k++) {
         double shown;
         char text[FW_STUDY_TEXT];
-        FW_TRY(fw_study_input_write(&study->input[k], centre_of(&study->input[k]), DIGITS, text,
-                                    &shown));
+        FW_TRY(fw_study_input_write(&study->input[k], fw_study_input_centre(&study->input[k]),
+                                    DIGITS, text, &shown));
         s->centre[k] = shown;
     }
     double asked = study->options.design.accuracy;
@@ -200,6 +203,18 @@ static fw_status not_begun(fw_study *study, const char *why) {
                          study->asked->name, why ? why : "its indices could not be begun");
 }
 
+/* a range says where the question is: there, and not where the description is */
+static fw_status ask_inside(fw_study *study, const fw_study_input *in) {
+    if (fw_study_input_is_inside(in) || isnan(in->now)) return FW_OK;
+    fw_diag_warning(
+        &study->diags, 649, in->place,
+        "'%s': the description has another value than its range: derivatives are taken "
+        "at the middle of the range, and not at the description; make the range hold it "
+        "to have them there",
+        in->what);
+    return study->diags.failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_study_check_sensitivity(fw_study *study) {
     const fw_chance_model of = model_of(study, NULL);
     const fw_chance_index_options o = options_of(study);
@@ -210,6 +225,8 @@ fw_status fw_study_check_sensitivity(fw_study *study) {
                                  "'%s': a derivative is by a number; give from and to instead of "
                                  "listed values, and leave <uncertain> to kind=\"yield\"",
                                  study->input[k].what);
+    for (int k = 0; k < study->ninput; k++)
+        FW_TRY(ask_inside(study, &study->input[k]));
     return fw_chance_indices_check(&of, &o, &why) == FW_OK ? FW_OK : not_begun(study, why);
 }
 

@@ -258,79 +258,6 @@ static fw_status run_as_it_stands(fw_study *study) {
     return study->diags.errors > errors ? FW_INPUT : FW_OK;
 }
 
-/* ---- what decides a sample ---- */
-
-static void add_real(fw_text *out, double value) {
-    fw_text_add(out, " ");
-    fw_text_number(out, value, 17);
-}
-
-static void add_text(fw_text *out, const char *text) {
-    fw_text_printf(out, " %zu:%s", text ? strlen(text) : 0, text ? text : "");
-}
-
-static fw_status find_hash(fw_study *study) {
-    const fw_device_study *a = study->asked;
-    const fw_design_options *o = &study->options.design;
-    fw_text t = fw_text_new(study->arena);
-    const char *files;
-    char digits[65];
-    FW_TRY(fw_study_files_hash(study->arena, study->plan, &files));
-    fw_text_printf(&t, "flexwright %s %s\n", FW_VERSION, files);
-    const char *const words[] = {
-        o->flow,         o->effects, o->method,         o->integrator, o->stabilise,
-        o->hinge_model,  o->corners, o->scene,          o->at,         o->mask_formats,
-        o->mask_flatten, o->day,     o->planning_times, o->cut};
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        add_text(&t, words[i]);
-    add_real(&t, o->accuracy);
-    add_real(&t, o->rtol);
-    for (int i = 0; i < study->options.nset; i++)
-        add_text(&t, study->options.set[i].path), add_text(&t, study->options.set[i].value);
-    fw_text_printf(&t, "\n%s %s %s %d %ld", fw_device_study_kind_text(a->kind),
-                   fw_device_study_points_text(a->points), fw_device_study_judge_text(a->judge),
-                   a->samples, a->seed);
-    add_text(&t, a->name);
-    add_real(&t, a->confidence);
-    if (a->yield > 0) add_real(&t, a->yield);
-    if (a->fitted > 0) fw_text_add(&t, " fitted"), add_real(&t, a->fitted);
-    for (int k = 0; k < a->nvary; k++) {
-        const fw_device_vary *v = &a->vary[k];
-        add_text(&t, v->what);
-        add_real(&t, v->from), add_real(&t, v->to);
-        fw_text_printf(&t, " %s %d %d", v->unit, v->steps, v->logarithmic);
-        for (int i = 0; i < v->ntext; i++)
-            add_text(&t, v->text[i]);
-    }
-    for (int k = 0; k < a->nuncertain; k++) {
-        const fw_device_uncertain *u = &a->uncertain[k];
-        add_text(&t, u->what);
-        fw_text_printf(&t, " %d %s", (int)u->spread, u->unit);
-        add_real(&t, u->mean), add_real(&t, u->sd), add_real(&t, u->from), add_real(&t, u->to);
-        for (int i = 0; i < u->ntable; i++)
-            add_real(&t, u->x[i]), add_real(&t, u->p[i]);
-        if (u->flow || u->levelled) add_text(&t, u->flow), fw_text_printf(&t, " %d", (int)u->level);
-    }
-    for (int k = 0; k < a->ntrend; k++) {
-        const fw_device_trend *q = &a->trend[k];
-        add_text(&t, q->what), add_text(&t, q->flow);
-        add_real(&t, q->radial), add_real(&t, q->along_x), add_real(&t, q->along_y);
-    }
-    for (int k = 0; k < a->ncorrelation; k++)
-        add_text(&t, a->correlation[k].of), add_text(&t, a->correlation[k].with),
-            add_text(&t, a->correlation[k].flow), add_real(&t, a->correlation[k].value);
-    for (int k = 0; k < a->nrespond; k++) {
-        const fw_device_respond *q = &a->respond[k];
-        add_text(&t, q->name), add_text(&t, q->value);
-        fw_text_printf(&t, " %d %d", (int)q->take, (int)q->goal);
-        add_real(&t, q->min), add_real(&t, q->max);
-    }
-    FW_TRY(fw_text_end(&t));
-    fw_sha256(t.data, t.length, digits);
-    FW_NEED(study->hash = fw_arena_strdup(study->arena, digits));
-    return FW_OK;
-}
-
 /* ---- opening and running ---- */
 
 /* of every device of the study: no advice, and as drawn where that is asked */
@@ -459,7 +386,7 @@ static fw_status open_all(fw_study *study) {
         FW_TRY(die ? fw_study_dies_check(study) : fw_study_yielding_check(study));
     }
     if (study->asked->yield > 0) FW_TRY(open_dies(study));
-    FW_TRY(find_hash(study));
+    FW_TRY(fw_study_find_hash(study));
     return run_as_it_stands(study);
 }
 

@@ -86,6 +86,13 @@ typedef struct fw_study_sample {
 struct fw_study_store;
 struct fw_study_result;
 
+/* what decides a sample, as a store keeps it; NULL: a store of before they were kept */
+typedef struct fw_study_origin {
+    const char *program, *options; /* version; an option of the line on each line */
+    const char *files;             /* on each line the hash of a file that was read, and its name */
+    const char *asked;             /* hash of the study's own words */
+} fw_study_origin;
+
 typedef struct fw_study {
     fw_arena *arena;
     fw_diags diags;
@@ -97,6 +104,7 @@ typedef struct fw_study {
     struct fw_study_told *told; /* NULL: each round tells of itself */
     bool stored_only;           /* of a merge: what the store has not is not run */
     const char *hash;           /* of everything that decides what a sample is */
+    fw_study_origin origin;
     /* (ninput) those of <vary>, then what <uncertain> sets (of flexure[*] each), then quantities of flows */
     fw_study_input *input;
     int ninput, nvary, nsetting;
@@ -199,7 +207,7 @@ fw_status fw_study_write(fw_study *study);
    file is written once more in the order of their numbers, so that its bytes depend on nothing but
    the samples. Memory does not grow with them.
 
-     study(key, value)    what it is of: hash, name, kind, seed, shard ...
+     study(key, value)    what it is of: hash, name, kind, options, files, shard ...
      sample(i, state, why, limit_used, INPUT..., RESPONSE...)
                           state: accept, reject, inconclusive, run (not judged), failed; inputs and
                           responses in SI under their own names, listed words as text

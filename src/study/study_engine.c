@@ -265,3 +265,222 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
     return status != FW_OK || done ? status
                                    : fw_study_evaluate_alone(study, cancel, sample, changed);
 }
+
+/* ---- what decides a sample ---- */
+
+static void add_real(fw_text *out, double value) {
+    fw_text_add(out, " ");
+    fw_text_number(out, value, 17);
+}
+
+static void add_text(fw_text *out, const char *text) {
+    fw_text_printf(out, " %zu:%s", text ? strlen(text) : 0, text ? text : "");
+}
+
+/* what a message can name of the hash: options as they are written, one to a line */
+static fw_status find_options(fw_study *study, const char **options) {
+    const fw_design_options *o = &study->options.design;
+    fw_text t = fw_text_new(study->arena);
+    const struct {
+        const char *name, *value;
+    } word[] = {{"flow", o->flow},
+                {"effects", o->effects},
+                {"method", o->method},
+                {"integrator", o->integrator},
+                {"stabilise", o->stabilise},
+                {"hinge-model", o->hinge_model},
+                {"corners", o->corners},
+                {"scene", o->scene},
+                {"at", o->at},
+                {"mask-format", o->mask_formats},
+                {"mask-flatten", o->mask_flatten},
+                {"day", o->day},
+                {"planned", o->planning_times},
+                {"cut", o->cut}};
+    fw_text_add(&t, "");
+    for (size_t i = 0; i < sizeof word / sizeof word[0]; i++)
+        if (word[i].value) fw_text_printf(&t, "--%s %s\n", word[i].name, word[i].value);
+    if (o->accuracy > 0) {
+        fw_text_add(&t, "--accuracy ");
+        fw_text_number(&t, o->accuracy, 17);
+        fw_text_add(&t, "\n");
+    }
+    if (o->rtol > 0) {
+        fw_text_add(&t, "--rtol ");
+        fw_text_number(&t, o->rtol, 17);
+        fw_text_add(&t, "\n");
+    }
+    for (int i = 0; i < study->options.nset; i++)
+        fw_text_printf(&t, "--set %s=%s\n", study->options.set[i].path,
+                       study->options.set[i].value);
+    FW_TRY(fw_text_end(&t));
+    *options = t.data;
+    return FW_OK;
+}
+
+static fw_status find_files(fw_study *study, const char **files) {
+    fw_text t = fw_text_new(study->arena);
+    fw_text_add(&t, "");
+    for (int i = 0; i < study->plan->ninput; i++)
+        fw_text_printf(&t, "%s %s\n", study->plan->input[i].sha256, study->plan->input[i].name);
+    FW_TRY(fw_text_end(&t));
+    *files = t.data;
+    return FW_OK;
+}
+
+/* what is asked: kind, inputs, responses */
+static fw_status add_asked(const fw_study *study, fw_text *t) {
+    const fw_device_study *a = study->asked;
+    fw_text_printf(t, "%s %s %s %d %ld", fw_device_study_kind_text(a->kind),
+                   fw_device_study_points_text(a->points), fw_device_study_judge_text(a->judge),
+                   a->samples, a->seed);
+    add_text(t, a->name);
+    add_real(t, a->confidence);
+    if (a->yield > 0) add_real(t, a->yield);
+    if (a->fitted > 0) fw_text_add(t, " fitted"), add_real(t, a->fitted);
+    for (int k = 0; k < a->nvary; k++) {
+        const fw_device_vary *v = &a->vary[k];
+        add_text(t, v->what);
+        add_real(t, v->from), add_real(t, v->to);
+        fw_text_printf(t, " %s %d %d", v->unit, v->steps, v->logarithmic);
+        for (int i = 0; i < v->ntext; i++)
+            add_text(t, v->text[i]);
+    }
+    for (int k = 0; k < a->nuncertain; k++) {
+        const fw_device_uncertain *u = &a->uncertain[k];
+        add_text(t, u->what);
+        fw_text_printf(t, " %d %s", (int)u->spread, u->unit);
+        add_real(t, u->mean), add_real(t, u->sd), add_real(t, u->from), add_real(t, u->to);
+        for (int i = 0; i < u->ntable; i++)
+            add_real(t, u->x[i]), add_real(t, u->p[i]);
+        if (u->flow || u->levelled) add_text(t, u->flow), fw_text_printf(t, " %d", (int)u->level);
+    }
+    for (int k = 0; k < a->ntrend; k++) {
+        const fw_device_trend *q = &a->trend[k];
+        add_text(t, q->what), add_text(t, q->flow);
+        add_real(t, q->radial), add_real(t, q->along_x), add_real(t, q->along_y);
+    }
+    for (int k = 0; k < a->ncorrelation; k++)
+        add_text(t, a->correlation[k].of), add_text(t, a->correlation[k].with),
+            add_text(t, a->correlation[k].flow), add_real(t, a->correlation[k].value);
+    for (int k = 0; k < a->nrespond; k++) {
+        const fw_device_respond *q = &a->respond[k];
+        add_text(t, q->name), add_text(t, q->value);
+        fw_text_printf(t, " %d %d", (int)q->take, (int)q->goal);
+        add_real(t, q->min), add_real(t, q->max);
+    }
+    return fw_text_end(t);
+}
+
+/* the hash is of the words of the options as they were given, in one line */
+static fw_status add_given(fw_study *study, fw_text *t) {
+    const fw_design_options *o = &study->options.design;
+    const char *files;
+    FW_TRY(fw_study_files_hash(study->arena, study->plan, &files));
+    fw_text_printf(t, "flexwright %s %s\n", FW_VERSION, files);
+    const char *const words[] = {
+        o->flow,         o->effects, o->method,         o->integrator, o->stabilise,
+        o->hinge_model,  o->corners, o->scene,          o->at,         o->mask_formats,
+        o->mask_flatten, o->day,     o->planning_times, o->cut};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        add_text(t, words[i]);
+    add_real(t, o->accuracy);
+    add_real(t, o->rtol);
+    for (int i = 0; i < study->options.nset; i++)
+        add_text(t, study->options.set[i].path), add_text(t, study->options.set[i].value);
+    return FW_OK;
+}
+
+fw_status fw_study_find_hash(fw_study *study) {
+    fw_study_origin *o = &study->origin;
+    fw_text t = fw_text_new(study->arena), asked = fw_text_new(study->arena);
+    char digits[65];
+    o->program = FW_VERSION;
+    FW_TRY(find_options(study, &o->options));
+    FW_TRY(find_files(study, &o->files));
+    FW_TRY(add_asked(study, &asked));
+    fw_sha256(asked.data, asked.length, digits);
+    FW_NEED(o->asked = fw_arena_strdup(study->arena, digits));
+    FW_TRY(add_given(study, &t));
+    fw_text_printf(&t, "\n%s", asked.data);
+    FW_TRY(fw_text_end(&t));
+    fw_sha256(t.data, t.length, digits);
+    FW_NEED(study->hash = fw_arena_strdup(study->arena, digits));
+    return FW_OK;
+}
+
+/* the first line of `of` that `in` has not; its length in *n, 0: all are there */
+static const char *only_in(const char *of, const char *in, size_t *n) {
+    for (const char *line = of; *line; line += *n + 1) {
+        bool there = false;
+        *n = strcspn(line, "\n");
+        for (const char *other = in; *other && !there; other += strcspn(other, "\n") + 1)
+            there = strcspn(other, "\n") == *n && strncmp(line, other, *n) == 0;
+        if (!there) return line;
+    }
+    *n = 0;
+    return of;
+}
+
+enum { HASH = 65 }; /* of a line of a file, with the blank behind */
+
+static bool is_named(const char *files, const char *name, size_t n) {
+    for (const char *line = files; *line; line += strcspn(line, "\n") + 1)
+        if (strcspn(line, "\n") == n + HASH && strncmp(line + HASH, name, n) == 0) return true;
+    return false;
+}
+
+static void add_files(fw_text *out, const char *then, const char *now) {
+    size_t n;
+    const char *line = only_in(then, now, &n);
+    const bool gone = n > HASH;
+    if (!gone) line = only_in(now, then, &n);
+    if (n <= HASH) return;
+    const char *name = line + HASH;
+    const int length = (int)(n - HASH);
+    if (is_named(gone ? now : then, name, n - HASH))
+        fw_text_printf(out, "; %.*s was another file", length, name);
+    else
+        fw_text_printf(out,
+                       gone ? "; %.*s was read then and is not now (the same --lab, and the same "
+                              "place to start from?)"
+                            : "; %.*s is read now and was not then",
+                       length, name);
+}
+
+static void add_options(fw_text *out, const char *then, const char *now) {
+    size_t n;
+    const char *line = only_in(then, now, &n);
+    if (n) fw_text_printf(out, "; it had %.*s", (int)n, line);
+    line = only_in(now, then, &n);
+    if (n) fw_text_printf(out, "; now there is %.*s", (int)n, line);
+}
+
+fw_status fw_study_difference(fw_study *study, fw_study_says *says, struct sqlite3 *db,
+                              const char **words) {
+    const fw_study_origin *now = &study->origin;
+    fw_study_origin then;
+    fw_text t = fw_text_new(study->arena);
+    const struct {
+        const char *key, **value;
+    } of[] = {{"program", &then.program},
+              {"options", &then.options},
+              {"files", &then.files},
+              {"asked", &then.asked}};
+    *words = "";
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        *of[i].value = says(study->arena, db, of[i].key);
+        if (!*of[i].value) return FW_OK;
+    }
+    fw_text_add(&t, "");
+    if (strcmp(then.program, now->program) != 0)
+        fw_text_printf(&t, "; it is of version %s, and this is %s", then.program, now->program);
+    add_options(&t, then.options, now->options);
+    add_files(&t, then.files, now->files);
+    if (strcmp(then.asked, now->asked) != 0)
+        fw_text_add(&t, "; it was asked for something else (inputs, ranges, responses, seed or "
+                        "samples of the study)");
+    FW_TRY(fw_text_end(&t));
+    *words = t.data;
+    return FW_OK;
+}

@@ -91,6 +91,14 @@ int fw_study_stages_run(fw_design *design, unsigned stages);
 /* one hash of all files that a plan has read */
 fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char **hash);
 
+/* study_engine.c: origin and hash of a study; in what one differs whose store says its own by key: "; it had --accuracy
+   1e-6", "" where it does not say */
+struct sqlite3;
+typedef const char *fw_study_says(fw_arena *arena, struct sqlite3 *db, const char *key);
+fw_status fw_study_find_hash(fw_study *study);
+fw_status fw_study_difference(fw_study *study, fw_study_says *says, struct sqlite3 *db,
+                              const char **words);
+
 /* is what a design was read from what the study was? */
 bool fw_study_same_files(const fw_study *study, fw_design *design);
 
@@ -217,6 +225,11 @@ fw_status fw_study_search_knows(const fw_study *study, fw_study_search *search,
                                 const fw_study_search *of, int nof);
 /* n searches, in threads: each gives the same whatever runs beside it */
 fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n);
+
+/* kind_sensitivity.c: where derivatives by an input are taken, SI: at the description, or at the middle of the range where
+   that does not hold it, or the description has no parameter of it */
+bool fw_study_input_is_inside(const fw_study_input *in);
+double fw_study_input_centre(const fw_study_input *in);
 
 /* weights (n <= 7) of the first derivative at `at` by values at the nodes x (kind_sensitivity.c) */
 void fw_study_derivative_weights(const double *x, int n, double at, double *weight);

@@ -108,10 +108,10 @@ static fw_status say(fw_study_store *store, const char *key, const char *value) 
 
 static fw_status make_tables(fw_study_store *store) {
     const fw_study *study = store->study;
+    const fw_study_options *o = &study->options;
     fw_text sql = fw_text_new(study->arena);
-    char number[32];
-    snprintf(number, sizeof number, "%d", (int)APPLICATION);
-    fw_text_printf(&sql, "PRAGMA application_id = %s; PRAGMA page_size = 4096; BEGIN;", number);
+    fw_text_printf(&sql, "PRAGMA application_id = %d; PRAGMA page_size = 4096; BEGIN;",
+                   (int)APPLICATION);
     fw_text_add(
         &sql, "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
               "CREATE TABLE sample (i INTEGER PRIMARY KEY, state TEXT, why TEXT, limit_used REAL");
@@ -119,18 +119,19 @@ static fw_status make_tables(fw_study_store *store) {
     fw_text_add(&sql, ");");
     FW_TRY(fw_text_end(&sql));
     FW_TRY(run(store, sql.data, "the store could not be begun"));
-    FW_TRY(say(store, "program", FW_VERSION));
-    FW_TRY(say(store, "hash", study->hash));
-    FW_TRY(say(store, "study", study->asked->name));
-    FW_TRY(say(store, "kind", fw_device_study_kind_text(study->asked->kind)));
-    FW_TRY(say(store, "device", study->device_name));
-    FW_TRY(say(store, "file", study->options.file));
-    if (study->options.shards > 0) {
-        snprintf(number, sizeof number, "%d", study->options.shard);
-        FW_TRY(say(store, "shard", number));
-        snprintf(number, sizeof number, "%d", study->options.shards);
-        FW_TRY(say(store, "shards", number));
-    }
+    const char *const of[][2] = {{"program", study->origin.program},
+                                 {"options", study->origin.options},
+                                 {"files", study->origin.files},
+                                 {"asked", study->origin.asked},
+                                 {"hash", study->hash},
+                                 {"study", study->asked->name},
+                                 {"kind", fw_device_study_kind_text(study->asked->kind)},
+                                 {"device", study->device_name},
+                                 {"file", o->file},
+                                 {"shard", fw_arena_printf(sql.arena, "%d", o->shard)},
+                                 {"shards", fw_arena_printf(sql.arena, "%d", o->shards)}};
+    for (size_t i = 0; i < sizeof of / sizeof of[0] - (o->shards > 0 ? 0 : 2); i++)
+        FW_TRY(say(store, of[i][0], of[i][1]));
     return run(store, "COMMIT", "the store could not be begun");
 }
 
@@ -207,14 +208,15 @@ static fw_status prepare_all(fw_study_store *store) {
 
 /* a store that is there: of this study, or the message says of which */
 static fw_status check_same(const fw_study_store *store) {
-    const char *hash = said(store->study->arena, store->db, "hash");
+    const char *hash = said(store->study->arena, store->db, "hash"), *words;
     const char *name = said(store->study->arena, store->db, "study");
     if (hash && strcmp(hash, store->study->hash) == 0) return FW_OK;
+    FW_TRY(fw_study_difference(store->study, said, store->db, &words));
     return fw_diag_error(&store->study->diags, 495, (fw_place){.file = store->path},
                          "it holds the samples of study '%s' of other inputs, options or another "
-                         "version of the program, not those of '%s' as it is now; name another "
+                         "version of the program, not those of '%s' as it is now%s; name another "
                          "directory with -o, or leave --resume out to begin anew",
-                         name ? name : "?", store->study->asked->name);
+                         name ? name : "?", store->study->asked->name, words);
 }
 
 /* results of what the store held before; they are written anew at the end */
@@ -478,8 +480,7 @@ fw_status fw_study_store_finish(fw_study_store *store) {
                   "the store could not be completed")
             : failed(&last, "the store could not be completed");
     if (status == FW_OK) status = make_tables(&last);
-    sqlite3_close(last.db);
-    last.db = NULL;
+    sqlite3_close(last.db), last.db = NULL;
     fw_text_add(&sql, "ATTACH ? AS last");
     sqlite3_stmt *attach = NULL;
     if (status == FW_OK) status = prepare(store, &sql, &attach);
@@ -516,21 +517,21 @@ fw_status fw_study_store_finish(fw_study_store *store) {
 
 static fw_status shard_of(fw_study *study, const char *directory, sqlite3 *db, int n, bool *seen) {
     const char *hash = said(study->arena, db, "hash"), *shard = said(study->arena, db, "shard"),
-               *shards = said(study->arena, db, "shards");
+               *shards = said(study->arena, db, "shards"), *words;
     fw_place place = {.file = directory};
-    int i = shard ? (int)strtol(shard, NULL, 10) : 0,
-        of = shards ? (int)strtol(shards, NULL, 10) : 0;
-    if (!hash || strcmp(hash, study->hash) != 0)
+    int i = shard ? atoi(shard) : 0, of = shards ? atoi(shards) : 0;
+    if (!hash || strcmp(hash, study->hash) != 0) {
+        FW_TRY(fw_study_difference(study, said, db, &words));
         return fw_diag_error(&study->diags, 497, place,
-                             "its store is of another study, of other inputs or options, or of "
-                             "another version of the program than %s is now",
-                             study->options.file);
+                             "its store is of another study, inputs, options or version of the "
+                             "program than %s is now%s; merge takes the options of the shards",
+                             study->options.file, words);
+    }
     if (of != n || i < 1 || i > n)
-        return fw_diag_error(
-            &study->diags, 497, place,
-            "its store is shard %d of %d, and %d directories were named; name those of all "
-            "shards, each once",
-            i, of, n);
+        return fw_diag_error(&study->diags, 497, place,
+                             "its store is shard %d of %d, and %d directories were named; name "
+                             "those of all shards, each once",
+                             i, of, n);
     if (seen[i - 1])
         return fw_diag_error(&study->diags, 497, place, "shard %d of %d is named twice", i, n);
     seen[i - 1] = true;
@@ -541,9 +542,8 @@ static fw_status shard_of(fw_study *study, const char *directory, sqlite3 *db, i
 static fw_status agree(fw_study_store *store, const char *directory) {
     sqlite3_stmt *s = NULL;
     static const char sql[] =
-        "SELECT i FROM main.sample JOIN shard.sample AS other USING (i) WHERE main.sample.state IS "
-        "NOT "
-        "other.state OR main.sample.limit_used IS NOT other.limit_used LIMIT 1";
+        "SELECT i FROM main.sample JOIN shard.sample AS other USING (i) WHERE main.sample.state "
+        "IS NOT other.state OR main.sample.limit_used IS NOT other.limit_used LIMIT 1";
     if (sqlite3_prepare_v2(store->db, sql, -1, &s, NULL) != SQLITE_OK)
         return failed(store, "a shard could not be read");
     const int step = sqlite3_step(s);
@@ -561,10 +561,10 @@ static fw_status agree(fw_study_store *store, const char *directory) {
 static fw_status merge_one(fw_study_store *store, const char *directory, int n, bool *seen) {
     fw_study *study = store->study;
     const char *path = fw_arena_printf(study->arena, "%s/study.sqlite", directory);
+    const char *value;
     sqlite3 *db = NULL;
     sqlite3_stmt *attach = NULL;
     FW_NEED(path);
-    const char *value;
     FW_TRY(fw_study_store_said(study->arena, &study->diags, directory, "hash", &value));
     fw_status status = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK
                            ? shard_of(study, directory, db, n, seen)

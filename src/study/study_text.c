@@ -181,8 +181,27 @@ static void say_ends(fw_text *out, const fw_study *study) {
         }
 }
 
+/* of inputs whose derivatives are not taken at the description */
+static void say_elsewhere(fw_text *out, const fw_study *study) {
+    for (int k = 0; k < study->ninput; k++) {
+        const fw_study_input *in = &study->input[k];
+        if (fw_study_input_is_inside(in)) continue;
+        fw_text_printf(out, "  derivatives are taken at %s = ", in->what);
+        input_value(out, in, fw_study_input_centre(in));
+        fw_text_add(out, ", the middle of its range: ");
+        if (isnan(in->now)) {
+            fw_text_add(out, "it is no parameter, whose value in the description would be taken\n");
+            continue;
+        }
+        fw_text_add(out, "the description has ");
+        input_value(out, in, in->now);
+        fw_text_add(out, ", outside of it\n");
+    }
+}
+
 static void say_sensitivity(fw_text *out, const fw_study *study) {
     const fw_study_result *result = study->result;
+    say_elsewhere(out, study);
     for (int r = 0; r < study->nresponse; r++) {
         const fw_study_response *q = &study->response[r];
         fw_text_printf(out, "  %s, now ", q->asked->name);

@@ -80,6 +80,8 @@ static void derivatives(fw_json *j, const fw_study *study, int r) {
         const fw_study_derivative *d = &result->derivative[at];
         fw_json_object(j, NULL);
         fw_json_text(j, "what", study->input[k].what);
+        fw_json_real(j, "at_SI", fw_study_input_centre(&study->input[k]));
+        fw_json_truth(j, "at_description", fw_study_input_is_inside(&study->input[k]));
         fw_json_real(j, "derivative_SI", d->value);
         fw_json_real(j, "derivative_error_SI", d->error);
         fw_json_real(j, "half_range_effect", d->spread);

@@ -76,6 +76,17 @@ class Flowback(unittest.TestCase):
             self.expect(self.etch(wafer, *first, power="262 W" if wafer == 3 else "250 W",
                                   rate=0.545 * (1 + 0.01 * self.random.gauss(0, 1))))
 
+    def test_the_sheet_asks_of_the_step_what_calibrate_takes(self):
+        for flow in ("al-masked-rie", "silicon-on-glass"):
+            line = next(l for l in (ROOT / f"masks/{flow}.xml").read_text().splitlines() if 'id="al-step"' in l)
+            self.assertIn('measure="aluminium that the plasma took', line)
+        table = self.here / "left.csv"
+        for lost, status in ((1.3, 3), (0.8, 0)):
+            table.write_text(f"coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit\nal-step,,,{lost},0.01,um,50,0.2,um\n")
+            done = run("calibrate", table, "--flow", "al-masked-rie", "-o", self.here / "left.xml")
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertEqual("al-step: the mask lost 1.3 um, and there were 1 um of it (al.d)" in done.stderr, status == 3, done.stderr)
+
     def test_a_doubtful_unit_is_said_to_the_quiet_too(self):
         entry = "S01; start=2026-11-02T08:00; end=2026-11-02T08:08; by=AB; thickness=50.1 {}; cracks or chipped edge=0"
         for number, (unit, says) in enumerate((("mm", "more than 100 times the 52 um"), ("nm", "less than a hundredth of the 48 um"),

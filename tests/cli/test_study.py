@@ -170,11 +170,53 @@ class Study(unittest.TestCase):
         self.assertEqual([p.name for p in (self.place / "shard1").iterdir()], ["study.sqlite"])
         for wrong, says in ((merge[:3] + merge[5:], "shard 3 of 3, and 1 directories"),
                             (merge[:3] + merge[2:3] + merge[4:], "named twice"),
+                            (merge + ["--accuracy", "1e-4"], "than " + str(path) + " is now; now there is --accuracy 0.0001; merge takes"),
+                            (merge + ["--set", "arc=235 deg"], "; now there is --set arc=235 deg; merge takes"),
+                            (merge + ["--lab", self.lab()], "lab.xml is read now and was not then; merge takes"),
                             (["study", "merge", self.place, "-o", self.place / "m"], "no store of a study")):
             done = run(*wrong)
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn(says, done.stderr)
             self.assertIn("FW-D497", done.stderr)
+
+    def lab(self):
+        return self.write('<process xmlns="urn:flexwright:process:1" flow="al-masked-rie"><source id="lab">measured</source>'
+                          '<q id="rie.R" value="0.5" u="0.01" unit="um/min" status="measured" src="lab"/></process>', "lab.xml")
+
+    def test_a_merge_says_what_differs(self):
+        path = self.write(study("s", "sweep", SWEEP).replace("<study", '<study as="drawn" points="grid"'))
+        lab = self.lab()
+        done = run("study", path, "-o", self.place / "shard1", *FLOW, "--shard", "1/1", "--lab", lab)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        merge = ["study", "merge", self.place / "shard1", "-o", self.place / "merged", *FLOW]
+        done = run(*merge)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn("lab.xml was read then and is not now (the same --lab", done.stderr)
+        lab.write_text(lab.read_text().replace("0.01", "0.02"))
+        done = run(*merge, "--lab", lab)
+        self.assertIn("lab.xml was another file; merge takes", done.stderr)
+        self.lab()
+        path.write_text(path.read_text().replace('<respond name="f"', '<respond name="f1"'))
+        self.assertIn("; it was asked for something else (inputs,", run(*merge, "--lab", lab).stderr)
+
+    def test_derivatives_elsewhere_than_the_description_are_said(self):
+        rows = ('<vary what="arc" from="242 deg" to="250 deg"/><vary what="flexure[C]/@width" from="7.5 um" to="8.5 um"/>'
+                '<respond name="U" value="hinges[C].utilisation"/>')
+        path = self.write(study("s", "sensitivity", rows, samples=128).replace("<study", '<study as="hinges"'))
+        done = run("study", path, "-o", self.place / "s", *FLOW)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("'arc': the description has another value than its range", done.stderr)
+        self.assertIn("FW-D649", done.stderr)
+        words = "derivatives are taken at arc = 246 deg, the middle of its range: the description has 240 deg, outside of it"
+        self.assertIn(words, done.stdout)
+        self.assertIn(words, (self.place / "s/study.html").read_text())
+        self.assertIn("derivatives are taken at flexure[C]/@width = 8 um, the middle of its range: it is no parameter", done.stdout)
+        by = json.loads((self.place / "s/study.json").read_text())["responses"][0]["by"]
+        self.assertAlmostEqual(by[0]["at_SI"], math.radians(246), delta=1e-6)
+        self.assertEqual([d["at_description"] for d in by], [False, False])
+        inside = self.write(path.read_text().replace("242 deg", "232 deg"), "inside.xml")
+        done = run("study", inside, "--plan", *FLOW)
+        self.assertNotIn("FW-D649", done.stderr)
 
     def test_killed_and_interrupted_studies_go_on(self):
         path = self.write(study("s", "sweep", SWEEP.replace('steps="4"', 'steps="30"')).replace(

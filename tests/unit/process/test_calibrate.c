@@ -4,6 +4,7 @@
    is found is written as a pack, and the pack changes times and bias. */
 #include "packs.h"
 #include "process/calibrate.h"
+#include "process/coupon.h"
 #include "process/process_law.h"
 #include <stdlib.h>
 
@@ -331,6 +332,16 @@ static void of_another_flow(void **state) {
     assert_relative(found(&c, "drie.R")->value, R, 1e-6);
     assert_relative(found(&c, "drie.S")->value, S, 1e-4);
     assert_relative(found(&c, "drie.selectivity")->value, 62.5, 1e-9);
+    /* no more is lost of a mask than there was; that of it which is left is not told from what was lost below that */
+    const fw_quantity *mask = fw_process_flow_etch(soi).mask;
+    assert_non_null(mask);
+    nrow = 0;
+    put("al-step", "", 0, LENGTH, mask->value + 3.5 * hypot(mask->uncertainty, 0.01e-6), 0.01e-6, LENGTH, 50e-6, 0.1e-6);
+    assert_int_equal(fw_process_calibrate(arena, soi, rows, nrow, &diags, &c), FW_INPUT);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "al-step: the mask lost"));
+    assert_int_equal(fw_process_measurement_of_flow(soi, &rows[0], &diags), FW_INPUT);
+    rows[0].value = mask->value + 2.5 * hypot(mask->uncertainty, 0.01e-6);
+    assert_int_equal(fw_process_measurement_of_flow(soi, &rows[0], &diags), FW_OK);
     /* one that cuts nothing in a direction reads none of it */
     nrow = 0;
     put("al-step", "", 0, LENGTH, 0.8e-6, 0.01e-6, LENGTH, 50e-6, 0.1e-6);
@@ -537,6 +548,10 @@ static void forms(void **state) {
                         "cd-lines, line|space, drawn=__ um, value=__ __ __ __ __ um, u=__ um; "
                         "undercut-ladder, width, or gone and stands in one line each, drawn=__ um, value=__ __ __ __ __ um, u=__ um, at=__ min");
     out = fw_text_new(arena);
+    fw_text step = fw_text_new(arena);
+    assert_int_equal(fw_process_coupon_forms(&(fw_process_coupon_read){"coupon al-step", "rie.selectivity"}, 1, &step), FW_OK);
+    assert_string_equal(step.data, "al-step, value what the mask lost (its step before the etch less that after it), at the etched "
+                                   "depth, value=__ __ __ __ __ um, u=__ um, at=__ um");
     assert_int_equal(fw_process_coupon_forms(&gauge, 1, &out), FW_OK);
     assert_int_equal(out.length, 0);
     /* of a coupon that serves any rate the feature is the rate that it is read for */

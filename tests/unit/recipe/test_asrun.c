@@ -374,8 +374,8 @@ static void planned_against_actual(void **state) {
     assert_true(holds(&text, "copper bright in the mould = no: OUT of yes"));
     assert_true(holds(&text, "contact resistance = 0.4 ohm: accepted"));
     assert_true(holds(&text, "(run 2 times)"));
-    /* C21 took 5 min where 6 to 14 are planned; C22 started before the last C20 ended */
-    assert_true(holds(&text, "3 of 28 steps run, 1 repeated, 3 outside of their limits"));
+    /* C21 took 5 min where 6 to 14 are planned; C20 was run again after C22, which came 21 min after the first one */
+    assert_true(holds(&text, "3 of 28 steps run, 1 repeated, 4 outside of their limits"));
     assert_true(holds(&json, "\"actual_s\":1350,\"judged\":\"in window\""));
     assert_true(holds(&json, "\"judged\":\"short\""));
     assert_true(holds(&json, "\"measure\":\"thickness\",\"value\":7.9,\"unit\":\"um\","
@@ -768,6 +768,100 @@ static void loads_share_their_time(void **state) {
     assert_true(holds(&json, "\"judged\":\"long\""));
 }
 
+/* said of a log whose entries are made one after the other; how often, and with these words */
+static int told_of_waits(const char *const *entry, int n, const char *words, fw_text *table) {
+    fw_recipe_asrun run;
+    int told = 0;
+    const char *log = begun();
+    for (int i = 0; i < n; i++) {
+        log = with(log, entry[i], 0);
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[i], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        for (size_t k = 0; k < diags.count; k++) {
+            if (diags.item[k].number != 648) continue;
+            told++;
+            if (!strstr(diags.item[k].message, words)) print_message("%s\n", diags.item[k].message);
+            assert_non_null(strstr(diags.item[k].message, words));
+        }
+    }
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, table), FW_OK);
+    return told;
+}
+
+/* A step begins after the one before it has ended, with a lag or without, whichever of the two was entered first; what is
+   run again afterwards is no contradiction, and neither is another wafer's, nor what shares its time with other loads. A wait
+   that is too long is told with the entry that shows it. Each once */
+static void waits_are_not_below_nothing(void **state) {
+    (void)state;
+#define C(step, from, to, wafer) step "; start=2026-11-20T" from "; end=2026-11-20T" to "; by=AB; second=CD; wafer=" wafer
+    static const struct {
+        const char *entry[5];
+        int n, told;
+        const char *words, *table;
+    } log[] = {
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "09:00", "09:22", "1")}, 2, 1,
+         "step C22 of wafer 1 began 69 min before C20 ended (2026-11-20T10:00 to 2026-11-20T10:09)",
+         "began 69 min before C20 ended: OUT of 0 s to 15 min"},
+        {{C("C22", "09:00", "09:22", "1"), C("C20", "10:00", "10:09", "1")}, 2, 1, "step C22 of wafer 1 began 69 min before C20",
+         "began 69 min before C20 ended: OUT"},
+        {{C("C01", "10:00", "10:05", "1"), C("C02", "08:00", "08:45", "1")}, 2, 1, "step C02 of wafer 1 began 2 h 5 min before C01 ended",
+         "began 2 h 5 min before C01 ended: OUT of 0 s or more"},
+        {{C("C10", "08:00", "08:05", "1"), C("C09", "10:00", "10:05", "1")}, 2, 1, "step C10 of wafer 1 began", "before C09 ended: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "11:00", "11:22", "1")}, 2, 1,
+         "step C22 of wafer 1 waited 51 min since C20, and allowed is 0 s to 15 min", "waited 51 min since C20: OUT"},
+        {{C("C22", "11:00", "11:22", "1"), C("C20", "10:00", "10:09", "1")}, 2, 1, "waited 51 min since C20", "waited 51 min since C20: OUT"},
+        /* none of these */
+        {{C("C20", "10:00", "10:09", "2"), C("C22", "09:00", "09:22", "1")}, 2, 0, "", NULL},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "12:00", "12:09", "1")}, 3, 0, "", NULL},
+        {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1")}, 2, 0, "", NULL},
+        {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1"), C("C09", "10:20", "10:25", "1")}, 3, 0, "", NULL},
+        /* the wrong time was put right */
+        {{C("C20", "18:00", "18:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "10:00", "10:09", "1")}, 3, 1, "before C20 ended", NULL},
+    };
+#undef C
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
+        fw_text table = fw_text_new(arena);
+        int told = told_of_waits(log[i].entry, log[i].n, log[i].words, &table);
+        if (told != log[i].told) print_message("log %zu: told %d times\n", i, told);
+        assert_int_equal(told, log[i].told);
+        if (log[i].table && !holds(&table, log[i].table)) print_message("log %zu\n%s\n", i, table.data);
+        assert_true(!log[i].table || holds(&table, log[i].table));
+        assert_true(log[i].table || (!holds(&table, "before") && !holds(&table, "waited")));
+    }
+    fw_recipe_asrun run;
+    fw_recipe_deviation *list;
+    fw_text json = fw_text_new(arena), page = fw_text_new(arena);
+    int n, waits = 0;
+    const char *early = begun();
+    for (int i = 0; i < 2; i++)
+        early = with(early, log[0].entry[i], 0);
+    assert_int_equal(read_log(early, strlen(early), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
+    assert_true(holds(&json, "\"waited_s\":-4140,\"min_s\":0,\"max_s\":900,\"accepted\":false"));
+    assert_true(holds(&page, "began 69 min before C20 ended"));
+    assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+    for (int i = 0; i < n; i++)
+        waits += strcmp(list[i].what, "wait since C20") == 0;
+    assert_int_equal(waits, 1);
+}
+
+/* the same line a second time is seldom meant; with a value more it is */
+static void an_entry_is_made_once(void **state) {
+    (void)state;
+    static const char again[] = "C23; start=2026-11-20T10:30; end=2026-11-20T10:39; by=AB; thickness=9.1",
+                      more[] = "C23; start=2026-11-20T10:30; end=2026-11-20T10:39; by=AB; spread of thickness=3 %";
+    const char *log = with(begun(), again, 0);
+    for (int i = 0; i < 2; i++) {
+        bool told = false;
+        with(log, i ? more : again, 0);
+        for (size_t k = 0; k < diags.count; k++)
+            told = told || strstr(diags.item[k].message, "is in the log already, with the same values (line 2)");
+        assert_int_equal(told, i == 0);
+    }
+}
+
 /* what calibrate could make nothing of is not written */
 static void coupons_of_other_flows(void **state) {
     (void)state;
@@ -791,6 +885,20 @@ static void coupons_of_other_flows(void **state) {
     run.table = &table;
     assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry("coupon=plating-pads, drawn=10 um, value=9.1 um, u=0.1 um, at=25 C/cm2"),
                                          (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+    /* a width that the die does not have is asked after, with those that there are */
+    const fw_layout_pattern sized = {.kind = &pads, .id = "pads", .size_m = {10e-6, 30e-6}, .nsize = 2};
+    const fw_mask_table widths = {.pattern = &sized, .npattern = 1};
+    static const char *const drawn[] = {"12", "10", "30"};
+    for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++) {
+        bool told = false;
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        run.table = &widths;
+        const char *of = fw_arena_printf(arena, "coupon=plating-pads, drawn=%s um, value=9.1 um, u=0.1 um, at=25 C/cm2", drawn[i]);
+        assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry(of), (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            told = told || strstr(diags.item[k].message, "coupon plating-pads, drawn=12 um: on the test die it is drawn with 10, 30 um");
+        assert_int_equal(told, i == 0);
+    }
 }
 
 /* the year 2126 has not come; ages ago is asked about; before 1970 and far ahead are dates like others */
@@ -935,6 +1043,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(wafers_that_are_out, setup, teardown),
         cmocka_unit_test_setup_teardown(deviations_are_written_down, setup, teardown),
         cmocka_unit_test_setup_teardown(readings_of_what_is_out, setup, teardown),
+        cmocka_unit_test_setup_teardown(waits_are_not_below_nothing, setup, teardown),
+        cmocka_unit_test_setup_teardown(an_entry_is_made_once, setup, teardown),
         cmocka_unit_test_setup_teardown(loads_share_their_time, setup, teardown),
         cmocka_unit_test_setup_teardown(coupons_of_other_flows, setup, teardown),
     };
