@@ -50,6 +50,7 @@ fw_script_test(cli.measurements COMMAND ${Python3_EXECUTABLE} tests/cli/test_mea
 fw_script_test(cli.inputs COMMAND ${Python3_EXECUTABLE} tests/cli/test_inputs.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
 fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})
+fw_script_test(cli.heated COMMAND ${Python3_EXECUTABLE} tests/cli/test_heated.py ${FW_PROGRAM} TIMEOUT 300)
 fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/cli/test_workspace.py ${FW_PROGRAM})
 fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assemble.py ${FW_PROGRAM})
 fw_script_test(cli.shapes COMMAND ${Python3_EXECUTABLE} tests/cli/test_shapes.py ${FW_PROGRAM})

@@ -29,7 +29,8 @@ const char *fw_place_file(fw_place place);
 typedef enum fw_diag_ended {
     FW_ENDED_NOT,
     FW_ENDED_FORMULA,
-    FW_ENDED_CLOSED_FORM /* of a flexure: an exact beam may hold farther on */
+    FW_ENDED_CLOSED_FORM, /* of a flexure: an exact beam may hold farther on */
+    FW_ENDED_BEAM /* of a flexure as an exact beam, which is not looked for beyond where held ends would buckle it */
 } fw_diag_ended;
 
 typedef struct fw_diag {

@@ -49,6 +49,7 @@ fw_geometry_vec2 fw_effects_element_root(const fw_effects_force_element *element
 typedef struct fw_effects_element_class {
     const char *effect; /* id of its row in the ledger */
     bool closed_form;   /* of a flexure: where it does not hold an exact beam may */
+    bool beam;          /* such an exact beam */
     bool electrodes;    /* driven by voltages, which have a factor of their own in statics */
     /* f (3 ports): force on the port and couple on its body; overwritten */
     void (*force)(const fw_effects_force_element *e, const fw_effects_port_state *s, double *f);

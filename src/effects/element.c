@@ -421,8 +421,10 @@ fw_status fw_effects_add_nothing(const fw_effect_case *c, fw_effects_loads *load
 
 fw_status fw_effects_element_ended(const fw_effects_force_element *e, const char *scene,
                                    const char *at, const char *why, fw_diags *diags) {
-    fw_status status = fw_diag_formula_ended(
-        diags, 242, e->class_->closed_form ? FW_ENDED_CLOSED_FORM : FW_ENDED_FORMULA, e->place,
-        "%s of %s%s at %s: %s", e->id, FW_NAMED("scene", scene), at, why);
+    const fw_diag_ended what = e->class_->closed_form ? FW_ENDED_CLOSED_FORM
+                               : e->class_->beam      ? FW_ENDED_BEAM
+                                                      : FW_ENDED_FORMULA;
+    fw_status status = fw_diag_formula_ended(diags, 242, what, e->place, "%s of %s%s at %s: %s",
+                                             e->id, FW_NAMED("scene", scene), at, why);
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }

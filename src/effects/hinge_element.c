@@ -583,13 +583,16 @@ static bool exact_valid(const fw_effects_force_element *e, const fw_effects_port
     const fw_effects_flexed *h = e->data;
     const place at = place_of(h, s->p);
     if (solve(h, at.twist, false)) return true;
-    *why = "the flexure as an exact beam has no equilibrium that can be reached from rest with its "
-           "ends in that place: it would buckle or close; lower the load, or look at "
-           "--hinge-model compliance";
+    *why = "the exact beam of the flexure is followed from rest only, and with its ends in that "
+           "place it "
+           "would have buckled between them, or closed, on the way; what is made may go on from "
+           "there, which "
+           "no model here says: lower the load, or make the flexure wider or shorter";
     return false;
 }
 
 const fw_effects_element_class fw_effects_exact_class = {.effect = "nonlinear-hinge",
+                                                         .beam = true,
                                                          .force = exact_force,
                                                          .tangent = exact_tangent,
                                                          .energy = exact_energy,

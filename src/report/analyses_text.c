@@ -10,11 +10,6 @@ static double degrees(double rad) {
     return rad * 180.0 / FW_PI;
 }
 
-const char *fw_report_path_mark(fw_statics_path_mark mark) {
-    static const char *const text[] = {"point", "limit point", "bifurcation", "switch", "end"};
-    return text[mark];
-}
-
 /* eight decimals in a column; what rounds to zero has no sign */
 static void column(fw_text *out, double value) {
     fw_text_real(out, " %14.8f", fabs(value) < 5e-9 ? 0.0 : value);
@@ -194,6 +189,12 @@ static void active(fw_text *out, const fw_statics *s) {
     }
 }
 
+static bool path_goes(const fw_statics_path *p) {
+    for (size_t n = 3 * (size_t)p->nbody, k = 0; k < n; k++)
+        if (fabs(p->q[(size_t)(p->count - 1) * n + k] - p->q[k]) > 1e-12) return true;
+    return false;
+}
+
 static void path_events(fw_text *out, const fw_statics *s) {
     const fw_statics_path *p = s->path;
     int shown = 0;
@@ -213,8 +214,17 @@ static void path_events(fw_text *out, const fw_statics *s) {
         }
         fw_text_add(out, "\n");
     }
+    const int second = fw_report_path_second(p);
+    if (second != FW_NONE) {
+        fw_text_real(out, "  stable a second time behind load factor %.4g", p->factor[second]);
+        fw_text_add(out, p->factor[second] < 0
+                             ? ": without the loads it stays there\n"
+                             : ": with less of the loads it goes back from there\n");
+    }
     if (shown == 0)
-        fw_text_add(out, "  no limit point, no bifurcation: the load only pushes further\n");
+        fw_text_printf(out, "  no limit point, no bifurcation: %s\n",
+                       path_goes(p) ? "the load only pushes further"
+                                    : "nothing moves, as where the scene's loads end at 0");
 }
 
 /* joints other than revolute, and drivers; torques about point b */

@@ -6,6 +6,20 @@
 #include <math.h>
 #include <string.h>
 
+/* ---- a path in words ---- */
+
+const char *fw_report_path_mark(fw_statics_path_mark mark) {
+    static const char *const text[] = {"point", "limit point", "bifurcation", "switch", "end"};
+    return text[mark];
+}
+
+int fw_report_path_second(const fw_statics_path *p) {
+    for (int i = 1; i + 1 < p->count; i++)
+        if (p->mark[i] == FW_PATH_FOLD && p->negative[i - 1] > 0 && p->negative[i + 1] == 0)
+            return i;
+    return FW_NONE;
+}
+
 /* The mechanism under its loads, over the pose at rest. */
 
 enum { WIDTH = 720, HEAD = 38, FRAMES = 120, SECONDS = 8, ARROW = 70 };

@@ -174,6 +174,8 @@ fw_status fw_report_statics_json(const fw_mechanism *mechanism, const fw_device_
 
 /* "point", "limit point", "bifurcation", "switch", "end" */
 const char *fw_report_path_mark(fw_statics_path_mark mark);
+/* the first limit point behind which an unstable path is stable again; FW_NONE */
+int fw_report_path_second(const fw_statics_path *path);
 
 /* for a terminal */
 fw_status fw_report_modes_text(const fw_mechanism *mechanism, const fw_device_scene *scene,

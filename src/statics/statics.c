@@ -55,6 +55,65 @@ static fw_status count_signs(const fw_statics_equilibrium *w, fw_statics *out) {
     return FW_OK;
 }
 
+/* ---- what the joints repeat ---- */
+
+/* of a large mechanism: the joints whose rows were left when all others had been eliminated */
+static fw_status sparse_rank(const fw_statics_equilibrium *w, fw_text *names,
+                             fw_statics_row_rank *rank) {
+    const fw_statics_sparse *s = w->reduced.sparse;
+    const fw_multibody_model *m = w->model;
+    int named = 0, row = 0;
+    rank->kept = (double)NAN;
+    for (int i = 0; i < m->nblock; row += fw_multibody_row_count(&m->block[i++])) {
+        bool said = false;
+        for (int k = 0; k < s->repeats; k++)
+            said = said || (s->repeat[k] >= row &&
+                            s->repeat[k] < row + fw_multibody_row_count(&m->block[i]));
+        if (said)
+            fw_text_printf(names, "%s%s", named++ ? ", " : "",
+                           fw_multibody_block_name(w->mechanism, &m->block[i]));
+    }
+    FW_TRY(fw_text_end(names));
+    rank->joints = named > 0 ? names->data : NULL;
+    return FW_OK;
+}
+
+/* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
+   misses of a unit row.
+
+   fw_assembly_rank (assembly/freedom.c) finds a rank too, and neither can stand for the other. Here it
+   must be the one of the decomposition, in the mass metric and cut at round-off, that the modes and
+   multipliers beside it come from, or their count would contradict the freedoms that are reported;
+   it is there for every state of a path at no further cost, and names all joints of a dependency.
+   There it answers for a pose before masses matter: cut at 1e-10, so that a pose closed to 1e-12
+   counts as what it is meant to be, and it names what is redundant in file order. */
+fw_status fw_statics_equilibrium_rank(const fw_statics_equilibrium *w, fw_statics_row_rank *rank) {
+    const fw_statics_reduced *r = &w->reduced;
+    const fw_multibody_model *m = w->model;
+    *rank = (fw_statics_row_rank){.rows = r->rows, .rank = r->rank};
+    if (r->largest > 0) rank->kept = r->kept / r->largest, rank->dropped = r->dropped / r->largest;
+    if (r->rank == r->rows && !w->sparse) return FW_OK;
+    fw_text names = fw_text_new(w->arena);
+    if (w->sparse) return sparse_rank(w, &names, rank);
+    for (int i = 0, row = 0; i < m->nblock; i++) {
+        int count = m->block[i].rows == FW_ROWS_PIN || m->block[i].rows == FW_ROWS_SLIDE ? 2 : 1;
+        double missing = count;
+        for (int k = 0; k < count; k++, row++)
+            for (int l = 0; l < r->rank; l++) {
+                double part = r->left[(size_t)l * (size_t)r->rows + (size_t)row];
+                missing -= part * part;
+            }
+        if (missing > 0.02)
+            fw_text_printf(&names, "%s%s", names.length ? ", " : "",
+                           fw_multibody_block_name(w->mechanism, &w->model->block[i]));
+    }
+    FW_TRY(fw_text_end(&names));
+    rank->joints = names.data;
+    return FW_OK;
+}
+
+/* ---- the answer ---- */
+
 static fw_status answer(const fw_statics_equilibrium *w, fw_statics *out) {
     size_t n = (size_t)w->model->nq, pins = (size_t)w->mechanism->npin;
     out->nbody = w->mechanism->nbody;
@@ -118,9 +177,7 @@ fw_status fw_statics_equilibrium_reach(fw_statics_equilibrium *w, int most_point
                                : "surfaces may meet, which is followed along the load path");
     if (path || surfaces_meet(w)) {
         fw_statics_path *own = NULL;
-        memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
-        fw_statics_equilibrium_factor(w, 0);
-        fw_status status = fw_statics_equilibrium_descend(w, left_unstable);
+        fw_status status = fw_statics_equilibrium_begin(w, 0, left_unstable);
         if (status != FW_OK)
             return status == FW_SOLVER ? fw_statics_equilibrium_nowhere(w) : status;
         FW_TRY(fw_statics_equilibrium_follow(w, most_points, &own));
@@ -289,6 +346,7 @@ static fw_status equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
     const bool path = options->path || scene->ncontact > 0;
     FW_TRY(fw_statics_equilibrium_new(arena, mechanism, scene, &options->effects,
                                       path ? FW_STATICS_DENSE : FW_STATICS_QUICK, diags, &w));
+    w.beams_next = fw_statics_level_may_go_on(&options->effects, &options->effects);
     /* first: it says why there may be no equilibrium */
     FW_TRY(fw_statics_pull_in_find(arena, mechanism, scene, &options->effects, diags, &w.pull_in));
     FW_TRY(fw_statics_equilibrium_statics(&w, options, found));

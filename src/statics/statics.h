@@ -365,8 +365,9 @@ bool fw_statics_level_is_below(const fw_statics_level_step *step, double accurac
    level. step may be NULL */
 bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
                             const fw_effect_choice *asked, fw_effect_choice *choice);
-/* true: auto was asked for, and a flexure came to where its closed form does not hold (`said`), which an
+/* may_go_on: auto was asked for, and exact beams were not tried yet; true besides: a flexure came to where its closed form does not hold (`said`), which an
    exact beam may know; *choice then asks for these. Test: tests/cli/test_hinge.py, judge.examples */
+bool fw_statics_level_may_go_on(const fw_effect_choice *asked, const fw_effect_choice *choice);
 bool fw_statics_level_goes_on(const fw_effect_choice *asked, const fw_diags *said,
                               fw_effect_choice *choice);
 /* its number as the error of the level used, where it was computed, and where auto chose what that

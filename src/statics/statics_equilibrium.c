@@ -34,10 +34,10 @@ static fw_status law_at(fw_arena *arena, const fw_quantity_law *law, double dura
     return FW_OK;
 }
 
-/* loads with a law become constant ones of their value at the end */
+/* loads with a law become constant ones of their value at the end; strains are those of these loads alone */
 static fw_status freeze(fw_statics_equilibrium *w, fw_effects_loads *loads) {
     fw_effects_point_load *load;
-    double *constant;
+    double *constant, *strain;
     size_t n = 3 * (size_t)loads->nbody, have = (size_t)loads->nload;
     FW_NEED(load = fw_arena_array(w->arena, fw_effects_point_load, have + (size_t)loads->ntimed));
     FW_NEED(constant = fw_arena_array(w->arena, double, n));
@@ -56,6 +56,9 @@ static fw_status freeze(fw_statics_equilibrium *w, fw_effects_loads *loads) {
     loads->nload = (int)have;
     loads->constant = constant;
     loads->ntimed = 0;
+    FW_NEED(strain = fw_arena_array(w->arena, double, (size_t)loads->nbody + 1));
+    memcpy(strain, loads->strain, ((size_t)loads->nbody + 1) * sizeof *strain);
+    loads->strain = strain;
     if (!loads->stretch.law) return FW_OK;
     double last; /* the ground stays as it is at the end */
     FW_TRY(law_at(w->arena, loads->stretch.law, w->scene->duration_s, true, &last));
@@ -194,15 +197,40 @@ static fw_status build(fw_statics_equilibrium *w, const fw_effects_loads *loads)
     return fw_statics_reduced_new(w->arena, w->model, w->sparse, &w->reduced);
 }
 
-static fw_status assemble(fw_statics_equilibrium *w, fw_effects_loads *loads) {
-    leave_out_friction(w, loads);
-    FW_TRY(freeze(w, loads));
+/* the model of frozen loads, with their strains, at s */
+static fw_status model_of(fw_statics_equilibrium *w, fw_effects_loads *loads, double s) {
     FW_TRY(fw_effects_strain(w->arena, w->mechanism, loads, &w->mechanism));
     FW_TRY(build(w, loads));
     FW_TRY(freeze_elements(w));
     split_loads(w);
     FW_TRY(split_drivers(w));
-    fw_statics_equilibrium_factor(w, 0);
+    fw_statics_equilibrium_factor(w, s);
+    return FW_OK;
+}
+
+static fw_status assemble(fw_statics_equilibrium *w, fw_effects_loads *loads) {
+    leave_out_friction(w, loads);
+    FW_TRY(freeze(w, loads));
+    w->drawn = w->mechanism;
+    FW_NEED(w->frozen = fw_effects_loads_keep(w->arena, loads));
+    return model_of(w, loads, 0);
+}
+
+fw_status fw_statics_equilibrium_strained(const fw_statics_equilibrium *w, double share,
+                                          fw_diags *silent, fw_statics_equilibrium *other) {
+    fw_effects_loads own = *w->frozen;
+    size_t n = (size_t)own.nbody + 1;
+    *other = *w;
+    other->mechanism = w->drawn, other->diags = silent;
+    other->reduced = (fw_statics_reduced){0};
+    other->invalid = NULL, other->moving = false;
+    FW_NEED(own.strain = fw_arena_array(w->arena, double, n));
+    for (size_t i = 0; i < n; i++)
+        own.strain[i] = share * w->frozen->strain[i];
+    const double drive_unit = w->drive_unit, reach = w->reach;
+    FW_TRY(model_of(other, &own, w->factor));
+    other->drive_unit = drive_unit, other->reach = reach;
+    fw_statics_equilibrium_factor(other, w->factor);
     return FW_OK;
 }
 
@@ -236,18 +264,6 @@ fw_status fw_statics_equilibrium_again(const fw_statics_equilibrium *w,
     return FW_OK;
 }
 
-/* for fw_statics_equilibrium_again: strains are frozen in place */
-static fw_status keep_loads(fw_statics_equilibrium *w, const fw_effects_loads *loads) {
-    size_t n = (size_t)loads->nbody + 1;
-    fw_effects_loads *kept = fw_arena_one(w->arena, fw_effects_loads);
-    FW_NEED(kept);
-    *kept = *loads;
-    FW_NEED(kept->strain = fw_arena_array(w->arena, double, n));
-    memcpy(kept->strain, loads->strain, n * sizeof *kept->strain);
-    w->loads = kept;
-    return FW_OK;
-}
-
 fw_status fw_statics_equilibrium_new(fw_arena *arena, const fw_mechanism *mechanism,
                                      const fw_device_scene *scene, const fw_effect_choice *effects,
                                      int most_dense, fw_diags *diags, fw_statics_equilibrium *w) {
@@ -259,7 +275,7 @@ fw_status fw_statics_equilibrium_new(fw_arena *arena, const fw_mechanism *mechan
     fw_effect_choice choice = *effects;
     if (choice.mode == FW_EFFECTS_AUTO) choice.mode = FW_EFFECTS_WHOLE;
     FW_TRY(fw_effects_compile(arena, mechanism, scene, &choice, 1e-3, diags, &w->ledger, &loads));
-    FW_TRY(keep_loads(w, &loads));
+    FW_NEED(w->loads = fw_effects_loads_keep(arena, &loads));
     w->plain = mechanism;
     return assemble(w, &loads);
 }
@@ -421,61 +437,6 @@ void fw_statics_equilibrium_reactions(const fw_statics_equilibrium *w, double *r
         found.element = fw_multibody_forces(w->system, pose, w->y + m->nq)->element;
     fw_multibody_pin_forces(m, &found, reaction);
     fw_multibody_joint_forces(m, &found, w->mechanism, joint, driver);
-}
-
-/* of a large mechanism: the joints whose rows were left when all others had been eliminated */
-static fw_status sparse_rank(const fw_statics_equilibrium *w, fw_text *names,
-                             fw_statics_row_rank *rank) {
-    const fw_statics_sparse *s = w->reduced.sparse;
-    const fw_multibody_model *m = w->model;
-    int named = 0, row = 0;
-    rank->kept = (double)NAN;
-    for (int i = 0; i < m->nblock; row += fw_multibody_row_count(&m->block[i++])) {
-        bool said = false;
-        for (int k = 0; k < s->repeats; k++)
-            said = said || (s->repeat[k] >= row &&
-                            s->repeat[k] < row + fw_multibody_row_count(&m->block[i]));
-        if (said)
-            fw_text_printf(names, "%s%s", named++ ? ", " : "",
-                           fw_multibody_block_name(w->mechanism, &m->block[i]));
-    }
-    FW_TRY(fw_text_end(names));
-    rank->joints = named > 0 ? names->data : NULL;
-    return FW_OK;
-}
-
-/* rows that take part in a combination of rows that is zero: what U_1, the part of U that counts,
-   misses of a unit row.
-
-   fw_assembly_rank (assembly/freedom.c) finds a rank too, and neither can stand for the other. Here it
-   must be the one of the decomposition, in the mass metric and cut at round-off, that the modes and
-   multipliers beside it come from, or their count would contradict the freedoms that are reported;
-   it is there for every state of a path at no further cost, and names all joints of a dependency.
-   There it answers for a pose before masses matter: cut at 1e-10, so that a pose closed to 1e-12
-   counts as what it is meant to be, and it names what is redundant in file order. */
-fw_status fw_statics_equilibrium_rank(const fw_statics_equilibrium *w, fw_statics_row_rank *rank) {
-    const fw_statics_reduced *r = &w->reduced;
-    const fw_multibody_model *m = w->model;
-    *rank = (fw_statics_row_rank){.rows = r->rows, .rank = r->rank};
-    if (r->largest > 0) rank->kept = r->kept / r->largest, rank->dropped = r->dropped / r->largest;
-    if (r->rank == r->rows && !w->sparse) return FW_OK;
-    fw_text names = fw_text_new(w->arena);
-    if (w->sparse) return sparse_rank(w, &names, rank);
-    for (int i = 0, row = 0; i < m->nblock; i++) {
-        int count = m->block[i].rows == FW_ROWS_PIN || m->block[i].rows == FW_ROWS_SLIDE ? 2 : 1;
-        double missing = count;
-        for (int k = 0; k < count; k++, row++)
-            for (int l = 0; l < r->rank; l++) {
-                double part = r->left[(size_t)l * (size_t)r->rows + (size_t)row];
-                missing -= part * part;
-            }
-        if (missing > 0.02)
-            fw_text_printf(&names, "%s%s", names.length ? ", " : "",
-                           fw_multibody_block_name(w->mechanism, &w->model->block[i]));
-    }
-    FW_TRY(fw_text_end(&names));
-    rank->joints = names.data;
-    return FW_OK;
 }
 
 double fw_statics_equilibrium_part(const double *shape, int body) {

@@ -114,6 +114,11 @@ typedef struct fw_statics_equilibrium {
        fw_statics_equilibrium_new */
     const fw_effects_loads *loads;
     const fw_mechanism *plain;
+    /* of a scene without time: the loads at its end, strains not yet applied, and the mechanism without them */
+    const fw_effects_loads *frozen;
+    const fw_mechanism *drawn;
+    bool
+        beams_next; /* where a closed form does not hold at first, exact beams are tried before its strains grow */
     const fw_multibody_model *model;
     fw_multibody_system *system;
     fw_statics_reduced reduced;
@@ -173,6 +178,9 @@ fw_status fw_statics_equilibrium_modes(fw_statics_equilibrium *w,
 fw_status fw_statics_equilibrium_again(const fw_statics_equilibrium *w,
                                        const fw_effects_loads *loads,
                                        fw_statics_equilibrium *other);
+/* the same at the same factor, with a share of the free strains; what its model says goes to `silent` */
+fw_status fw_statics_equilibrium_strained(const fw_statics_equilibrium *w, double share,
+                                          fw_diags *silent, fw_statics_equilibrium *other);
 void fw_statics_equilibrium_factor(fw_statics_equilibrium *w, double s);
 /* a model of the scene whose loads and drivers follow their laws, and these at one time;
    piece_s: a time in the smooth piece that is meant. arena, mechanism, scene and diags are set */
@@ -202,6 +210,8 @@ double fw_statics_equilibrium_newton(fw_statics_equilibrium *w, double *step);
 bool fw_statics_equilibrium_quiet(const fw_statics_equilibrium *w);
 /* from w->y to a stable equilibrium at the present s. FW_SOLVER without a message: there is none */
 fw_status fw_statics_equilibrium_descend(fw_statics_equilibrium *w, bool *left_unstable);
+/* from the assembled pose, likewise, at s; along the free strains where flexures could not bear them before anything moves */
+fw_status fw_statics_equilibrium_begin(fw_statics_equilibrium *w, double s, bool *left_unstable);
 /* the message that there is none, from where the descent ended */
 fw_status fw_statics_equilibrium_nowhere(const fw_statics_equilibrium *w);
 /* settle.c: from the assembled pose to the stable equilibrium at s = 1; says when there is none, or

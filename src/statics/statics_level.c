@@ -539,11 +539,14 @@ static bool closed_form_ended(const fw_diags *said) {
     return false;
 }
 
+bool fw_statics_level_may_go_on(const fw_effect_choice *asked, const fw_effect_choice *choice) {
+    bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
+    return asked->hinge == FW_HINGE_AUTO && !by_hand && !choice->ended;
+}
+
 bool fw_statics_level_goes_on(const fw_effect_choice *asked, const fw_diags *said,
                               fw_effect_choice *choice) {
-    bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
-    if (asked->hinge != FW_HINGE_AUTO || by_hand || choice->ended) return false;
-    if (!closed_form_ended(said)) return false;
+    if (!fw_statics_level_may_go_on(asked, choice) || !closed_form_ended(said)) return false;
     choice->hinge = FW_HINGE_ELASTICA;
     choice->ended = true;
     return true;

@@ -11,7 +11,7 @@
 /* ---- whether a scene stays where the model holds ----
    Beside the bands of its hinges a scene is judged by whether it stays where the model holds:
      - it ends where an element's formula does (electrodes touch): rejected, or inconclusive where
-       it does not with voltages lower by the model's own error,
+       it does not with voltages lower by the model's own error; where a flexure's model does: inconclusive,
      - it asks for more than the static pull-in voltage and is over before the rotor has snapped, or
        it would touch with voltages higher by what fringe fields can do: inconclusive,
      - what holds it up to its voltages was not found: inconclusive,
@@ -72,10 +72,19 @@ static double share_for(const fw_statics_pull_in *p) {
     return 0.98 * fmin(by * by, 0.87);
 }
 
+/* A flexure that its model does not follow need not fail: a leaf bends on beyond its buckling load, and how far it is strained
+   is not known. What turned beyond every limit ended before (within_limits), and is rejected by its strain. */
+static bool flexure_ended(const fw_diag *ended) {
+    return ended->ended == FW_ENDED_CLOSED_FORM || ended->ended == FW_ENDED_BEAM;
+}
+
 static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw_statics_pull_in *p,
                          const fw_diag *ended, const fw_dynamics_motion_options *options,
                          fw_verdict_variant_verdict *v) {
     bool still = true;
+    if (flexure_ended(ended))
+        return fw_verdict_scene_reason(v, scene, 242, FW_INCONCLUSIVE, share_for(NULL),
+                                       ended->message);
     if (p)
         FW_TRY(touches(arena, v->mechanism, scene, 1 - fw_verdict_model_error.motion, options,
                        &still));
