@@ -255,9 +255,8 @@ fw_status fw_plan_simulate(fw_plan *plan, unsigned *wanted, const fw_dynamics_mo
     const fw_probe_monitor *saw = options.context;
     if (saw && (saw[0].no_memory || saw[1].no_memory)) return FW_NOMEM;
     FW_TRY(fw_verdict_level_strains(plan->arena, *mechanism, (*motion)->loads, (*motion)->level));
-    double left;
     FW_TRY(fw_statics_stability_find(plan->arena, *mechanism, *scene, *motion, &plan->diags,
-                                     &stability, &left));
+                                     &stability, NULL));
     note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
     return FW_OK;
 }

@@ -3,7 +3,7 @@
    pieces of all laws, the lowest eigenvalue mu of the reduced stiffness at the position of the
    motion, its rapid modes at rest, under the loads of that time (forces, drivers, elements;
    friction left out, as in statics). A disturbance grows by e^G, G = integral of sqrt(max(0, -mu)) dt, by the trapezoidal
-   rule: without damping, which would only slow it. Where less than half of the stiffness is left at some look, eight times as many
+   rule: without damping, which would only slow it. Where one look has less than half the stiffness of another, eight times as many
    follow. It is reported where G is at least 2 and the
    motion has moved along the unstable mode phi by less than a tenth of the way to the stable
    equilibrium u_s that descent reaches from there: max_t |phi^T M (u(t) - u)| < 0.1 |u_s - u|_M, t
@@ -46,7 +46,7 @@ typedef struct looker {
     int pieces;
     bool vary; /* some law does within a piece */
     double lowest, growth;
-    double least; /* of all looks, unstable ones too */
+    double least, most; /* of all looks, unstable ones too */
     double
         pushed; /* how far the equilibrium lies beside the first place that is unstable, along its mode */
     double since_s; /* the last look before the first that is unstable, or the start */
@@ -170,7 +170,10 @@ static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     fw_status status = fw_statics_equilibrium_evaluate(w);
     if (status == FW_SOLVER) return FW_OK; /* nothing is known there */
     FW_TRY(status);
-    if (w->reduced.dof > 0) k->least = fmin(k->least, w->reduced.value[0]);
+    if (w->reduced.dof > 0) {
+        k->least = fmin(k->least, w->reduced.value[0]);
+        k->most = fmax(k->most, w->reduced.value[0]);
+    }
     if (stands(k, t_s)) return FW_OK;
     status = let_settle(k);
     if (status == FW_SOLVER) return FW_OK;
@@ -406,9 +409,9 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                     fw_diags *diags, const fw_statics_stability **stability,
                                     double *left) {
-    double rest;
+    double rest = (double)NAN;
     *stability = NULL;
-    *left = (double)NAN;
+    if (left) *left = rest;
     if (!motion->loads || motion->ended || motion->nsample < 1 || mechanism->nbody == 0)
         return FW_OK;
     if (3 * mechanism->nbody > FW_STABILITY_MOST) {
@@ -420,7 +423,7 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     }
     double *steady = fw_dynamics_motion_steady(motion);
     if (steady && *steady > 0) {
-        *left = *steady;
+        if (left) *left = *steady;
         return FW_OK;
     }
     fw_diags silent = fw_diags_new(arena);
@@ -436,11 +439,12 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     FW_NEED(k.where = fw_arena_array(arena, double, n));
     FW_NEED(k.shape = fw_arena_array(arena, double, n));
     FW_TRY(find_pieces(&k, &loads));
-    FW_TRY(at_rest(&k, &rest));
+    if (left) FW_TRY(at_rest(&k, &rest));
     FW_TRY(look_along(&k, 1));
-    /* what passed through an unstable equilibrium did so between two looks, and was soft at them */
-    if (k.growth < fw_least_growth && k.least < fw_softly * rest) FW_TRY(look_along(&k, FW_FINER));
-    if (rest > 0 && isfinite(k.least)) *left = fmax(k.least / rest, 0);
-    if (steady && k.growth == 0) *steady = *left > 0 ? *left : 1;
+    /* what passed through an unstable equilibrium did so between two looks, and was soft at one */
+    if (k.growth < fw_least_growth && k.least < fw_softly * k.most)
+        FW_TRY(look_along(&k, FW_FINER));
+    if (left && rest > 0 && isfinite(k.least)) *left = fmax(k.least / rest, 0);
+    if (steady && k.growth == 0) *steady = left && *left > 0 ? *left : 1;
     return k.growth >= fw_least_growth ? conclude(&k, diags, stability) : FW_OK;
 }

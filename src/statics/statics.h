@@ -432,7 +432,7 @@ enum { FW_STABILITY_MOST = 300 }; /* unknowns: two to twelve dense evaluations o
 /* Looks along the motion of a scene. *stability is NULL where it is stable, where it has left, and
    where instability lasts too short to grow. Warns with FW-D259; a note says when the mechanism is
    too large to look. FW_OK then too; FW_NOMEM, FW_CANCELLED. *left: the least share of the stiffness that
-   loads leave in the scene, of its softest motion, 0 where it is unstable; NaN: not known. */
+   loads leave in the scene, of its softest motion, 0 where it is unstable; NaN: not known. NULL: nobody asks. */
 fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechanism,
                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                     fw_diags *diags, const fw_statics_stability **stability,
