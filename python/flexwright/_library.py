@@ -31,7 +31,7 @@ class OptionsStruct(Structure):
         ("wafers", c_int32), ("operators", c_int32), ("day", c_char_p),
         ("planning_times", c_char_p), ("laboratory", c_char_p), ("cut", c_char_p),
         ("advice", c_char_p), ("figures", c_int32), ("measurements", c_char_p),
-        ("layers", c_char_p), ("directory", c_char_p),
+        ("layers", c_char_p), ("directory", c_char_p), ("jobs", c_int32),
     ]
 
 

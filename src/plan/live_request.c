@@ -172,7 +172,6 @@ fw_status fw_plan_live_design(const fw_plan_live *live, fw_plan_live_request *r,
     *design = NULL;
     options.data_directory = live->settings.data_directory;
     options.memory_cap = live->settings.memory_cap;
-    options.jobs = fw_processors();
     FW_TRY(fw_plan_live_options(r, &options, &r->full));
     FW_NEED(*design = fw_design_new(&options));
     fw_plan_design_cancel_with(*design, live->settings.cancel);

@@ -90,13 +90,10 @@ typedef struct judging {
     fw_verdict *verdict;
     fw_diags *diags; /* (nvariant) each flow has its own */
     bool *nothing;   /* (nvariant) to judge */
-    bool
-        apart; /* in threads: what the first flow finds of the drawing is not there for the others */
 } judging;
 
 /* flow i as drawn */
-static fw_status judge_drawn(void *context, size_t i, fw_arena *arena) {
-    const judging *j = context;
+static fw_status judge_drawn(const judging *j, size_t i, fw_arena *arena) {
     const fw_device *device = j->device;
     fw_diags *diags = &j->diags[i];
     fw_verdict_variant_verdict *v = &j->verdict->variant[i];
@@ -111,7 +108,7 @@ static fw_status judge_drawn(void *context, size_t i, fw_arena *arena) {
                              "no joint of the mechanism is a flexure, so there is no elastic "
                              "limit to judge: name a flexure on the joints");
     FW_TRY(fw_verdict_check_closure(device, m, diags));
-    if (i > 0 && !j->apart) { /* the same drawing */
+    if (i > 0) { /* the same drawing: so flows are judged one after the other */
         v->arm = j->verdict->variant[0].arm;
         v->straight = j->verdict->variant[0].straight;
     }
@@ -124,14 +121,12 @@ static fw_status judge_drawn(void *context, size_t i, fw_arena *arena) {
 static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict) {
     const size_t n = (size_t)verdict->nvariant;
-    judging j = {.device = device,
-                 .layout = layout,
-                 .options = options,
-                 .verdict = verdict,
-                 .apart = n > 1 && fw_arena_helped(arena)};
+    judging j = {.device = device, .layout = layout, .options = options, .verdict = verdict};
     FW_NEED(j.diags = fw_arena_array(arena, fw_diags, n));
     FW_NEED(j.nothing = fw_arena_array(arena, bool, n));
-    fw_status status = fw_arena_each(arena, n, judge_drawn, &j);
+    fw_status status = FW_OK;
+    for (size_t i = 0; i < n && status == FW_OK; i++)
+        status = judge_drawn(&j, i, arena);
     for (size_t i = 0; i < n; i++) {
         fw_diags_take(diags, &j.diags[i]);
         if (j.diags[i].errors > 0 && status != FW_OK) break; /* of those behind it nothing counts */

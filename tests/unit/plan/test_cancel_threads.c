@@ -147,7 +147,7 @@ static void one_is_cancelled_and_the_other_is_not(void **state) {
 /* flows, and devices that they may make, judged by threads at once: the bytes are those of one thread */
 static void threads_that_help_change_no_byte(void **state) {
     (void)state;
-    static const char *const file[] = {FILE_OF("reference-six-bar"), FILE_OF("leaf-four-bar"),
+    static const char *const file[] = {FILE_OF("free-form-gripper"), FILE_OF("reference-six-bar"),
                                        FILE_OF("comb-stage")};
     for (int f = 0; f < test_cases(3, 2); f++) {
         outcome want;
