@@ -445,6 +445,7 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     if (k.growth < fw_least_growth && k.least < fw_softly * k.most)
         FW_TRY(look_along(&k, FW_FINER));
     if (left && rest > 0 && isfinite(k.least)) *left = fmax(k.least / rest, 0);
-    if (steady && k.growth == 0) *steady = left && *left > 0 ? *left : 1;
+    if (steady && k.growth == 0 && left && *left > 0)
+        *steady = *left; /* who does not ask leaves it open */
     return k.growth >= fw_least_growth ? conclude(&k, diags, stability) : FW_OK;
 }
