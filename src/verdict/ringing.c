@@ -498,6 +498,8 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
         KEEP(of->mode, n);
         KEEP(of->load, loads);
         KEEP(of->way, (size_t)of->ways * rows);
+        for (size_t k = 0; k < loads; k++) /* that of a driver stands in the mechanism */
+            KEEP(of->load[k].law, 1);
         for (size_t k = 0; k < n; k++) {
             KEEP(of->mode[k].bends, rows);
             KEEP(of->mode[k].size, loads);
