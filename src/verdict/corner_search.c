@@ -222,7 +222,8 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
                                             .like = like,
                                             .corner = true,
                                             .tipping = s->tipping,
-                                            .arm = s->v->arm};
+                                            .arm = s->v->arm,
+                                            .solid = s->v->solid};
         FW_TRY(
             fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
     } while (++looks != s->most_looks && refine(s, now, &options));

@@ -124,6 +124,30 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
 struct fw_mechanism_plates;
 fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, struct fw_mechanism_plates *soft);
+/* ---- body_solid.c: what a body gives under all that acts on it together ---- */
+
+typedef struct
+    fw_verdict_solid_end { /* of a hinge, or where a load acts: pin and root are that place */
+    fw_geometry_vec2 pin, root;
+} fw_verdict_solid_end;
+typedef struct fw_verdict_body_solid {
+    bool known;
+    int n, nhinge; /* ends; those of hinges stand first */
+    double *fine,
+        *coarse; /* (3n x 3n) C: energy w^T C w/(2 E h) of wrenches w = (M, Fx, Fy) about the pins, world axes of the
+                              drawn pose; the body's inertia balances them. Of two meshes */
+} fw_verdict_body_solid;
+fw_status fw_verdict_body_solid_of(fw_arena *arena, const fw_verdict_line *line, int nline,
+                                   fw_geometry_vec2 middle, double narrow_m,
+                                   const fw_verdict_solid_end *end, int n,
+                                   fw_verdict_body_solid *out);
+/* w (3n), at most: what two meshes differ by, and what a crystal's directions may, is added */
+double fw_verdict_solid_energy_J(const fw_verdict_body_solid *solid, double stiff_N,
+                                 const double *w);
+/* how far an end turns and goes against the body's middle: rad, m, m */
+void fw_verdict_solid_goes(const fw_verdict_body_solid *solid, double stiff_N, const double *w,
+                           int end, double to[3]);
+
 typedef struct fw_verdict_turn { /* of a body since it was drawn */
     double rad, cosine, sine;
 } fw_verdict_turn;
@@ -226,7 +250,23 @@ typedef struct fw_verdict_bending {
     double *rest;    /* (2 nbody) of the instant, N, world */
     double *
         put; /* (3 nbody) of the instant: what hinges put on a body: N, N, N m about its mass centre */
+    struct fw_verdict_solid_kept *kept; /* body_solid.c; NULL: of straight ways, and without arms */
 } fw_verdict_bending;
+/* by how much the end of a hinge goes over the hinge's width, or turns over its limit, as the strip of its body gives:
+   the derivatives of fw_verdict_arm_energy_J by what the hinge puts on it */
+double fw_verdict_arm_gone(const fw_verdict_bending *bending, const fw_mechanism_hinge *hinge,
+                           const fw_verdict_arm *arm, double moment_Nm, const double force[2],
+                           const fw_verdict_turn *turn);
+extern const double fw_verdict_bending_told; /* share above which what bodies give counts */
+typedef struct fw_verdict_solid_kept {
+    double *instant;
+    int n, seen, every;
+} fw_verdict_solid_kept;
+fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *mechanism,
+                                    fw_verdict_solid_kept **kept);
+void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept);
+void fw_verdict_solid_keep(fw_verdict_solid_kept *kept, const fw_mechanism *mechanism,
+                           const fw_dynamics_instant *now, const fw_verdict_turn *turn);
 /* arm NULL: forces of hinges alone; straight: of straight ways, and only whether bodies are to be counted */
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_verdict_arm *arm, bool straight,

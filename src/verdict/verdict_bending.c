@@ -36,19 +36,6 @@ static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin,
     return energy + by_x + by_y;
 }
 
-/* by how much the end of a hinge goes over the hinge's width, or turns over its limit, as its body gives: the derivatives
-   of fw_verdict_arm_energy_J by what the hinge puts on it */
-static double gone(const fw_verdict_bending *b, const fw_mechanism_hinge *h,
-                   const fw_verdict_arm *arm, double moment_Nm, const double force[2],
-                   const fw_verdict_turn *turn) {
-    const double *g = arm->give, c = turn->cosine, s = turn->sine, m = moment_Nm;
-    const double x = c * force[0] + s * force[1], y = c * force[1] - s * force[0];
-    const double far = hypot(g[1] * m + g[3] * x + g[4] * y, g[2] * m + g[4] * x + g[5] * y);
-    return fmax(far / h->input.width_m,
-                fabs(g[0] * m + g[1] * x + g[2] * y) / h->closed_form.limit_angle_rad) /
-           b->stiff_N;
-}
-
 /* Forces of all hinges where the sum of their squares is largest so far: at this instant, or between the last three, each
    part by the parabola through them, of which `beside` makes the sum what its own parabola says. The forces of the nearest
    instant would do for the sum, which is flat there; parts of them go up and down, and what tips a device goes with them. */
@@ -237,10 +224,7 @@ static void record_cuts(fw_verdict_bending *b, const fw_mechanism *m,
         b->rest_Nm[i] = fmax(b->rest_Nm[i], fabs(b->put[3 * i + 2]));
 }
 
-/* The closed forms are taken where they are off by less than this (variant.c), and a clearance of a
-   motion in parts where it is off by twice that. */
-static const double fw_verdict_bending_told = 0.05;
-/* Of that, what plain ways may come to where nobody looks for better ones: those have to be twice as soft to
+/* Of what is told, what plain ways may come to where nobody looks for better ones: those have to be twice as soft to
    count. Of 1000 random six-bars they were 0.24 to 1.0 times as soft, 0.47 in the median. */
 static const double fw_verdict_straight_share = 0.5;
 
@@ -302,6 +286,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             b->extreme[k] = (fw_verdict_extreme){0};
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->along_N[k] = 0;
+        if (b->kept) fw_verdict_solid_keep_none(b->kept);
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         for (int i = 0; b->rest_N && i < m->nbody; i++)
@@ -336,12 +321,14 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                         force[0], force[1], &b->turn[body[side]]);
             bodies += one;
             each[body[side]] += one;
-            b->gone = fmax(b->gone, gone(b, h, arm, -pin->stiffness_Nm_per_rad * angle, force,
-                                         &b->turn[body[side]]));
+            b->gone =
+                fmax(b->gone, fw_verdict_arm_gone(b, h, arm, -pin->stiffness_Nm_per_rad * angle,
+                                                  force, &b->turn[body[side]]));
         }
     }
     record_forces(b, m, now);
     record_rests(b, m, now);
+    fw_verdict_solid_keep(b->kept, m, now, b->turn);
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
@@ -386,6 +373,7 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     if (!arm) return FW_OK; /* nothing is drawn: what tips is found by forces alone */
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;
+    FW_TRY(fw_verdict_solid_keep_new(arena, m, &bending->kept));
     if (!(m->device->release_pitch_m > 0)) return FW_OK;
     FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
     FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));

@@ -54,6 +54,13 @@ void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scen
 fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
                                    const fw_mechanism *mechanism, bool straight,
                                    fw_verdict_variant_verdict *v);
+/* body_solid.c: where bodies as beams give enough to count in what the two runs of a scene saw, those that matter do as
+   plane solids */
+struct fw_verdict_strain_monitor;
+fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout, int scene,
+                                 struct fw_verdict_strain_monitor *monitor,
+                                 struct fw_verdict_strain_monitor *other,
+                                 fw_verdict_variant_verdict *v);
 /* false: they may have to be */
 bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v);
 enum { FW_VERDICT_BODIES = 538 }; /* FW-Dnnn: a body is not known to bear what is brought */

@@ -110,6 +110,7 @@ static fw_status judge_drawn(const judging *j, size_t i, fw_arena *arena) {
     FW_TRY(fw_verdict_check_closure(device, m, diags));
     if (i > 0) { /* the same drawing: so flows are judged one after the other */
         v->arm = j->verdict->variant[0].arm;
+        v->solid = j->verdict->variant[0].solid;
         v->straight = j->verdict->variant[0].straight;
     }
     FW_TRY(fw_verdict_variant(arena, device, j->layout, m, j->options, diags, v));

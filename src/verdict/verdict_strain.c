@@ -168,6 +168,20 @@ double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double
            (2 * stiff_N);
 }
 
+double fw_verdict_arm_gone(const fw_verdict_bending *b, const fw_mechanism_hinge *h,
+                           const fw_verdict_arm *arm, double moment_Nm, const double force[2],
+                           const fw_verdict_turn *turn) {
+    const double *g = arm->give, c = turn->cosine, s = turn->sine, m = moment_Nm;
+    const double x = c * force[0] + s * force[1], y = c * force[1] - s * force[0];
+    const double far = hypot(g[1] * m + g[3] * x + g[4] * y, g[2] * m + g[4] * x + g[5] * y);
+    return fmax(far / h->input.width_m,
+                fabs(g[0] * m + g[1] * x + g[2] * y) / h->closed_form.limit_angle_rad) /
+           b->stiff_N;
+}
+
+/* The closed forms are taken where they are off by less than this (variant.c), and a clearance of a
+   motion in parts where it is off by twice that. */
+const double fw_verdict_bending_told = 0.05;
 /* ---- a largest value ---- */
 
 static void keep(fw_verdict_largest *p, double t_s, double value, double between) {

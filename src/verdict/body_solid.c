@@ -1,0 +1,589 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a body gives under all that acts on it at once, as a plane solid in place of a beam for each hinge (body_arms.c):
+   two legs that press it from either side bend nothing of it.
+
+   Square cells of plane stress, bilinear with Taylor's incompatible modes (Taylor, Beresford, Wilson 1976), Poisson's
+   ratio 0.3, of a stiffness
+
+     E h f/(3 - 2 f),   f the share of the cell that is material
+
+   which is that of the stiffest plate with holes of that share (Hashin and Shtrikman 1963, in the plane), and of round
+   ones that are few: what an edge cuts gives more than it does. A wrench w = (M, Fx, Fy) acts on nodes about
+   its place with weights by the stiffness around them, and the body as a whole moves as by its inertia: forces that
+   go with the area balance it. So every column is in equilibrium, no support is needed, and
+
+     U = w^T C w/(2 E h),   C = P^T K^-1 P,   P the nodes' forces of unit wrenches
+
+   holds for any sum of them. In: outlines of the layout in the drawn pose. Error: from a second mesh with cells
+   twice as large; crystals count as isotropic, 15 % (fw_verdict_solid_energy_J). Cost: of 6000 cells and 6 ends about
+   0.1 s. Range: up to CELLS, and a narrowest place that has NARROW cells; else not known. Test: test_body_solid.c */
+#include "base/sort.h"
+#include "geometry/segment.h"
+#include "maths/dense.h"
+#include "maths/sparse.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+enum { CELLS = 12000, ACROSS = 80, NARROW = 4, SAMPLES = 5 };
+static const double fw_hardly_there = 0.05; /* a share of material below that is none */
+
+typedef struct grid {
+    fw_arena *arena;
+    const fw_verdict_line *line;
+    int nline;
+    fw_geometry_box box;
+    double cell_m, reach_m; /* reach: of a wrench about its place */
+    int nx, ny;
+    double *share;  /* (nx ny) of material */
+    int *node;      /* ((nx + 1)(ny + 1)) its number; FW_MATHS_NONE */
+    int nnode, *at; /* at: (nnode) place of a node in the grid */
+    double *weight; /* (nnode) stiffness about it */
+    double *area;   /* (nnode) of material about it, m2 */
+} grid;
+
+/* ---- cells ---- */
+
+static void mark_between(bool *row, int n, const double *x, int crossings) {
+    for (int k = 0; k + 1 < crossings; k += 2) {
+        const int first = (int)ceil(fmax(x[k] - 0.5, 0)),
+                  last = (int)floor(fmin(x[k + 1] - 0.5, n - 1));
+        for (int i = first; i <= last; i++)
+            row[i] = true;
+    }
+}
+
+/* samples of a row at height y that lie in any piece, SAMPLES to a cell */
+static void sample_row(const grid *s, double y, double *x, bool *row) {
+    const double fine = s->cell_m / SAMPLES;
+    const int n = s->nx * SAMPLES;
+    for (int i = 0; i < n; i++)
+        row[i] = false;
+    for (int first = 0, last; first < s->nline; first = last) {
+        int crossings = 0;
+        for (last = first; last < s->nline && s->line[last].piece == s->line[first].piece; last++) {
+            const fw_geometry_vec2 a = s->line[last].a, b = s->line[last].b;
+            if ((a.y <= y) == (b.y <= y)) continue;
+            x[crossings++] = (a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x) - s->box.x0) / fine;
+        }
+        fw_sort_doubles(x, (size_t)crossings);
+        mark_between(row, n, x, crossings);
+    }
+}
+
+static fw_status share_cells(grid *s) {
+    bool *row = fw_arena_array(s->arena, bool, (size_t)s->nx *SAMPLES);
+    double *x = fw_arena_array(s->arena, double, (size_t)s->nline + 1);
+    FW_NEED(row && x ? row : NULL);
+    for (int j = 0; j < s->ny * SAMPLES; j++) {
+        if (fw_arena_cancelled(s->arena)) return FW_CANCELLED;
+        sample_row(s, s->box.y0 + (j + 0.5) / SAMPLES * s->cell_m, x, row);
+        for (int i = 0; i < s->nx * SAMPLES; i++)
+            if (row[i]) s->share[j / SAMPLES * s->nx + i / SAMPLES] += 1.0 / (SAMPLES * SAMPLES);
+    }
+    return FW_OK;
+}
+
+/* keeps what hangs together with the cell: a corner alone holds nothing */
+static fw_status keep_connected(grid *s, int from) {
+    const int n = s->nx * s->ny;
+    bool *kept = fw_arena_array(s->arena, bool, (size_t)n);
+    int *queue = fw_arena_array(s->arena, int, (size_t)n), first = 0, last = 0;
+    FW_NEED(kept && queue ? kept : NULL);
+    kept[from] = true, queue[last++] = from;
+    while (first < last) {
+        const int c = queue[first++], i = c % s->nx, j = c / s->nx;
+        const int next[4] = {i > 0 ? c - 1 : c, i + 1 < s->nx ? c + 1 : c, j > 0 ? c - s->nx : c,
+                             j + 1 < s->ny ? c + s->nx : c};
+        for (int k = 0; k < 4; k++)
+            if (!kept[next[k]] && s->share[next[k]] >= fw_hardly_there)
+                kept[next[k]] = true, queue[last++] = next[k];
+    }
+    for (int c = 0; c < n; c++)
+        if (!kept[c]) s->share[c] = 0;
+    return FW_OK;
+}
+
+static double stiffness(double share) {
+    return share / (3 - 2 * share);
+}
+
+/* corner k of a cell, counter-clockwise, in the grid of nodes */
+static int corner_of(const grid *s, int cell, int k) {
+    const int i = cell % s->nx + (k == 1 || k == 2), j = cell / s->nx + (k >= 2);
+    return j * (s->nx + 1) + i;
+}
+
+static fw_status number_nodes(grid *s) {
+    const size_t n = (size_t)(s->nx + 1) * (size_t)(s->ny + 1);
+    FW_NEED(s->node = fw_arena_array(s->arena, int, n));
+    FW_NEED(s->at = fw_arena_array(s->arena, int, n));
+    FW_NEED(s->weight = fw_arena_array(s->arena, double, n));
+    FW_NEED(s->area = fw_arena_array(s->arena, double, n));
+    for (size_t i = 0; i < n; i++)
+        s->node[i] = FW_MATHS_NONE;
+    for (int c = 0; c < s->nx * s->ny; c++)
+        for (int k = 0; s->share[c] > 0 && k < 4; k++) {
+            const int at = corner_of(s, c, k);
+            if (s->node[at] == FW_MATHS_NONE) s->at[s->nnode] = at, s->node[at] = s->nnode++;
+            s->weight[s->node[at]] += stiffness(s->share[c]);
+            s->area[s->node[at]] += 0.25 * s->share[c] * s->cell_m * s->cell_m;
+        }
+    return FW_OK;
+}
+
+static fw_geometry_vec2 place_of(const grid *s, int node) {
+    const int at = s->at[node];
+    return (fw_geometry_vec2){s->box.x0 + at % (s->nx + 1) * s->cell_m,
+                              s->box.y0 + at / (s->nx + 1) * s->cell_m};
+}
+
+/* ---- stiffness ---- */
+
+/* of a full cell over E h, which its size is not in: corners counter-clockwise, x and y of each. Strains at a Gauss point
+   by 8 displacements of corners and 4 of the modes 1 - xi^2, 1 - eta^2, which are eliminated */
+static bool cell_stiffness(double to[8][8]) {
+    enum { CORNERS = 8, ALL = 12, MODES = 4 };
+    const double nu = 0.3, d = 1 / (1 - nu * nu), g = 0.5 * (1 - nu) * d,
+                 corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    double full[ALL][ALL] = {{0}}, own[MODES * MODES], by[MODES];
+    for (int p = 0; p < 4; p++) {
+        const double x = corner[p][0] / sqrt(3), y = corner[p][1] / sqrt(3);
+        double b[3][ALL] = {{0}};
+        for (int k = 0; k < 4; k++) { /* a cell of side 2 */
+            const double dx = 0.25 * corner[k][0] * (1 + corner[k][1] * y),
+                         dy = 0.25 * corner[k][1] * (1 + corner[k][0] * x);
+            b[0][2 * k] = b[2][2 * k + 1] = dx;
+            b[1][2 * k + 1] = b[2][2 * k] = dy;
+        }
+        b[0][8] = b[2][9] = -2 * x;
+        b[2][10] = b[1][11] = -2 * y;
+        for (int i = 0; i < ALL; i++)
+            for (int j = 0; j < ALL; j++)
+                full[i][j] +=
+                    d * (b[0][i] * (b[0][j] + nu * b[1][j]) + b[1][i] * (b[1][j] + nu * b[0][j])) +
+                    g * b[2][i] * b[2][j];
+    }
+    for (int i = 0; i < MODES; i++)
+        for (int j = 0; j < MODES; j++)
+            own[i * MODES + j] = full[CORNERS + i][CORNERS + j];
+    if (!fw_maths_cholesky(MODES, own)) return false;
+    for (int j = 0; j < CORNERS; j++) {
+        for (int i = 0; i < MODES; i++)
+            by[i] = full[CORNERS + i][j];
+        if (!fw_maths_cholesky_solve(MODES, own, by)) return false;
+        for (int i = 0; i < CORNERS; i++) {
+            to[i][j] = full[i][j];
+            for (int k = 0; k < MODES; k++)
+                to[i][j] -= full[i][CORNERS + k] * by[k];
+        }
+    }
+    return true;
+}
+
+/* Nodes beside each other are coupled. Three springs hold what is in equilibrium anyhow: no force is in them. */
+static fw_status assemble(const grid *s, fw_maths_sparse **out) {
+    const int n = 2 * s->nnode;
+    double k[8][8];
+    fw_maths_sparse_shape shape = {.n = n, .groups = s->nnode};
+    int *first = fw_arena_array(s->arena, int, (size_t)n),
+        *second = fw_arena_array(s->arena, int, (size_t)n), couplings = 0,
+        *coupled = fw_arena_array(s->arena, int, 12 * (size_t)s->nx * (size_t)s->ny);
+    FW_NEED(first && second && coupled ? first : NULL);
+    for (int i = 0; i < n; i++)
+        first[i] = i / 2, second[i] = FW_MATHS_NONE;
+    for (int c = 0; c < s->nx * s->ny; c++)
+        for (int i = 0; s->share[c] > 0 && i < 4; i++)
+            for (int j = 0; j < i; j++) {
+                coupled[2 * couplings] = s->node[corner_of(s, c, i)];
+                coupled[2 * couplings++ + 1] = s->node[corner_of(s, c, j)];
+            }
+    shape.first = first, shape.second = second, shape.coupled = coupled;
+    shape.couplings = couplings;
+    FW_TRY(fw_maths_sparse_new(s->arena, &shape, out));
+    if (!cell_stiffness(k)) return FW_SOLVER;
+    for (int c = 0; c < s->nx * s->ny; c++)
+        for (int i = 0; s->share[c] > 0 && i < 8; i++)
+            for (int j = 0; j <= i; j++)
+                fw_maths_sparse_add(*out, 2 * s->node[corner_of(s, c, i / 2)] + i % 2,
+                                    2 * s->node[corner_of(s, c, j / 2)] + j % 2,
+                                    stiffness(s->share[c]) * k[i][j]);
+    int far = 0;
+    for (int i = 1; i < s->nnode; i++)
+        if (vec_distance(place_of(s, i), place_of(s, 0)) >
+            vec_distance(place_of(s, far), place_of(s, 0)))
+            far = i;
+    const fw_geometry_vec2 off = vec_sub(place_of(s, far), place_of(s, 0));
+    fw_maths_sparse_add(*out, 0, 0, 1);
+    fw_maths_sparse_add(*out, 1, 1, 1);
+    const int across = 2 * far + (fabs(off.x) > fabs(off.y));
+    fw_maths_sparse_add(*out, across, across, 1);
+    return FW_OK;
+}
+
+/* ---- wrenches ---- */
+
+/* forces at nodes, weighted, that are together the wrench (M, Fx, Fy) about `about`: weight (u + phi x r). false: there
+   are too few nodes */
+static bool spread(const grid *s, const double *weight, const int *node, int n,
+                   fw_geometry_vec2 about, const double wrench[3], double *to) {
+    double g[9] = {0}, by[3] = {wrench[0], wrench[1], wrench[2]};
+    for (int i = 0; i < n; i++) {
+        const int at = node ? node[i] : i;
+        const fw_geometry_vec2 r = vec_sub(place_of(s, at), about);
+        const double w = weight[at], rigid[2][3] = {{-r.y, 1, 0}, {r.x, 0, 1}};
+        for (int a = 0; a < 2; a++)
+            for (int j = 0; j < 9; j++)
+                g[j] += w * rigid[a][j / 3] * rigid[a][j % 3];
+    }
+    const double size = g[0];
+    if (!(size > 0) || !fw_maths_cholesky(3, g) || !fw_maths_cholesky_solve(3, g, by)) return false;
+    for (int i = 0; i < n; i++) {
+        const int at = node ? node[i] : i;
+        const fw_geometry_vec2 r = vec_sub(place_of(s, at), about);
+        to[2 * at] += weight[at] * (by[1] - r.y * by[0]);
+        to[2 * at + 1] += weight[at] * (by[2] + r.x * by[0]);
+    }
+    return true;
+}
+
+/* unit wrenches about the pin of an end, on nodes about its root, and what balances them: to (3 x 2 nnode) */
+static fw_status load_end(const grid *s, const fw_verdict_solid_end *end, double *to, bool *known) {
+    int *node = fw_arena_array(s->arena, int, (size_t)s->nnode), n = 0;
+    FW_NEED(node);
+    for (int i = 0; i < s->nnode; i++)
+        if (vec_distance(place_of(s, i), end->root) < s->reach_m) node[n++] = i;
+    for (int k = 0; k < 3 && *known; k++) {
+        const double unit[3] = {k == 0, k == 1, k == 2}, back[3] = {-unit[0], -unit[1], -unit[2]};
+        double *column = to + (size_t)k * 2 * (size_t)s->nnode;
+        *known = n >= 4 && spread(s, s->weight, node, n, end->pin, unit, column) &&
+                 spread(s, s->area, NULL, s->nnode, end->pin, back, column);
+    }
+    return FW_OK;
+}
+
+/* c (3n x 3n), one mesh; *known: it hangs together and has all ends */
+static fw_status compliance(grid *s, fw_geometry_vec2 middle, const fw_verdict_solid_end *end,
+                            int n, double *c, bool *known) {
+    const int from = (int)((middle.y - s->box.y0) / s->cell_m) * s->nx +
+                     (int)((middle.x - s->box.x0) / s->cell_m);
+    int start = FW_MATHS_NONE;
+    double near = HUGE_VAL;
+    *known = false;
+    FW_TRY(share_cells(s));
+    for (int i = 0; i < s->nx * s->ny; i++) { /* the fullest of the nearest */
+        const double off = hypot(i % s->nx - from % s->nx, i / s->nx - from / s->nx);
+        if (s->share[i] > 0.9 && off < near) near = off, start = i;
+    }
+    if (start == FW_MATHS_NONE) return FW_OK;
+    FW_TRY(keep_connected(s, start));
+    FW_TRY(number_nodes(s));
+    const size_t rows = 2 * (size_t)s->nnode;
+    double *p, *u, *work;
+    fw_maths_sparse *system;
+    fw_maths_sparse_signs signs;
+    FW_NEED(p = fw_arena_array(s->arena, double, 3 * (size_t)n * rows));
+    FW_NEED(u = fw_arena_array(s->arena, double, rows));
+    FW_NEED(work = fw_arena_array(s->arena, double, 2 * rows));
+    *known = true;
+    for (int i = 0; i < n && *known; i++)
+        FW_TRY(load_end(s, &end[i], p + 3 * (size_t)i * rows, known));
+    if (!*known) return FW_OK;
+    FW_TRY(assemble(s, &system));
+    FW_TRY(fw_maths_sparse_factor(system, 1e-13, &signs));
+    *known = signs.negative == 0 && signs.nothing == 0;
+    for (int j = 0; j < 3 * n && *known; j++) {
+        memcpy(u, p + (size_t)j * rows, rows * sizeof *u);
+        fw_maths_sparse_solve(system, u, work);
+        for (int i = 0; i < 3 * n; i++) {
+            double sum = 0;
+            for (size_t k = 0; k < rows; k++)
+                sum += p[(size_t)i * rows + k] * u[k];
+            c[i * 3 * n + j] = sum;
+        }
+    }
+    return FW_OK;
+}
+
+static fw_status mesh(fw_arena *arena, const grid *of, double cell_m, fw_geometry_vec2 middle,
+                      const fw_verdict_solid_end *end, int n, double *c, bool *known) {
+    grid s = *of;
+    s.arena = arena, s.cell_m = cell_m, s.reach_m = 3.5 * cell_m;
+    s.nx = 1 + (int)((s.box.x1 - s.box.x0) / cell_m);
+    s.ny = 1 + (int)((s.box.y1 - s.box.y0) / cell_m);
+    FW_NEED(s.share = fw_arena_array(arena, double, (size_t)s.nx *(size_t)s.ny));
+    return compliance(&s, middle, end, n, c, known);
+}
+
+fw_status fw_verdict_body_solid_of(fw_arena *arena, const fw_verdict_line *line, int nline,
+                                   fw_geometry_vec2 middle, double narrow_m,
+                                   const fw_verdict_solid_end *end, int n,
+                                   fw_verdict_body_solid *out) {
+    grid s = {.line = line, .nline = nline};
+    *out = (fw_verdict_body_solid){.n = n};
+    if (nline == 0 || n == 0) return FW_OK;
+    for (int i = 0; i < nline; i++) {
+        const fw_geometry_vec2 a = line[i].a, b = line[i].b;
+        const fw_geometry_box box = {fmin(a.x, b.x), fmin(a.y, b.y), fmax(a.x, b.x),
+                                     fmax(a.y, b.y)};
+        s.box = i == 0 ? box : fw_box_join(s.box, box);
+    }
+    const double wide = s.box.x1 - s.box.x0, high = s.box.y1 - s.box.y0,
+                 cell_m = fmax(fmin(fmax(wide, high) / ACROSS, narrow_m / NARROW),
+                               sqrt(wide * high / CELLS));
+    if (!(cell_m > 0) || !(cell_m < narrow_m)) return FW_OK;
+    const size_t size = 9 * (size_t)n * (size_t)n;
+    FW_NEED(out->fine = fw_arena_array(arena, double, 2 * size));
+    out->coarse = out->fine + size;
+    out->known = true;
+    for (int k = 0; k < 2 && out->known; k++) {
+        fw_arena *scratch = fw_arena_part(arena, 0);
+        FW_NEED(scratch);
+        const fw_status status = mesh(scratch, &s, k ? 2 * cell_m : cell_m, middle, end, n,
+                                      k ? out->coarse : out->fine, &out->known);
+        fw_arena_free(scratch);
+        out->known = out->known && status != FW_SOLVER;
+        if (status != FW_SOLVER) FW_TRY(status);
+    }
+    return FW_OK;
+}
+
+static double energy_of(const double *c, int rows, const double *w) {
+    double sum = 0;
+    for (int i = 0; i < rows; i++)
+        for (int j = 0; j < rows; j++)
+            sum += w[i] * c[i * rows + j] * w[j];
+    return 0.5 * sum;
+}
+
+double fw_verdict_solid_energy_J(const fw_verdict_body_solid *s, double stiff_N, const double *w) {
+    const double crystal = 0.15;
+    const double fine = energy_of(s->fine, 3 * s->n, w), coarse = energy_of(s->coarse, 3 * s->n, w);
+    return ((1 + crystal) * fine + fabs(fine - coarse)) / stiff_N;
+}
+
+void fw_verdict_solid_goes(const fw_verdict_body_solid *s, double stiff_N, const double *w, int end,
+                           double to[3]) {
+    const int rows = 3 * s->n;
+    for (int k = 0; k < 3; k++) {
+        to[k] = 0;
+        for (int j = 0; j < rows; j++)
+            to[k] += s->fine[(3 * end + k) * rows + j] * w[j] / stiff_N;
+    }
+}
+
+/* ---- of a motion ---- */
+
+/* What hinges put on bodies, at up to KEPT instants that lie equally far from each other in number: where they are more,
+   every second one is left out. An instant: (3 nhinge) moment of the flexure, N m, and force on body b, N, world; (nbody)
+   how far each has turned */
+enum { KEPT = 256 };
+
+static size_t instant_size(const fw_mechanism *m) {
+    return 3 * (size_t)m->nhinge + (size_t)m->nbody;
+}
+
+fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *m,
+                                    fw_verdict_solid_kept **kept) {
+    FW_NEED(*kept = fw_arena_one(arena, fw_verdict_solid_kept));
+    FW_NEED((*kept)->instant = fw_arena_array(arena, double, KEPT *instant_size(m)));
+    fw_verdict_solid_keep_none(*kept);
+    return FW_OK;
+}
+
+void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept) {
+    kept->n = kept->seen = 0, kept->every = 1;
+}
+
+void fw_verdict_solid_keep(fw_verdict_solid_kept *kept, const fw_mechanism *m,
+                           const fw_dynamics_instant *now, const fw_verdict_turn *turn) {
+    const size_t size = instant_size(m);
+    if (kept->seen++ % kept->every != 0) return;
+    if (kept->n == KEPT) {
+        for (size_t i = 1; 2 * i < KEPT; i++)
+            memcpy(kept->instant + i * size, kept->instant + 2 * i * size, size * sizeof(double));
+        kept->n = KEPT / 2, kept->every *= 2;
+    }
+    double *to = kept->instant + (size_t)kept->n++ * size;
+    for (int k = 0; k < m->nhinge; k++) {
+        const int j = m->hinge[k].pin;
+        *to++ = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
+        *to++ = now->reaction_N[2 * j];
+        *to++ = now->reaction_N[2 * j + 1];
+    }
+    for (int i = 0; i < m->nbody; i++)
+        *to++ = turn[i].rad;
+}
+
+typedef struct solids {
+    const fw_mechanism *m;
+    const fw_layout *layout;
+    const fw_verdict_arm *arm;
+    const fw_verdict_load_end *load;
+    int nload, scene;
+    double stiff_N;
+} solids;
+
+static bool is_load_of(const solids *s, int j, int body) {
+    return s->load[j].body == body && s->load[j].first == j;
+}
+
+/* hinge ends in the order of hinges and sides, then loads of all scenes */
+static fw_status make_solid(fw_arena *arena, const solids *s, int body,
+                            fw_verdict_body_solid *out) {
+    const fw_mechanism *m = s->m;
+    fw_verdict_line *line;
+    int nline, n = 0;
+    double narrow = HUGE_VAL;
+    fw_verdict_solid_end *end =
+        fw_arena_array(arena, fw_verdict_solid_end, 2 * (size_t)m->nhinge + (size_t)s->nload);
+    FW_NEED(end);
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, i % 2),
+                               root = i % 2 ? pin->root_b_m : pin->root_a_m;
+        end[n++] = (fw_verdict_solid_end){
+            at, vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
+        if (s->arm[i].known) narrow = fmin(narrow, s->arm[i].narrow_m);
+    }
+    const int nhinge = n;
+    for (int j = 0; j < s->nload; j++)
+        if (is_load_of(s, j, body)) end[n++] = (fw_verdict_solid_end){s->load[j].at, s->load[j].at};
+    FW_TRY(fw_verdict_body_lines(arena, s->layout, body, &line, &nline));
+    FW_TRY(fw_verdict_body_solid_of(arena, line, nline, s->layout->body[body].centroid, narrow, end,
+                                    n, out));
+    out->nhinge = nhinge;
+    return FW_OK;
+}
+
+/* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose; loads 0. rest (3): what else
+   there must be, force and moment about `about`, but for inertia */
+static void wrenches_of(const solids *s, int body, const double *instant, fw_geometry_vec2 about,
+                        double *w, double rest[3]) {
+    const fw_mechanism *m = s->m;
+    const double turn = instant[3 * m->nhinge + body];
+    rest[0] = rest[1] = rest[2] = 0;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        const double *on = instant + 3 * (i / 2), sign = i % 2 ? 1 : -1;
+        const fw_geometry_vec2 force = fw_geometry_vec_rotate(
+                                   (fw_geometry_vec2){sign * on[1], sign * on[2]}, -turn),
+                               arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
+        *w++ = -sign * on[0], *w++ = force.x, *w++ = force.y;
+        rest[0] -= -sign * on[0] + vec_cross(arm, force);
+        rest[1] -= force.x, rest[2] -= force.y;
+    }
+    for (int j = 0; j < s->nload; j++)
+        if (is_load_of(s, j, body)) *w++ = 0, *w++ = 0, *w++ = 0;
+}
+
+/* The most, wherever the rest of what acts does so: spread as inertia, or where a load of this scene is. Of loads in several
+   places the energy is convex in how they share it. */
+static double solid_energy(const solids *s, int body, const fw_verdict_body_solid *solid,
+                           fw_geometry_vec2 about, double *w, const double rest[3]) {
+    double most = fw_verdict_solid_energy_J(solid, s->stiff_N, w), *to = w + 3 * solid->nhinge;
+    for (int j = 0; j < s->nload; j++) {
+        if (!is_load_of(s, j, body)) continue;
+        bool here = false;
+        for (int k = j; k < s->nload; k++)
+            here = here || (s->load[k].scene == s->scene && s->load[k].first == j);
+        const fw_geometry_vec2 force = {rest[1], rest[2]};
+        to[0] = rest[0] - vec_cross(vec_sub(s->load[j].at, about), force);
+        to[1] = rest[1], to[2] = rest[2];
+        if (here) most = fmax(most, fw_verdict_solid_energy_J(solid, s->stiff_N, w));
+        to[0] = to[1] = to[2] = 0;
+        to += 3;
+    }
+    return most;
+}
+
+typedef struct stored { /* largest over instants: as beams, and as solids where these are known */
+    double beams_J, solids_J, gone;
+    double *beam_J, *solid_J; /* (nbody) */
+} stored;
+
+/* of one body: adds to what all store at the instant */
+static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
+                        const fw_verdict_body_solid *solid, const double *instant, double *w,
+                        stored *most, double *beams, double *all) {
+    const fw_mechanism *m = s->m;
+    const double rad = instant[3 * m->nhinge + body];
+    const fw_verdict_turn turn = {rad, cos(rad), sin(rad)};
+    const fw_geometry_vec2 about = s->layout->body[body].centroid;
+    double beam = 0, rest[3], to[3];
+    wrenches_of(s, body, instant, about, w, rest);
+    for (int i = 0, end = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_hinge *h = &m->hinge[i / 2];
+        const fw_mechanism_pin *pin = &m->pin[h->pin];
+        const double *on = instant + 3 * (i / 2);
+        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        if (solid->known) {
+            fw_verdict_solid_goes(solid, s->stiff_N, w, end++, to);
+            most->gone = fmax(most->gone, fmax(hypot(to[1], to[2]) / h->input.width_m,
+                                               fabs(to[0]) / h->closed_form.limit_angle_rad));
+        } else if (s->arm[i].known)
+            most->gone =
+                fmax(most->gone, fw_verdict_arm_gone(b, h, &s->arm[i], -on[0], on + 1, &turn));
+        if (s->arm[i].known)
+            beam += fw_verdict_arm_energy_J(&s->arm[i], s->stiff_N, -on[0], on[1], on[2], &turn);
+    }
+    const double one = solid->known ? solid_energy(s, body, solid, about, w, rest) : beam;
+    most->beam_J[body] = fmax(most->beam_J[body], beam);
+    most->solid_J[body] = fmax(most->solid_J[body], one);
+    *beams += beam, *all += one;
+}
+
+static fw_status take_solids(fw_arena *arena, const solids *s, const fw_verdict_body_solid *solid,
+                             fw_verdict_bending *b) {
+    const fw_mechanism *m = s->m;
+    const size_t bodies = (size_t)m->nbody;
+    stored most = {.beam_J = fw_arena_array(arena, double, bodies),
+                   .solid_J = fw_arena_array(arena, double, bodies)};
+    double *w = fw_arena_array(arena, double, 3 * (2 * (size_t)m->nhinge + (size_t)s->nload) + 1);
+    FW_NEED(most.beam_J && most.solid_J ? w : NULL);
+    for (int k = 0; k < b->kept->n; k++) {
+        const double *instant = b->kept->instant + (size_t)k * instant_size(m);
+        double beams = 0, all = 0;
+        for (int i = 0; i < m->nbody; i++)
+            body_stores(s, b, i, &solid[i], instant, w, &most, &beams, &all);
+        most.beams_J = fmax(most.beams_J, beams), most.solids_J = fmax(most.solids_J, all);
+    }
+    if (!(most.beams_J > 0)) return FW_OK;
+    b->bodies_J *= most.solids_J / most.beams_J;
+    b->gone = most.gone;
+    for (int i = 0; i < m->nbody; i++)
+        if (most.beam_J[i] > 0) b->body_J[i] *= most.solid_J[i] / most.beam_J[i];
+    return FW_OK;
+}
+
+/* Solids are made of bodies that as beams give a hundredth of what the hinges do, where all of them come to what is told */
+static fw_status by_solids(fw_arena *arena, const fw_layout *layout, int scene,
+                           fw_verdict_bending *b, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const double hardly = 0.01;
+    fw_verdict_load_end *load;
+    solids s = {.m = m, .layout = layout, .arm = b->arm, .scene = scene, .stiff_N = b->stiff_N};
+    if (!b->kept || b->kept->n == 0 || !(b->bodies_J > fw_verdict_bending_told * b->hinges_J))
+        return FW_OK;
+    FW_TRY(fw_verdict_load_ends(arena, m, &load, &s.nload));
+    s.load = load;
+    fw_verdict_body_solid *solid = fw_arena_array(arena, fw_verdict_body_solid, (size_t)m->nbody);
+    FW_NEED(solid);
+    for (int i = 0; i < m->nbody; i++) {
+        if (v->solid) solid[i] = v->solid[i];
+        if (!solid[i].fine && b->body_J[i] > hardly * b->hinges_J)
+            FW_TRY(make_solid(arena, &s, i, &solid[i]));
+    }
+    v->solid = solid;
+    return take_solids(arena, &s, solid, b);
+}
+
+fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout, int scene,
+                                 fw_verdict_strain_monitor *monitor,
+                                 fw_verdict_strain_monitor *other, fw_verdict_variant_verdict *v) {
+    FW_TRY(by_solids(arena, layout, scene, &monitor->bending, v));
+    return by_solids(arena, layout, scene, &other->bending, v);
+}
