@@ -282,41 +282,6 @@ static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     return FW_OK;
 }
 
-/* d (1 + overrun) of the deepest that the step removes, as often as the time is longer than that of wide openings: R T, how
-   deep a wide opening would be etched. m; NaN: not known */
-static double wide_depth(const fw_process_step *s) {
-    const double slowed = s->time.computable ? s->time.slowed : 1.0;
-    double deepest = (double)NAN;
-    for (int i = 0; i < s->nchange; i++) {
-        const fw_quantity *d = s->change[i].thickness;
-        if (strcmp(s->change[i].kind, "remove") == 0 && d && !d->unknown)
-            deepest = fmax(isnan(deepest) ? 0.0 : deepest, d->value);
-    }
-    return deepest * slowed * (1.0 + s->overrun);
-}
-
-/* Loss of an exposed material in a step, nominal and at two standard uncertainties:
-     by rate r:            l = r T (1 + overrun),           u/l of fw_process_lost_uncertainty
-     by selectivity S:     l = d (T/T_wide)(1 + overrun)/S, u/l = u_S/S
-   r m/s, T the step's nominal time, T_wide that of openings that do not lag, s; d m the depth that the step removes; l m.
-   NaN when an input is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss and
-   mask_lasts_as_planned. */
-double fw_process_exposed_loss(const fw_process_step *s, const fw_process_exposed *x,
-                               double *most_m) {
-    double loss = (double)NAN, share = 0.0;
-    if (x->rate && !x->rate->unknown && s->time.computable) {
-        loss = x->rate->value * s->time.nominal_s * (1.0 + s->overrun);
-        share = fw_process_lost_uncertainty(x->rate == fw_process_step_argument(s, "rate"),
-                                            x->rate->uncertainty / x->rate->value,
-                                            s->time.relative_uncertainty);
-    } else if (x->selectivity && !x->selectivity->unknown) {
-        loss = wide_depth(s) / x->selectivity->value;
-        share = x->selectivity->uncertainty / x->selectivity->value;
-    }
-    *most_m = share < 0.5 ? loss / (1.0 - 2.0 * share) : (double)INFINITY;
-    return loss;
-}
-
 /* what the step takes of materials that lie open: the number of the reasons and of the sections */
 static fw_status derive_losses(fw_arena *arena, const fw_process_flow *flow, fw_process_step *s) {
     for (int i = 0; i < s->nexposed; i++) {

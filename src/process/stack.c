@@ -494,15 +494,6 @@ static const char *unknown_of(const fw_quantity *q) {
     return q && !q->unknown ? NULL : q && q->id ? q->id : "an input of its time";
 }
 
-/* Relative uncertainty of what is lost at a rate r in a time T of the step's own rate R. The step lasts as planned, or until
-   somebody sees its end: where r is R the planned time takes by r, with the error of r, and a time that ends with the film
-   takes what the film was, with the error of everything else in T. One of both is so: the larger counts. Of another rate
-   both are off. u relative, 1. Source: docs/theory/process.md, "What a step takes along". Test: test_wear.c. */
-double fw_process_lost_uncertainty(bool own, double u_rate, double u_time) {
-    const double rest = sqrt(fmax(0.0, u_time * u_time - u_rate * u_rate));
-    return own ? fmax(u_rate, rest) : hypot(u_rate, u_time);
-}
-
 /* l = r T (1 + overrun) with T = d/R of the law `rate`, or the time of the law `const`. r the rate
    at which the device is taken, R that of what the step is for: where both are the same quantity it
    cancels in l. In: one step. Out: l and its standard uncertainty, m; the id of
