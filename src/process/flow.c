@@ -182,24 +182,38 @@ static fw_status derive_all(fw_arena *arena, fw_process_step *s) {
     return FW_OK;
 }
 
-/* the arguments of a law whose lag is only assumed, without lag: the time of wide openings */
-static const fw_process_argument *without_guess(const fw_process_step *s, fw_process_argument *list,
-                                                fw_quantity *none) {
-    bool guess = false;
+/* the arguments of a law without its lag: the time of wide openings. `guess`: only where the lag is assumed */
+static const fw_process_argument *without_lag(const fw_process_step *s, fw_process_argument *list,
+                                              fw_quantity *none, bool guess) {
+    bool out = false;
     const fw_process_law *law = fw_process_law_find(s->law);
     if (!law || !law->lags || s->nargument > FW_LAW_ARGUMENTS) return s->argument;
     for (int i = 0; i < s->nargument; i++) {
         const fw_process_argument *a = &s->argument[i];
         bool lag = strcmp(a->name, "probability") == 0 || strcmp(a->name, "lag") == 0;
         list[i] = *a;
-        if (!lag || !fw_process_lag_is_guess(a->q)) continue;
+        if (!lag || (guess && !fw_process_lag_is_guess(a->q))) continue;
         *none = *a->q;
         none->value = none->uncertainty = 0.0;
+        none->unknown = false;
         none->status = FW_MEASURED; /* no part of the answer */
         list[i].q = none;
-        guess = true;
+        out = true;
     }
-    return guess ? list : s->argument;
+    return out ? list : s->argument;
+}
+
+/* How much longer the step is planned than wide openings take: T/T_wide, 1. In: the step's own law, its answer. Test:
+   test_lint.c, mask_lasts_as_planned. */
+static fw_status slow(fw_arena *arena, fw_process_law_use use, fw_process_step *s) {
+    fw_process_argument list[FW_LAW_ARGUMENTS];
+    fw_quantity none;
+    fw_process_law_answer wide;
+    if (!use.law->lags || !s->time.computable) return FW_OK;
+    use.argument = without_lag(s, list, &none, false);
+    FW_TRY(fw_process_law_evaluate(arena, &use, &wide));
+    if (wide.computable && wide.value > 0.0) s->time.slowed = s->time.nominal_s / wide.value;
+    return FW_OK;
 }
 
 static double finishing_s(const fw_process_step *s) {
@@ -228,6 +242,19 @@ static void book(fw_process_step *s) {
     s->booked_stop_s = s->booked_stop_own_s + handling;
 }
 
+/* the time as planned, over-etch included, by the id that the pack gives it; values derived in the step may use it */
+static fw_status give_planned(fw_arena *arena, fw_process_step *s) {
+    const fw_process_time *t = &s->time;
+    if (!s->planned) return FW_OK;
+    s->planned->unknown = !t->computable;
+    s->planned->value = t->nominal_s * (1.0 + s->overrun);
+    s->planned->uncertainty = s->planned->value * t->relative_uncertainty;
+    s->planned->status = fw_process_status_worse(t->status, FW_DERIVED);
+    s->derived = NULL;
+    s->nderived = 0;
+    return derive_all(arena, s);
+}
+
 static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     fw_process_argument list[FW_LAW_ARGUMENTS];
     fw_quantity none;
@@ -239,7 +266,7 @@ static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
                               .shape = s->shape,
                               .expression = s->expression,
                               .wanted = FW_DIM_TIME,
-                              .argument = without_guess(s, list, &none),
+                              .argument = without_lag(s, list, &none, true),
                               .nargument = s->nargument,
                               .need = s->need,
                               .nneed = s->nneed,
@@ -248,6 +275,8 @@ static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     fw_process_law_answer answer;
     FW_TRY(fw_process_law_evaluate(arena, &use, &answer));
     fw_process_law_window(&answer, s->k, s->overrun, &s->time);
+    FW_TRY(slow(arena, use, s));
+    FW_TRY(give_planned(arena, s));
     if (use.law->derive) FW_TRY(use.law->derive(arena, &use, &answer, s));
     book(s);
     return FW_OK;
@@ -267,7 +296,8 @@ static fw_status derive_losses(fw_arena *arena, const fw_process_flow *flow, fw_
         FW_TRY(fw_process_step_derive(arena, s, name, loss, u, (fw_quantity_dimension)FW_DIM_LENGTH,
                                       "um", fw_process_status_worse(q->status, s->time.status),
                                       x->rate ? "computed: rate time (1 + over-etch)"
-                                              : "computed: depth (1 + over-etch)/selectivity"));
+                                              : "computed: depth of a wide opening in the planned "
+                                                "time (1 + over-etch)/selectivity"));
     }
     return FW_OK;
 }
@@ -353,9 +383,11 @@ static fw_status show_edges(fw_arena *arena, fw_process_flow *flow) {
 }
 
 static void forget_derived(fw_process_flow *flow) {
-    for (int i = 0; i < flow->nstep; i++)
+    for (int i = 0; i < flow->nstep; i++) {
+        if (flow->step[i].planned) flow->step[i].planned->unknown = true;
         for (int j = 0; j < flow->step[i].nderive; j++)
             if (flow->step[i].derive[j].q) flow->step[i].derive[j].q->unknown = true;
+    }
 }
 
 static bool listed(const fw_quantity **list, int n, const fw_quantity *q) {

@@ -335,31 +335,6 @@ static double top_layer(const fw_process_flow *flow, const fw_process_stack *sta
     return sum;
 }
 
-/* Loss of an exposed material in a step, nominal and at two standard uncertainties:
-     by rate r:            l = r T (1 + overrun),     u/l = sqrt((u_r/r)^2 + u_T^2)
-     by selectivity S:     l = d (1 + overrun)/S,     u/l = u_S/S
-   r m/s, T the step's nominal time s, d m the depth that the step removes; l m. NaN when an input
-   is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss.
- */
-double fw_process_exposed_loss(const fw_process_step *s, const fw_process_exposed *x,
-                               double *most_m) {
-    double loss = (double)NAN, relative = 0.0;
-    if (x->rate && !x->rate->unknown && s->time.computable) {
-        loss = x->rate->value * s->time.nominal_s * (1.0 + s->overrun);
-        relative = hypot(x->rate->uncertainty / x->rate->value, s->time.relative_uncertainty);
-    } else if (x->selectivity && !x->selectivity->unknown) {
-        for (int i = 0; i < s->nchange; i++) {
-            const fw_quantity *d = s->change[i].thickness;
-            if (strcmp(s->change[i].kind, "remove") == 0 && d && !d->unknown)
-                loss = fmax(isnan(loss) ? 0.0 : loss,
-                            d->value * (1.0 + s->overrun) / x->selectivity->value);
-        }
-        relative = x->selectivity->uncertainty / x->selectivity->value;
-    }
-    *most_m = relative < 0.5 ? loss / (1.0 - 2.0 * relative) : (double)INFINITY;
-    return loss;
-}
-
 static fw_status lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
                            const fw_process_exposed *x, fw_diags *diags) {
     const fw_process_step *s = &flow->step[index];

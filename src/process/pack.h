@@ -189,6 +189,9 @@ fw_status fw_process_lint_chemistry(fw_process_pack *pack); /* reactivity.c (FW-
 double fw_process_exposed_loss(const fw_process_step *step, const fw_process_exposed *exposed,
                                double *most_m);
 
+/* the relative uncertainty of what is lost at a rate, the step's own or another, in a time */
+double fw_process_lost_uncertainty(bool own, double u_rate, double u_time);
+
 /* after fw_process_flow_judge: adds to its reasons what the steps' times do to the layers, and
    derived values above their limits (FW-D270, FW-D273, FW-D279) */
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags);

@@ -203,6 +203,7 @@ typedef struct fw_process_time { /* what a law returns */
     bool computable;
     double nominal_s, first_look_s, clear_by_s, stop_s;
     double relative_uncertainty;
+    double slowed; /* nominal over the time of openings that do not lag; 1 without a lag */
     fw_quantity_value_status status;   /* worst of the inputs */
     fw_quantity_value_status u_status; /* worst of the uncertainties that count */
     const char **missing;              /* (nmissing) names of unknown inputs */
@@ -214,7 +215,7 @@ typedef struct fw_process_time { /* what a law returns */
 typedef struct fw_process_step {
     const char *id, *op, *title, *purpose, *mask;
     const fw_process_equipment *equipment;
-    bool in_source, parts; /* parts: leaves="dies" */
+    bool in_source, parts, second_signature; /* parts: leaves="dies" */
     int batch;
     fw_process_change *change;
     fw_process_exposed *exposed;
@@ -232,21 +233,20 @@ typedef struct fw_process_step {
     fw_process_requirement *required; /* (nrequired) */
     fw_process_use *use;              /* (nuse) */
     fw_process_align align;           /* to NULL: none */
-    bool second_signature;
     int nchange, nexposed, nsetting, nargument, nendpoint, naccept, nhazard, non_fail, nlag,
         nfinish, nrequired, nuse;
     fw_process_time time; /* computed */
     /* (nderived) computed on the way: current, charge, mass, rpm ... */
     const fw_quantity **derived;
-    int nderived;
     fw_place place;
     const char *shape; /* of the law: "slot", "cylinder", "linear" or "" */
     /* (nneed) inputs that must be known although the law does not take them */
     fw_process_argument *need;
     fw_process_derive *derive; /* (nderive) */
-    int nneed, nderive;
-    double attended_s;                /* somebody must be there for this long; 0: unattended */
-    double finish_s;                  /* of all <finish>es; computed */
+    int nneed, nderive, nderived;
+    fw_quantity *planned; /* <time id>: the time with its over-etch goes there; NULL: none */
+    double attended_s;    /* somebody must be there for this long; 0: unattended */
+    double finish_s;      /* of all <finish>es; computed */
     const fw_quantity *pulse, *pause; /* done in parts with pauses between; NULL: at a stretch */
     const fw_quantity
         *bears; /* V: it drives the device, with what bears so much; NULL: it does not */

@@ -414,3 +414,49 @@ fw_status fw_process_judge_nearest(const fw_process_judge *j, const char **text)
     *text = list.data;
     return FW_OK;
 }
+
+/* ---- what a step takes along ---- */
+
+/* Relative uncertainty of what is lost at a rate r in a time T of the step's own rate R. The step lasts as planned, or until
+   somebody sees its end: where r is R the planned time takes by r, with the error of r, and a time that ends with the film
+   takes what the film was, with the error of everything else in T. One of both is so: the larger counts. Of another rate
+   both are off. u relative, 1. Source: docs/theory/process.md, "What a step takes along". Test: test_wear.c. */
+double fw_process_lost_uncertainty(bool own, double u_rate, double u_time) {
+    const double rest = sqrt(fmax(0.0, u_time * u_time - u_rate * u_rate));
+    return own ? fmax(u_rate, rest) : hypot(u_rate, u_time);
+}
+
+/* d (1 + overrun) of the deepest that the step removes, as often as the time is longer than that of wide openings: R T, how
+   deep a wide opening would be etched. m; NaN: not known */
+static double wide_depth(const fw_process_step *s) {
+    const double slowed = s->time.computable ? s->time.slowed : 1.0;
+    double deepest = (double)NAN;
+    for (int i = 0; i < s->nchange; i++) {
+        const fw_quantity *d = s->change[i].thickness;
+        if (strcmp(s->change[i].kind, "remove") == 0 && d && !d->unknown)
+            deepest = fmax(isnan(deepest) ? 0.0 : deepest, d->value);
+    }
+    return deepest * slowed * (1.0 + s->overrun);
+}
+
+/* Loss of an exposed material in a step, nominal and at two standard uncertainties:
+     by rate r:            l = r T (1 + overrun),           u/l of fw_process_lost_uncertainty
+     by selectivity S:     l = d (T/T_wide)(1 + overrun)/S, u/l = u_S/S
+   r m/s, T the step's nominal time, T_wide that of openings that do not lag, s; d m the depth that the step removes; l m.
+   NaN when an input is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss and
+   mask_lasts_as_planned. */
+double fw_process_exposed_loss(const fw_process_step *s, const fw_process_exposed *x,
+                               double *most_m) {
+    double loss = (double)NAN, share = 0.0;
+    if (x->rate && !x->rate->unknown && s->time.computable) {
+        loss = x->rate->value * s->time.nominal_s * (1.0 + s->overrun);
+        share = fw_process_lost_uncertainty(x->rate == fw_process_step_argument(s, "rate"),
+                                            x->rate->uncertainty / x->rate->value,
+                                            s->time.relative_uncertainty);
+    } else if (x->selectivity && !x->selectivity->unknown) {
+        loss = wide_depth(s) / x->selectivity->value;
+        share = x->selectivity->uncertainty / x->selectivity->value;
+    }
+    *most_m = share < 0.5 ? loss / (1.0 - 2.0 * share) : (double)INFINITY;
+    return loss;
+}

@@ -281,6 +281,7 @@ void fw_process_law_window(const fw_process_law_answer *answer, double k, double
     *time = (fw_process_time){.computable = answer->computable,
                               .status = answer->status,
                               .u_status = answer->u_status,
+                              .slowed = 1.0,
                               .missing = answer->missing,
                               .nmissing = answer->nmissing,
                               .contribution = answer->contribution,

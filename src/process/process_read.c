@@ -143,16 +143,17 @@ static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool ba
     return FW_OK;
 }
 
-/* <derive id> makes a quantity that is computed later */
+/* <derive id> and <time id> make a quantity that is computed later */
 static fw_status read_derived_ids(fw_process_pack *pack, const fw_xml_record *step) {
     for (const fw_xml_record *c = step->first_child; c; c = c->next) {
         const fw_xml_attribute *id = fw_process_pack_get(c, "id");
-        if (!fw_xml_is(c, "derive") || !id) continue;
+        const bool time = fw_xml_is(c, "time");
+        if ((!time && !fw_xml_is(c, "derive")) || !id) continue;
         fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
         FW_NEED(q);
         *q = (fw_quantity){.id = id->value,
                            .unknown = true,
-                           .unit = fw_process_pack_text(c, "unit"),
+                           .unit = time ? "min" : fw_process_pack_text(c, "unit"),
                            .status = FW_DERIVED,
                            .u_status = FW_DERIVED,
                            .source = "computed",
@@ -170,7 +171,7 @@ static int count_ids(const fw_xml_record *root) {
     int n = 0;
     for (const fw_xml_record *c = root->first_child; c; c = c->next) {
         n++;
-        if (fw_xml_is(c, "step")) n += fw_xml_children(c, "derive");
+        if (fw_xml_is(c, "step")) n += fw_xml_children(c, "derive") + fw_xml_children(c, "time");
         if (fw_xml_is(c, "consumable") || fw_xml_is(c, "equipment")) n++; /* its price */
     }
     return n;

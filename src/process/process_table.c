@@ -263,6 +263,9 @@ static const fw_xml_attribute_row time_rows[] = {
      .reason = "below 1 a third of all wafers are outside, above 4 none ever is", REQUIRED,
      .sentence = "Standard uncertainties between first look and clear-by."},
     {"shape", WORD(shapes), .sentence = "Of what is filled or emptied, where the law asks."},
+    {"id", TOKEN,
+     .sentence =
+         "Values derived in the step and later laws may use the time, over-etch included, by it."},
     {"pulse", TO(QUANTITY), .sentence = "The step is done in parts of at most this time."},
     {"pause", TO(QUANTITY), .sentence = "How long it pauses between the parts."},
 };

@@ -151,7 +151,9 @@ static void read_overrun(fw_process_pack *pack, const fw_xml_record *e, fw_proce
 
 static fw_status read_time(fw_process_pack *pack, const fw_xml_record *e, fw_process_step *s) {
     const fw_process_law *law = law_of(pack, e);
+    const fw_xml_attribute *id = fw_process_pack_get(e, "id");
     read_overrun(pack, e, s);
+    if (id) s->planned = fw_process_pack_find(pack, id, FW_ID_QUANTITY);
     s->k = fw_process_pack_number(e, "k", 2.0);
     s->shape = fw_process_pack_text(e, "shape");
     s->pulse = fw_process_pack_quantity(pack, e, "pulse");

@@ -496,7 +496,7 @@ static const char *unknown_of(const fw_quantity *q) {
 
 /* l = r T (1 + overrun) with T = d/R of the law `rate`, or the time of the law `const`. r the rate
    at which the device is taken, R that of what the step is for: where both are the same quantity it
-   cancels, and so does its error. In: one step. Out: l and its standard uncertainty, m; the id of
+   cancels in l. In: one step. Out: l and its standard uncertainty, m; the id of
    what is not known, or NULL. Other laws say nothing here. */
 static const char *loss_of(const fw_process_step *s, const fw_quantity *r, double *loss_m,
                            double *u_m) {
@@ -504,7 +504,7 @@ static const char *loss_of(const fw_process_step *s, const fw_quantity *r, doubl
     bool rate = law && law->by_rate, fixed = law && law->stated;
     const fw_quantity *length = fw_process_step_argument(s, rate ? "thickness" : "time"),
                       *R = fw_process_step_argument(s, "rate");
-    double share = 0.0;
+    double share = 0.0, u_rate = 0.0;
     if (!rate && !fixed) return "the time of its law";
     if (unknown_of(length)) return unknown_of(length);
     *loss_m = length->value * (1.0 + s->overrun);
@@ -513,9 +513,10 @@ static const char *loss_of(const fw_process_step *s, const fw_quantity *r, doubl
         if (unknown_of(r)) return unknown_of(r);
         if (rate && unknown_of(R)) return unknown_of(R);
         *loss_m *= rate ? r->value / R->value : r->value;
-        share = hypot(share, hypot(relative(r), rate ? relative(R) : 0.0));
     }
-    *u_m = share * *loss_m;
+    if (rate && !R->unknown) share = hypot(share, relative(R));
+    if (!r->unknown) u_rate = relative(r);
+    *u_m = fw_process_lost_uncertainty(rate && r == R, u_rate, share) * *loss_m;
     return NULL;
 }
 

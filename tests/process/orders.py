@@ -236,7 +236,7 @@ def copied(step):
     """the step a second time: under an id of its own, without holds, and without ids of what it derives"""
     name, title, s = step
     s = re.sub(r"    <lag [^>]*/>\n", "", s).replace(f'<step id="{name}"', f'<step id="{name}B"', 1)
-    return name + "B", title, re.sub(r'(<derive [^>]*?) id="[^"]*"', r"\1", s)
+    return name + "B", title, re.sub(r'(<(?:derive|time) [^>]*?) id="[^"]*"', r"\1", s)
 
 
 def repeated(steps):

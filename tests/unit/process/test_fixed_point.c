@@ -602,9 +602,10 @@ static void a_time_for_wide_openings_leaves_slots_closed(void **state) {
         const char *text = pack_text(arena, SILICON, &n), *base = pack_text(arena, "base", &nb);
         text = replaced(
             arena, text,
-            "<time law=\"arde\" shape=\"slot\" overrun=\"rie.overetch\" k=\"2\" "
+            "<time law=\"arde\" shape=\"slot\" overrun=\"rie.overetch\" k=\"2\" id=\"rie.t-planned\" "
             "pulse=\"rie.part\" pause=\"rie.break\"><arg name=\"depth\"",
-            "<time law=\"rate\" overrun=\"0.05\" k=\"2\"><arg name=\"thickness\" q=\"si.d\"/>"
+            "<time law=\"rate\" overrun=\"0.05\" k=\"2\" id=\"rie.t-planned\">"
+            "<arg name=\"thickness\" q=\"si.d\"/>"
             "<arg name=\"rate\" q=\"rie.R\"/></time><derive name=\"slot\" unit=\"min\" "
             "law=\"arde\">"
             "<arg name=\"depth\"",

@@ -872,6 +872,37 @@ static void loss(void **state) {
     assert_int_equal(reasons(f, "step S11"), 0);
 }
 
+/* The mask is taken for as long as the step is planned: 50 um at S = 60 and a tenth more are 0.917 um where openings are
+   wide, and 1 um lasts; a slot of 10 um that lags by S = 0.5 needs 1.49 times that time, and the mask is gone. A lag that is
+   only assumed is in no time. */
+static void mask_lasts_as_planned(void **state) {
+    (void)state;
+    static const struct {
+        double S;
+        const char *status;
+        bool gone;
+    } at[] = {{0, "measured", false}, {0.05, "measured", false}, {0.5, "measured", true},
+              {0.5, "assumed", false}};
+    for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
+        diags = fw_diags_new(arena);
+        fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+        measured(f, "rie.selectivity", 60, 1);
+        measured(f, "rie.S", at[i].S, 0);
+        ((fw_quantity *)fw_process_flow_quantity(f, "rie.S"))->status =
+            strcmp(at[i].status, "assumed") == 0 ? FW_ASSUMED : FW_MEASURED;
+        assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+        const fw_process_step *s = step_of(f, "S18");
+        const double wide_s = fw_process_flow_quantity(f, "rie.t-wide")->value;
+        double most, loss = fw_process_exposed_loss(s, &s->exposed[0], &most);
+        assert_relative(loss, 55e-6 / 60 * s->time.nominal_s / wide_s, 1e-12);
+        assert_int_equal(loss > 1e-6, at[i].gone);
+        assert_int_equal(said_of(270, "S18") != NULL, at[i].gone);
+        assert_int_equal(f->manufacturable, at[i].gone ? 0 : -1); /* A is unknown anyway */
+        assert_relative(fw_process_flow_quantity(f, "rie.t-planned")->value,
+                        1.1 * s->time.nominal_s, 1e-12);
+    }
+}
+
 /* two coats of 8 um are the mould: 16 um */
 static void mould(void **state) {
     (void)state;
@@ -996,6 +1027,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(flows_of_wrong_steps, setup, teardown),
         cmocka_unit_test_setup_teardown(sheets_go_over_to_dies, setup, teardown),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
+        cmocka_unit_test_setup_teardown(mask_lasts_as_planned, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
