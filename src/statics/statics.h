@@ -145,7 +145,7 @@ typedef struct fw_statics_pull_in {
     double fringe;
     bool fringe_counted;
     /* of what the field takes in that motion, relative, by which flexures may be less stiff than computed, or more; in a
-       verdict with what the next model of them and bodies that give may take; NONE: 0 */
+       verdict with what bodies that give may take; NONE: 0 */
     double stiffness_error;
     /* V of the comb whose own fingers bend most easily: below that they surely do not snap by themselves; infinite
        without combs. And (voltage of the scene over it)^2, the largest of any comb */

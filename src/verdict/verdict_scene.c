@@ -182,17 +182,15 @@ static fw_status not_found(fw_arena *arena, const fw_device_scene *scene,
                         fw_number_text(asked, sizeof asked, p->largest_V, 4), p->why));
 }
 
-/* what holds the rotor may be less stiff, too, by what the next model of the hinges changes of the motion, and by what
-   bodies give in it; of a scene in which nothing moves neither is known */
-static fw_status softened(fw_arena *arena, const fw_mechanism *m, const fw_dynamics_motion *motion,
+/* what holds the rotor may be less stiff, too, by what bodies give in the motion; of a scene in which nothing moves that is
+   not known. What the next model of the hinges changes of a motion near pull-in is not what it changes of a stiffness. */
+static fw_status softened(fw_arena *arena, const fw_dynamics_motion *motion,
                           const fw_statics_pull_in **p) {
     fw_statics_pull_in *softer;
     if (!*p || (*p)->kind == FW_PULL_IN_NONE) return FW_OK;
     FW_NEED(softer = fw_arena_one(arena, fw_statics_pull_in));
     *softer = **p;
-    const double level =
-        fw_verdict_motion_model_error(m, motion) - fw_verdict_motion_lasting_error(m);
-    const double stiff = 1 - fmin(1, softer->stiffness_error + fmax(0, level));
+    const double stiff = 1 - fmin(1, softer->stiffness_error);
     softer->stiffness_error = 1 - stiff / (1 + fw_verdict_bending_share(motion));
     *p = softer;
     return FW_OK;
@@ -310,7 +308,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
         return touched(arena, scene, p, ended, options, v);
     }
     FW_TRY(status);
-    FW_TRY(softened(arena, v->mechanism, v->motion[i], &v->pull_in[i]));
+    FW_TRY(softened(arena, v->motion[i], &v->pull_in[i]));
     FW_TRY(judge_pull_in(arena, scene, v->pull_in[i], v->motion[i], options, diags, v));
     FW_TRY(judge_level(arena, scene, v->motion[i], v));
     FW_TRY(judge_beside(arena, scene, v->motion[i], v));

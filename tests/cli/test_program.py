@@ -380,7 +380,7 @@ class Plan(InTemporary):
         self.assertRegex(reasons["FW-D248"], "dynamic.*fringe")
 
     def test_flexures_that_are_softer_pull_in_earlier(self):
-        """94.08 V without all that fringe fields may add, 6.0 %: 91.4 V with it; and less with flexures that may be 4.1 % softer"""
+        """94.08 V without all that fringe fields may add, 6.0 %: 91.4 V with it; and 90.7 V with flexures that may be 1.6 % softer"""
         def judged(volts):
             plates = "".join(f'<comb-drive id="{id_}" kind="plate" on="mass" x="{x} mm" direction="{d} deg" gap="4 um" length="0.9 mm" '
                              f'voltage="{volts} V" law="ramp" rise="0.5 ms"/>' for x, d, id_ in ((".6", 0, "right"), ("-.6", 180, "left")))
@@ -391,7 +391,7 @@ class Plan(InTemporary):
         verdict = judged(91)
         pull, = verdict["pull_in"]
         self.assertGreater(pull["margin"], (1 + pull["fringe"]) ** 0.5)
-        self.assertTrue(0.03 < pull["stiffness_error"] < 0.1, pull)
+        self.assertTrue(0.01 < pull["stiffness_error"] < 0.03, pull)
         self.assertEqual((verdict["verdict"], [r["code"] for r in verdict["reasons"]]), ("inconclusive", ["FW-D248"]))
         self.assertIn("less stiff", verdict["reasons"][0]["text"])
 
