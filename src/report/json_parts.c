@@ -102,6 +102,7 @@ void fw_report_json_pull_in(fw_json *json, const fw_statics_pull_in *p) {
     fw_json_real(json, "tilt_rad", p->where[2]);
     fw_json_text(json, "body", p->body);
     fw_json_real(json, "fringe", p->fringe);
+    fw_json_real(json, "stiffness_error", p->stiffness_error);
     fw_json_real(json, "fingers_V", p->fingers_V);
     fw_json_text(json, "why", p->why);
 }

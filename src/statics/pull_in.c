@@ -190,7 +190,7 @@ static fw_status describe(seeker *k, const fw_statics_path *path, int i) {
     fw_statics_pull_in *out = k->out;
     size_t n = (size_t)w->model->nq;
     const double *q = path->q + (size_t)i * n;
-    double best[4] = {0}, part[4];
+    double best[4] = {0}, part[4], all = 0;
     const fw_effects_force_element *e = NULL;
     for (size_t j = 0; j < n; j++)
         w->y[j] = (q[j] - w->q0[j]) / (j % 3 == 2 ? 1 : w->model->scale.length_m);
@@ -208,11 +208,17 @@ static fw_status describe(seeker *k, const fw_statics_path *path, int i) {
     for (int j = 0; j < w->model->nelement; j++) {
         if (!comb_at(k, j)) continue;
         taken(w->model->element[j].own, q, out->shape, part);
+        all += part[3]; /* which is what is left of the stiffness without the field */
         if (e && !(part[3] > best[3])) continue;
         e = w->model->element[j].own;
         memcpy(best, part, sizeof best);
     }
     report_comb(k, e, s * w->drive_unit, q);
+    /* of flexures that stiffen on the way the larger stiffness is off by the same share */
+    const bool pins = w->ledger.hinge.used == FW_HINGE_REVOLUTE;
+    out->stiffness_error =
+        fmax(fw_statics_shape_error(w->mechanism, q, out->shape, pins, s * w->drive_unit * all),
+             fw_statics_shape_error(w->mechanism, q, out->shape, pins, (double)NAN));
     out->kind = fabs(best[2]) > fmax(fabs(best[0]), fabs(best[1])) ? FW_PULL_IN_TILT
                 : fabs(best[1]) > fabs(best[0])                    ? FW_PULL_IN_SIDE
                                                                    : FW_PULL_IN_FOLD;
@@ -350,8 +356,8 @@ const char *fw_statics_pull_in_fringe_text(const fw_statics_pull_in *p) {
 }
 
 double fw_statics_pull_in_margin(const fw_statics_pull_in *p) {
-    const double more = 1 + p->fringe;
-    return sqrt(more / fmax(1e-3, 1 - more * p->fingers));
+    const double more = 1 + p->fringe, least = 1e-3;
+    return sqrt(more / (fmax(least, 1 - more * p->fingers) * fmax(least, 1 - p->stiffness_error)));
 }
 
 bool fw_statics_pull_in_fingers_snap(const fw_statics_pull_in *p) {
@@ -403,15 +409,17 @@ const char *fw_statics_pull_in_explain(fw_arena *arena, const fw_statics_pull_in
 
 static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags) {
     const fw_statics_pull_in *out = k->out;
-    char at[32], asked[32], part[32];
+    char at[32], asked[32], part[32], off[32];
     fw_diag_warning(diags, 248, out->place,
                     "%s%s may pull in: %s%s does so at %s V without %s, which "
-                    "may add up to %s %% to its pull%s, and the scene asks for up to %s V",
+                    "may add up to %s %% to its pull%s, its flexures may be less stiff by up to "
+                    "%s %%, and the scene asks for up to %s V",
                     FW_NAMED("scene", scene), FW_NAMED("comb drive", out->comb),
                     fw_number_text(at, sizeof at, out->voltage_V, 5),
                     fw_statics_pull_in_fringe_text(out),
                     fw_number_text(part, sizeof part, 100 * out->fringe, 2),
                     out->fingers > 0.01 ? " and with stiff fingers" : "",
+                    fw_number_text(off, sizeof off, 100 * out->stiffness_error, 2),
                     fw_number_text(asked, sizeof asked, out->largest_V, 5));
     return diags->failed ? FW_NOMEM : FW_OK;
 }

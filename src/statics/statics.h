@@ -144,6 +144,9 @@ typedef struct fw_statics_pull_in {
        are counted what stands near or below may change of them */
     double fringe;
     bool fringe_counted;
+    /* of what the field takes in that motion, relative, by which flexures may be less stiff than computed, or more; in a
+       verdict with what bodies that give may take; NONE: 0 */
+    double stiffness_error;
     /* V of the comb whose own fingers bend most easily: below that they surely do not snap by themselves; infinite
        without combs. And (voltage of the scene over it)^2, the largest of any comb */
     double fingers_V, fingers;
@@ -153,7 +156,8 @@ typedef struct fw_statics_pull_in {
 } fw_statics_pull_in;
 
 /* margin below which it may not hold: fringe fields, which are left out, raise the force by up to `fringe`, and it goes
-   with V^2; fingers that bend add to what gives, so that 1/V^2 adds up: sqrt((1 + fringe)/(1 - (1 + fringe) fingers)) */
+   with V^2; the stiffness may be less by its error, which V^2 is in proportion to; fingers that bend add to what gives,
+   so that 1/V^2 adds up: sqrt((1 + fringe)/(1 - stiffness_error)/(1 - (1 + fringe) fingers)) */
 double fw_statics_pull_in_margin(const fw_statics_pull_in *p);
 /* what adds up to `fringe`, for a sentence: "fringe fields that the model leaves out", or what changes those in it */
 const char *fw_statics_pull_in_fringe_text(const fw_statics_pull_in *p);
@@ -167,9 +171,9 @@ enum { FW_PULL_IN_MOST = 150 }; /* unknowns: some hundred dense evaluations of 3
 
 /* All combs at their largest voltages of the scene times sqrt(s), other loads and drivers in full
    as they are at its end, from s = 0 to the first loss of stability. *found is NULL for a scene
-   without comb drives. Warns with FW-D248 when the scene's voltage is beyond, or within the share
-   of fringe fields, with FW-D249 when it could not be followed up to the scene's voltage. FW_OK
-   then too; FW_NOMEM, FW_CANCELLED. */
+   without comb drives. Warns with FW-D248 when the scene's voltage is beyond, or within what fringe
+   fields and the flexures' errors may take from it, with FW-D249 when it could not be followed up
+   to the scene's voltage. FW_OK then too; FW_NOMEM, FW_CANCELLED. */
 fw_status fw_statics_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism,
                                   const fw_device_scene *scene, const fw_effect_choice *effects,
                                   fw_diags *diags, const fw_statics_pull_in **found);
@@ -243,6 +247,10 @@ typedef struct fw_statics_modes {
 
 /* of one frequency, as frequency_error */
 double fw_statics_mode_error(const fw_statics_mode *mode);
+/* what the flexures' errors against solids may take from the stiffness `whole` of a small motion (3 nbody) about the pose
+   q, relative; pins: flexures neither give nor drift there; whole NaN: of what flexures alone have of it */
+double fw_statics_shape_error(const fw_mechanism *mechanism, const double *q, const double *shape,
+                              bool pins, double whole);
 /* FW_SOLVER: no equilibrium (FW-D111), or the eigenvalues were not found */
 fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_device_scene *scene,

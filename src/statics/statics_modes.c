@@ -498,19 +498,17 @@ static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, cons
     out[1] = cos(axis) * ux + sin(axis) * uy, out[2] = cos(axis) * uy - sin(axis) * ux;
 }
 
-/* Of a mode's stiffness, by the energy that each flexure has of it:  e = sum k d^2 e_k/(omega^2 M),
-   with k and e_k of rotation, along and across, d as deformed in the mode, M its modal mass: what loads
-   leave of it bears the whole error of what they take from; of an unstable one ten times its share.
-   Source: Rayleigh's quotient is stationary. Test: test_rest.py, test_modes.c errors_go_with_energy */
-static double mode_error(const fw_mechanism *m, const fw_statics_modes *found,
-                         const fw_statics_mode *mode) {
-    const bool pins = found->ledger.hinge.used == FW_HINGE_REVOLUTE;
-    double all = 0, off = 0, whole = mode->stiffness_per_s2 * mode->modal_mass_kg_m2;
+/* Of a mode's stiffness, by the energy that each flexure has of it: e = sum k d^2 e_k/whole, with k and e_k of rotation, along
+   and across, d as deformed, whole = omega^2 M, M the modal mass: what loads leave of it bears all that is off of what they
+   take from; of an unstable one ten times its share. Source: Rayleigh. Test: test_rest.py, test_modes.c errors_go_with_energy */
+double fw_statics_shape_error(const fw_mechanism *m, const double *q, const double *shape,
+                              bool pins, double whole) {
+    double all = 0, off = 0;
     for (int i = 0; i < m->nhinge; i++) {
         const fw_mechanism_hinge *h = &m->hinge[i];
         double d[3], e[3];
         fw_flexure_hinge_at at;
-        deformation(m, h, found->q, mode->shape, d);
+        deformation(m, h, q, shape, d);
         errors_of(h, pins || !isfinite(h->axis_rad), e);
         fw_flexure_hinge_law_at(&h->law, 0, &at);
         const double k[3] = {m->pin[h->pin].stiffness_Nm_per_rad, at.kx_N_per_m.value,
@@ -520,7 +518,7 @@ static double mode_error(const fw_mechanism *m, const fw_statics_modes *found,
             all += k[n] * d[n] * d[n], off += k[n] * d[n] * d[n] * e[n];
         }
     }
-    return off > 0 ? off / (whole > 0 ? whole : 0.1 * all) : 0;
+    return off > 0 ? off / (isnan(whole) ? all : whole > 0 ? whole : 0.1 * all) : 0;
 }
 
 /* Of a frequency, by the error e of its stiffness: half of it, and above a tenth 1 - sqrt(1 - e), which is the larger of
@@ -536,12 +534,14 @@ double fw_statics_mode_error(const fw_statics_mode *mode) {
 /* each: what the next level changes; NULL: not compared by mode */
 static void set_errors(const fw_mechanism *m, const double *each, fw_statics_modes *modes) {
     const double level = m->nhinge > 0 ? modes->ledger.hinge.error : 0;
+    const bool pins = modes->ledger.hinge.used == FW_HINGE_REVOLUTE;
     double first = 0;
-    modes->stiffness_error = 0;
     for (int k = modes->count - 1; k >= 0; k--) {
-        modes->mode[k].stiffness_error = mode_error(m, modes, &modes->mode[k]);
-        modes->mode[k].model_error = each && m->nhinge > 0 ? each[k] * (1 + each[k]) : level;
-        if (modes->mode[k].kind == FW_MODE_OSCILLATION) first = modes->mode[k].stiffness_error;
+        fw_statics_mode *mode = &modes->mode[k];
+        const double whole = mode->stiffness_per_s2 * mode->modal_mass_kg_m2;
+        mode->stiffness_error = fw_statics_shape_error(m, modes->q, mode->shape, pins, whole);
+        mode->model_error = each && m->nhinge > 0 ? each[k] * (1 + each[k]) : level;
+        if (mode->kind == FW_MODE_OSCILLATION) first = mode->stiffness_error;
     }
     for (int k = 0; k < m->nhinge; k++) /* any of the slow ones may live in one alone */
         if (!m->hinge[k].stated) first = fmax(first, m->hinge[k].closed_form.error.stiffness);

@@ -463,7 +463,8 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
             f[h] = 1;
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
         const double shakes = largest_of(f, 2 * nh + 2);
-        if (v->motion[i] && !v->beyond_pull_in) { /* of which it is said already */
+        /* of pull-in it is said already, and ways of round-off have no ratio */
+        if (v->motion[i] && !v->beyond_pull_in && !fw_verdict_stands_still(v, i)) {
             const double e = fw_verdict_bending_counted(v->motion[i]) +
                              fw_verdict_motion_model_error(m, v->motion[i]);
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));

@@ -2,7 +2,6 @@
 /* What speaks against a scene, or a flow, beside the bands of its hinges. */
 #include "base/constants.h"
 #include "base/text.h"
-#include "mechanism/mechanism_plates.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
@@ -13,7 +12,7 @@
      - it ends where an element's formula does (electrodes touch): rejected, or inconclusive where
        it does not with voltages lower by the model's own error; where a flexure's model does: inconclusive,
      - it asks for more than the static pull-in voltage and is over before the rotor has snapped, or
-       it would touch with voltages higher by what fringe fields can do: inconclusive,
+       it would touch with voltages higher by what fringe fields and softer hinges can do: inconclusive,
      - what holds it up to its voltages was not found: inconclusive,
      - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else
        inconclusive,
@@ -85,13 +84,12 @@ static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw
     if (flexure_ended(ended))
         return fw_verdict_scene_reason(v, scene, 242, FW_INCONCLUSIVE, share_for(NULL),
                                        ended->message);
-    if (p)
-        FW_TRY(touches(arena, v->mechanism, scene, 1 - fw_verdict_model_error.motion, options,
-                       &still));
+    const double off = p ? fmax(fw_verdict_model_error.motion, 0.5 * p->stiffness_error) : 0;
+    if (p) FW_TRY(touches(arena, v->mechanism, scene, 1 - off, options, &still));
     const char *why = p ? fw_statics_pull_in_explain(arena, p) : "";
     FW_NEED(why);
     char less[32];
-    fw_number_text(less, sizeof less, 100 * fw_verdict_model_error.motion, 2);
+    fw_number_text(less, sizeof less, 100 * off, 2);
     char *text = fw_arena_printf(arena, "%s%s%s%s%s%s", ended->message, p ? "; " : "", why,
                                  still ? "" : " (not at voltages lower by the ", still ? "" : less,
                                  still ? "" : " % that the model may be wrong by)");
@@ -103,10 +101,11 @@ static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw
 
 static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_statics_pull_in *p,
                         fw_verdict_variant_verdict *v) {
-    char at[32], asked[32], part[32];
+    char at[32], asked[32], part[32], off[32];
     fw_number_text(at, sizeof at, p->voltage_V, 4);
     fw_number_text(asked, sizeof asked, p->largest_V, 4);
     fw_number_text(part, sizeof part, 100 * p->fringe, 2);
+    fw_number_text(off, sizeof off, 100 * p->stiffness_error, 2);
     v->beyond_pull_in = true;
     const char *text =
         p->margin < 1
@@ -122,14 +121,15 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
                       : "it is over before the rotor has snapped")
             : fw_arena_printf(arena,
                               "%s%s asks for up to %s V: %s%s pulls in at %s V, or at "
-                              "less: %s may add up to %s %% to its pull",
+                              "less: %s may add up to %s %% to its pull, and what holds it may "
+                              "be less stiff by up to %s %%",
                               FW_NAMED("scene", scene->name), asked,
                               FW_NAMED("comb drive", p->comb), at,
-                              fw_statics_pull_in_fringe_text(p), part);
+                              fw_statics_pull_in_fringe_text(p), part, off);
     return fw_verdict_scene_reason(v, scene, 248, FW_INCONCLUSIVE, share_for(p), text);
 }
 
-/* thrown to the stator, were the fringe fields all there */
+/* thrown to the stator, were the fringe fields all there and what holds it as soft as it may be */
 static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
                                const fw_statics_pull_in *p, const fw_dynamics_motion *motion,
                                const fw_dynamics_motion_options *options, fw_diags *diags,
@@ -139,17 +139,20 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
         return FW_OK;
     FW_TRY(touches(arena, v->mechanism, scene, fw_statics_pull_in_margin(p), options, &does));
     if (!does) return FW_OK;
-    char part[32];
+    char part[32], off[32];
     const char *text = fw_arena_printf(
         arena,
         "%s%s may throw the rotor of %s%s to its stator (dynamic pull-in): it does so in a run "
-        "with %s, which may add up to %s %% to the pull",
+        "with %s, which may add up to %s %% to the pull, and with what holds it less stiff by the "
+        "%s %% that it may be",
         FW_NAMED("scene", scene->name), FW_NAMED("comb drive", p->comb),
-        fw_statics_pull_in_fringe_text(p), fw_number_text(part, sizeof part, 100 * p->fringe, 2));
+        fw_statics_pull_in_fringe_text(p), fw_number_text(part, sizeof part, 100 * p->fringe, 2),
+        fw_number_text(off, sizeof off, 100 * p->stiffness_error, 2));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);
     v->beyond_pull_in = true;
-    return fw_verdict_scene_reason(v, scene, 248, FW_INCONCLUSIVE, 0.98 / (1 + p->fringe), text);
+    return fw_verdict_scene_reason(v, scene, 248, FW_INCONCLUSIVE,
+                                   0.98 * (1 - p->stiffness_error) / (1 + p->fringe), text);
 }
 
 static fw_status fingers_snap(fw_arena *arena, const fw_device_scene *scene,
@@ -177,6 +180,20 @@ static fw_status not_found(fw_arena *arena, const fw_device_scene *scene,
                         FW_NAMED("scene", scene->name), FW_NAMED("comb drive", p->comb),
                         fw_number_text(at, sizeof at, p->voltage_V, 4),
                         fw_number_text(asked, sizeof asked, p->largest_V, 4), p->why));
+}
+
+/* what holds the rotor may be less stiff, too, by what bodies give in the motion; of a scene in which nothing moves that is
+   not known. What the next model of the hinges changes of a motion near pull-in is not what it changes of a stiffness. */
+static fw_status softened(fw_arena *arena, const fw_dynamics_motion *motion,
+                          const fw_statics_pull_in **p) {
+    fw_statics_pull_in *softer;
+    if (!*p || (*p)->kind == FW_PULL_IN_NONE) return FW_OK;
+    FW_NEED(softer = fw_arena_one(arena, fw_statics_pull_in));
+    *softer = **p;
+    const double stiff = 1 - fmin(1, softer->stiffness_error);
+    softer->stiffness_error = 1 - stiff / (1 + fw_verdict_bending_share(motion));
+    *p = softer;
+    return FW_OK;
 }
 
 static fw_status judge_pull_in(fw_arena *arena, const fw_device_scene *scene,
@@ -291,7 +308,8 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
         return touched(arena, scene, p, ended, options, v);
     }
     FW_TRY(status);
-    FW_TRY(judge_pull_in(arena, scene, p, v->motion[i], options, diags, v));
+    FW_TRY(softened(arena, v->motion[i], &v->pull_in[i]));
+    FW_TRY(judge_pull_in(arena, scene, v->pull_in[i], v->motion[i], options, diags, v));
     FW_TRY(judge_level(arena, scene, v->motion[i], v));
     FW_TRY(judge_beside(arena, scene, v->motion[i], v));
     FW_TRY(judge_strains(arena, scene, v->motion[i], v));
@@ -527,69 +545,4 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
         fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
         fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
         fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
-}
-
-/* ---- scenes in which nothing moves ---- */
-
-/* Nothing goes by more than 1e-9 of the longest arm, or turns by more than 1e-9, and no hinge uses 1e-6 of what it bears:
-   what integrators leave of a start at rest. Of small devices that is below an atom. */
-static bool stands_still(const fw_verdict_variant_verdict *v, int scene) {
-    const double hardly = 1e-9, unused = 1e-6;
-    const fw_mechanism *m = v->mechanism;
-    const fw_dynamics_motion *motion = v->motion[scene];
-    const size_t n = 3 * (size_t)m->nbody, columns = (size_t)m->device->nscene + 1;
-    double arm_m = 0;
-    const fw_device_scene *s = &m->device->scene[scene];
-    if (!motion || motion->ended) return false;
-    if (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)) return false; /* across the plane */
-    for (int i = 0; i < m->npin; i++)
-        arm_m = fmax(arm_m, fmax(hypot(m->pin[i].ax_m, m->pin[i].ay_m),
-                                 hypot(m->pin[i].bx_m, m->pin[i].by_m)));
-    for (int k = 0; k < v->nhinge; k++)
-        if (v->used[(size_t)k * columns + (size_t)scene] > unused) return false;
-    for (int r = 1; r < motion->nsample; r++)
-        for (size_t i = 0; i < n; i++)
-            if (fabs(motion->q[(size_t)r * n + i] - motion->q[i]) >
-                hardly * (i % 3 == 2 ? 1 : arm_m))
-                return false;
-    return true;
-}
-
-/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
-static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
-    for (int k = 0; k < v->nrequirement; k++) {
-        const fw_verdict_requirement *r = &v->requirement[k];
-        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
-        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
-    }
-    return fw_text_end(list);
-}
-
-fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
-                                const fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    int ran = 0, still = 0, first = FW_NONE;
-    bool told = false;
-    for (int i = 0; i < d->nscene; i++) {
-        fw_text met = fw_text_new(arena);
-        ran += v->motion[i] != NULL;
-        if (!stands_still(v, i)) continue;
-        if (still++ == 0) first = i;
-        FW_TRY(met_there(v, i, &met));
-        if (met.length) told = true;
-        if (met.length)
-            fw_diag_warning(
-                diags, 655, d->scene[i].place,
-                "nothing moves in %s%s: what is required there of %s is met by a device that "
-                "does nothing; give the scene what drives the device",
-                FW_NAMED("scene", d->scene[i].name), met.data);
-    }
-    if (ran > 0 && still == ran && !told && !v->workspace.required)
-        fw_diag_warning(
-            diags, 655, d->scene[first].place,
-            "nothing moves in %s: that no hinge is strained says nothing of what the device "
-            "bears (a study's governing.utilisation likewise); give a scene what drives it",
-            ran > 1 ? "any scene"
-                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
-    return diags->failed ? FW_NOMEM : FW_OK;
 }
