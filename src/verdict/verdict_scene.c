@@ -191,7 +191,7 @@ static fw_status softened(fw_arena *arena, const fw_dynamics_motion *motion,
     FW_NEED(softer = fw_arena_one(arena, fw_statics_pull_in));
     *softer = **p;
     const double stiff = 1 - fmin(1, softer->stiffness_error);
-    softer->stiffness_error = 1 - stiff / (1 + fw_verdict_bending_share(motion));
+    softer->stiffness_error = 1 - stiff / (1 + fw_verdict_bending_moving(motion));
     *p = softer;
     return FW_OK;
 }
