@@ -77,7 +77,7 @@ typedef struct fw_recipe_wait {
    ends, and of the step before it where that is below 0. false: there is none */
 bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
                           fw_recipe_wait *wait);
-/* asrun_compare.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water," or "began 5 min
+/* asrun_entry.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water," or "began 5 min
    before C20 ended" */
 void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait);
 void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);
