@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "process/calibrate.h"
 #include "process/coupon.h"
+#include "process/pack.h"
 #include "quantity/program.h"
 #include <math.h>
 #include <stdbool.h>
@@ -336,6 +337,31 @@ static void ask_too_good(const fw_process_calibration *calibration, int i, const
                     c->coupon, c->freedom, fw_number_text(p, sizeof p, c->probability, 5));
 }
 
+/* A rate that the law of a step corrects for temperature is of its reference temperature; what the bath was at when the coupon
+   was etched no row says. R(T0 + 1 K)/R(T0) = exp(Ea/(k T0 (T0 + 1))): Ea J, T0 K. Test: test_calibrate.c, rates_of_a_temperature. */
+static void ask_temperature(const fw_process_flow *flow, const fw_process_calibrated *c,
+                            const char *file, fw_diags *diags) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const fw_quantity *rate = fw_process_step_argument(s, "rate"),
+                          *Ea = fw_process_step_argument(s, "activation_energy"),
+                          *T0 = fw_process_step_argument(s, "reference_temperature"),
+                          *T = fw_process_step_argument(s, "temperature");
+        if (!rate || strcmp(rate->id, c->id) != 0 || !Ea || Ea->unknown || !T0 || T0->unknown || !T)
+            continue;
+        char at[32], more[32];
+        const double kelvin = exp(Ea->value / FW_BOLTZMANN_J_PER_K / T0->value / (T0->value + 1.0));
+        fw_diag_warning(
+            diags, 668, (fw_place){.file = file},
+            "%s is written as the rate at %s = %s %s, and plans correct it from there to %s: where "
+            "the bath was at another temperature when %s was etched (a kelvin more makes it %s "
+            "times as fast), write that one as %s into the laboratory pack, beside %s",
+            c->id, T0->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(T0), 4), T0->unit,
+            T->id, c->coupon, fw_number_text(more, sizeof more, kelvin, 4), T0->id, c->id);
+        return;
+    }
+}
+
 /* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
    test_calibrate.c, far_from_the_plan. */
 void fw_process_calibration_ask(const fw_process_flow *flow,
@@ -346,6 +372,7 @@ void fw_process_calibration_ask(const fw_process_flow *flow,
         const fw_quantity *old = fw_process_flow_quantity(flow, c->id);
         char times[32];
         ask_too_good(calibration, i, file, diags);
+        ask_temperature(flow, c, file, diags);
         if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
         double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
         const fw_process_coupon *kind = kind_named(c->coupon);

@@ -154,7 +154,7 @@ fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
                                size_t n, fw_diags *diags, fw_recipe_asrun *run) {
     fw_recipe_asrun_reader r = {arena, flow, run, plan_sha256 != NULL, false, diags, {file, 1, 1}};
     size_t lines = 1;
-    *run = (fw_recipe_asrun){0};
+    *run = (fw_recipe_asrun){.flow = flow};
     for (size_t i = 0; i < n; i++)
         lines += text[i] == '\n';
     FW_NEED(run->entry = fw_arena_array(arena, fw_recipe_asrun_entry, lines));
@@ -362,7 +362,9 @@ static const fw_recipe_asrun_entry *came_from(const fw_recipe_asrun *run, const 
                                               const fw_recipe_asrun_entry *e) {
     const fw_recipe_asrun_entry *from = NULL;
     for (const fw_recipe_asrun_entry *of = run->entry; of < run->entry + run->nentry; of++) {
-        if (!of->step || strcmp(of->step->id, step) != 0 || !same_wafer(of, e)) continue;
+        if (!of->step || strcmp(of->step->id, step) != 0) continue;
+        /* what is done without a wafer is done for each of them */
+        if (!same_wafer(of, e) && (of->wafer || !fw_process_step_is_of_lot(of->step))) continue;
         const bool again = from && of > e && of->start_s >= e->start_s;
         if (!again) from = of;
     }
@@ -407,36 +409,46 @@ static void wait_since(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     wait->fine = !(wait->waited_s < wait->min_s) && !(wait->waited_s > wait->max_s);
 }
 
+/* A chamber is seasoned for the wafer that comes first: another one was in it before e */
+static bool is_later_one(const fw_recipe_asrun *run, const fw_recipe_wait *wait,
+                         const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *of = run->entry; of < run->entry + run->nentry; of++)
+        if (of->step == e->step && !same_wafer(of, e) && wait->from &&
+            of->start_s >= wait->from->end_s && of->start_s < e->start_s)
+            return true;
+    return false;
+}
+
+/* what the flow says of the wafer's state, which this step ends; false: nothing, or not of this wafer */
+static bool wait_in_state(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          const fw_process_wait *w, fw_recipe_wait *wait) {
+    if (&run->flow->step[w->to] != e->step) return false;
+    *wait = (fw_recipe_wait){.since = run->flow->step[w->from].id, .is = w->is, .max_s = w->max_s};
+    wait_since(run, e, wait);
+    return !w->first_only || !is_later_one(run, wait, e);
+}
+
 bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
                           fw_recipe_wait *wait) {
-    const int k = (*i)++;
-    if (k < e->step->nlag) {
+    const int nlag = e->step->nlag, nwait = run->flow->nwait, k = *i;
+    if ((*i)++ < nlag) {
         const fw_process_lag *lag = &e->step->lag[k];
         *wait = (fw_recipe_wait){
             .since = lag->from, .min_s = isnan(lag->min_s) ? 0.0 : lag->min_s, .max_s = lag->max_s};
         wait_since(run, e, wait);
         return true;
     }
-    const fw_process_step *before = k == e->step->nlag ? step_before(run, e) : NULL;
-    for (int n = 0; before && n < e->step->nlag; n++)
-        if (strcmp(e->step->lag[n].from, before->id) == 0) return false; /* it has been told */
+    for (int n = k - nlag; n < nwait; n++, (*i)++)
+        if (wait_in_state(run, e, &run->flow->wait[n], wait)) return true;
+    const fw_process_step *before = *i == nlag + nwait + 1 ? step_before(run, e) : NULL;
     if (!before) return false;
     *wait = (fw_recipe_wait){.since = before->id, .max_s = (double)NAN};
+    for (int n = 0; n < nlag; n++) /* it has been told */
+        if (strcmp(e->step->lag[n].from, before->id) == 0) return false;
+    for (const fw_process_wait *w = run->flow->wait; w < run->flow->wait + nwait; w++)
+        if (w->from == before - run->flow->step && w->to == e->step - run->flow->step) return false;
     wait_since(run, e, wait);
     return wait->waited_s < 0.0;
-}
-
-void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait) {
-    fw_schedule_put_duration(out, wait->min_s);
-    fw_text_add(out, isnan(wait->max_s) ? " or more" : " to ");
-    if (!isnan(wait->max_s)) fw_schedule_put_duration(out, wait->max_s);
-}
-
-void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait) {
-    const bool early = wait->waited_s < 0.0;
-    fw_text_add(out, early ? "began " : "waited ");
-    fw_schedule_put_duration(out, fabs(wait->waited_s));
-    fw_text_printf(out, early ? " before %s ended" : " since %s", wait->since);
 }
 
 static fw_status ask_wait(const fw_recipe_asrun_entry *e, const fw_recipe_wait *wait,

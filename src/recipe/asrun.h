@@ -63,6 +63,7 @@ typedef struct fw_recipe_asrun_entry {
 } fw_recipe_asrun_entry;
 
 typedef struct fw_recipe_asrun {
+    const fw_process_flow *flow; /* whose steps the entries are of */
     const char *plan, *lot;
     const char **wafer; /* (nwafer) ids of the lot; 0: the log was begun without */
     int nwafer;

@@ -236,7 +236,11 @@ static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recip
             fw_recipe_put_waited(&is, &wait);
         else
             fw_schedule_put_duration(&is, wait.waited_s);
-        FW_TRY(add(b, e, fw_arena_printf(b->arena, "wait since %s", wait.since), &planned, &is));
+        const char *state = wait.is ? wait.is : "";
+        FW_TRY(add(
+            b, e,
+            fw_arena_printf(b->arena, "wait since %s%s%s", wait.since, *state ? ", " : "", state),
+            &planned, &is));
     }
     return FW_OK;
 }

@@ -449,3 +449,19 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
         return check_there(r, e, there);
     return FW_OK;
 }
+
+/* ---- waits, in words ---- */
+
+void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait) {
+    fw_schedule_put_duration(out, wait->min_s);
+    fw_text_add(out, isnan(wait->max_s) ? " or more" : " to ");
+    if (!isnan(wait->max_s)) fw_schedule_put_duration(out, wait->max_s);
+}
+
+void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait) {
+    const bool early = wait->waited_s < 0.0;
+    fw_text_add(out, early ? "began " : "waited ");
+    fw_schedule_put_duration(out, fabs(wait->waited_s));
+    fw_text_printf(out, early ? " before %s ended" : " since %s", wait->since);
+    if (wait->is && !early) fw_text_printf(out, ", %s,", wait->is);
+}

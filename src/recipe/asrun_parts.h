@@ -66,17 +66,19 @@ double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_e
 /* ---- what a wafer waited before an entry: asrun.c ---- */
 
 typedef struct fw_recipe_wait {
-    const char *since;                 /* id of the step from whose end on */
+    const char *since; /* id of the step from whose end on */
+    const char *is;    /* what the wafer is like meanwhile, "wet with water"; NULL: of a lag */
     const fw_recipe_asrun_entry *from; /* that counts of it; NULL: it is not in the log */
     double waited_s;     /* below 0: it began before that step ended; NaN: not known */
     double min_s, max_s; /* max_s NaN: no limit */
     bool fine;
 } fw_recipe_wait;
-/* The next wait of an entry, from *i on, which begins with 0: of each lag of its step, and of the step before it where that
-   is below 0. false: there is none */
+/* The next wait of an entry, from *i on, which begins with 0: of each lag of its step, of each state of the wafer that its step
+   ends, and of the step before it where that is below 0. false: there is none */
 bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
                           fw_recipe_wait *wait);
-/* "0 s to 10 min"; "waited 21 min since C20", or "began 5 min before C20 ended" */
+/* asrun_entry.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water," or "began 5 min
+   before C20 ended" */
 void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait);
 void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);
 /* FW-D648 where an entry that was just added, or one of before that follows on it, did not wait as it should */

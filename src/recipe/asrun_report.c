@@ -372,6 +372,7 @@ static void waited_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry 
     for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &i, &wait);) {
         fw_json_object(out, NULL);
         fw_json_text(out, "from", wait.since);
+        put_text(out, "is", wait.is);
         put_number(out, "waited_s", wait.waited_s);
         put_number(out, "min_s", wait.min_s);
         put_number(out, "max_s", wait.max_s);

@@ -292,6 +292,22 @@ static void far_from_the_plan(void **state) {
     assert_non_null(strstr(quiet.item[0].message, "does not widen the lines"));
 }
 
+/* a rate that its step corrects for temperature is asked after, once; one without such a law is not */
+static void rates_of_a_temperature(void **state) {
+    (void)state;
+    static const char *const id[] = {"pan.R", "rie.R"};
+    for (int k = 0; k < 2; k++) {
+        fw_process_calibrated item = {.id = id[k], .value = 1e-9, .uncertainty = 1.0, .coupon = "etch-rate"};
+        const fw_process_calibration c = {.item = &item, .count = 1};
+        quiet = fw_diags_new(arena);
+        fw_process_calibration_ask(silicon, &c, "coupons.csv", &quiet);
+        assert_int_equal(quiet.count, 1 - k);
+        if (k > 0) continue;
+        assert_int_equal(quiet.item[0].number, 668);
+        assert_non_null(strstr(quiet.item[0].message, "pan.R is written as the rate at pan.T-reference = 22 Cel"));
+    }
+}
+
 /* six lines that all lost the very same, within 0.05 um each: said, once; where they scatter nothing is */
 static void too_good(void **state) {
     (void)state;
@@ -595,7 +611,7 @@ int main(void) {
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
         cmocka_unit_test(wrong_tables),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
-        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(too_good),
+        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(rates_of_a_temperature), cmocka_unit_test(too_good),
         cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -810,7 +810,14 @@ static void waits_are_not_below_nothing(void **state) {
         {{C("C20", "10:00", "10:09", "1"), C("C22", "11:00", "11:22", "1")}, 2, 1,
          "step C22 of wafer 1 waited 51 min since C20, and allowed is 0 s to 15 min", "waited 51 min since C20: OUT"},
         {{C("C22", "11:00", "11:22", "1"), C("C20", "10:00", "10:09", "1")}, 2, 1, "waited 51 min since C20", "waited 51 min since C20: OUT"},
+        /* what a state of the wafer allows is no other than what a lag does */
+        {{C("C05", "09:40", "09:44", "1"), C("C06", "09:59", "10:02", "1")}, 2, 1, "step C06 of wafer 1 waited 15 min since C05, wet with",
+         "waited 15 min since C05, wet with"},
+        {{C("C08", "18:00", "18:05", "1"), C("C07", "10:05", "10:10", "1")}, 2, 1, "waited 7 h 50 min since C07, wet with", "since C07, wet with"},
         /* none of these */
+        {{C("C05", "09:40", "09:44", "1"), C("C06", "09:44", "09:47", "1")}, 2, 0, "", NULL},
+        {{C("C07", "10:05", "10:10", "1"), C("C08", "14:00", "14:05", "1")}, 2, 0, "", NULL},
+        {{C("C05", "09:40", "09:44", "2"), C("C06", "09:59", "10:02", "1")}, 2, 0, "", NULL},
         {{C("C20", "10:00", "10:09", "2"), C("C22", "09:00", "09:22", "1")}, 2, 0, "", NULL},
         {{C("C20", "10:00", "10:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "12:00", "12:09", "1")}, 3, 0, "", NULL},
         {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1")}, 2, 0, "", NULL},
