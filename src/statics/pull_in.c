@@ -184,6 +184,56 @@ static fw_status refine(seeker *k, const double *near, double *s) {
     return FW_OK;
 }
 
+/* of rotation, along and across the axis: stated stiffnesses are what they are, what the strip gives
+   besides is the closed form's */
+static void errors_of(const fw_mechanism_hinge *h, bool pins, double e[3]) {
+    const fw_flexure_error *own = &h->closed_form.error;
+    e[0] = h->stated ? 0 : own->stiffness;
+    e[1] = pins ? 0 : own->kx, e[2] = pins ? 0 : own->ky;
+}
+
+/* turn and displacement of a hinge in a mode, along and across its axis */
+static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
+                        const double *shape, double out[3]) {
+    const fw_mechanism_pin *pin = &m->pin[h->pin];
+    double ux = 0, uy = 0, axis = h->axis_rad;
+    out[0] = 0;
+    for (int side = 0; side < 2; side++) {
+        const int b = side ? pin->body_b : pin->body_a;
+        const double x = side ? pin->bx_m : pin->ax_m, y = side ? pin->by_m : pin->ay_m;
+        const double sign = side ? 1 : -1;
+        if (b == FW_GROUND) continue;
+        const double c = cos(q[3 * b + 2]), s = sin(q[3 * b + 2]), *u = shape + 3 * b;
+        ux += sign * (u[0] - u[2] * (s * x + c * y)), uy += sign * (u[1] + u[2] * (c * x - s * y));
+        out[0] += sign * u[2];
+        axis += 0.5 * (q[3 * b + 2] - m->body[b].phi_rad);
+    }
+    out[1] = cos(axis) * ux + sin(axis) * uy, out[2] = cos(axis) * uy - sin(axis) * ux;
+}
+
+/* Of a mode's stiffness, by the energy that each flexure has of it: e = sum k d^2 e_k/whole, with k and e_k of rotation, along
+   and across, d as deformed, whole = omega^2 M, M the modal mass: what loads leave of it bears all that is off of what they
+   take from; of an unstable one ten times its share. Source: Rayleigh. Test: test_rest.py, test_modes.c errors_go_with_energy */
+double fw_statics_shape_error(const fw_mechanism *m, const double *q, const double *shape,
+                              bool pins, double whole) {
+    double all = 0, off = 0;
+    for (int i = 0; i < m->nhinge; i++) {
+        const fw_mechanism_hinge *h = &m->hinge[i];
+        double d[3], e[3];
+        fw_flexure_hinge_at at;
+        deformation(m, h, q, shape, d);
+        errors_of(h, pins || !isfinite(h->axis_rad), e);
+        fw_flexure_hinge_law_at(&h->law, 0, &at);
+        const double k[3] = {m->pin[h->pin].stiffness_Nm_per_rad, at.kx_N_per_m.value,
+                             at.ky_N_per_m.value};
+        for (int n = 0; n < 3; n++) {
+            if (n > 0 && !(e[n] > 0)) continue;
+            all += k[n] * d[n] * d[n], off += k[n] * d[n] * d[n] * e[n];
+        }
+    }
+    return off > 0 ? off / (isnan(whole) ? all : whole > 0 ? whole : 0.1 * all) : 0;
+}
+
 /* the event of the path at index i: which motion becomes free there, and which drive takes it */
 static fw_status describe(seeker *k, const fw_statics_path *path, int i) {
     fw_statics_equilibrium *w = &k->w;

@@ -249,11 +249,12 @@ static bool spread(const grid *s, const double *weight, const int *node, int n,
 }
 
 /* unit wrenches about the pin of an end, on nodes about its root, and what balances them: to (3 x 2 nnode) */
-static fw_status load_end(const grid *s, const fw_verdict_solid_end *end, double *to, bool *known) {
+static fw_status load_end(const grid *s, const fw_verdict_solid_end *end, fw_geometry_vec2 root,
+                          double *to, bool *known) {
     int *node = fw_arena_array(s->arena, int, (size_t)s->nnode), n = 0;
     FW_NEED(node);
     for (int i = 0; i < s->nnode; i++)
-        if (vec_distance(place_of(s, i), end->root) < s->reach_m) node[n++] = i;
+        if (vec_distance(place_of(s, i), root) < s->reach_m) node[n++] = i;
     for (int k = 0; k < 3 && *known; k++) {
         const double unit[3] = {k == 0, k == 1, k == 2}, back[3] = {-unit[0], -unit[1], -unit[2]};
         double *column = to + (size_t)k * 2 * (size_t)s->nnode;
@@ -277,6 +278,8 @@ static fw_status compliance(grid *s, fw_geometry_vec2 middle, const fw_verdict_s
         if (s->share[i] > 0.9 && off < near) near = off, start = i;
     }
     if (start == FW_MATHS_NONE) return FW_OK;
+    const fw_geometry_vec2 full = {s->box.x0 + (start % s->nx + 0.5) * s->cell_m,
+                                   s->box.y0 + (start / s->nx + 0.5) * s->cell_m};
     FW_TRY(keep_connected(s, start));
     FW_TRY(number_nodes(s));
     const size_t rows = 2 * (size_t)s->nnode;
@@ -288,7 +291,8 @@ static fw_status compliance(grid *s, fw_geometry_vec2 middle, const fw_verdict_s
     FW_NEED(work = fw_arena_array(s->arena, double, 2 * rows));
     *known = true;
     for (int i = 0; i < n && *known; i++)
-        FW_TRY(load_end(s, &end[i], p + 3 * (size_t)i * rows, known));
+        FW_TRY(load_end(s, &end[i], end[i].nearest ? full : end[i].root, p + 3 * (size_t)i * rows,
+                        known));
     if (!*known) return FW_OK;
     FW_TRY(assemble(s, &system));
     FW_TRY(fw_maths_sparse_factor(system, 1e-13, &signs));
@@ -420,16 +424,10 @@ typedef struct solids {
     const fw_mechanism *m;
     const fw_layout *layout;
     const fw_verdict_arm *arm;
-    const fw_verdict_load_end *load;
-    int nload, scene;
     double stiff_N;
 } solids;
 
-static bool is_load_of(const solids *s, int j, int body) {
-    return s->load[j].body == body && s->load[j].first == j;
-}
-
-/* hinge ends in the order of hinges and sides, then loads of all scenes */
+/* hinge ends in the order of hinges and sides, then the middle */
 static fw_status make_solid(fw_arena *arena, const solids *s, int body,
                             fw_verdict_body_solid *out) {
     const fw_mechanism *m = s->m;
@@ -437,7 +435,7 @@ static fw_status make_solid(fw_arena *arena, const solids *s, int body,
     int nline, n = 0;
     double narrow = HUGE_VAL;
     fw_verdict_solid_end *end =
-        fw_arena_array(arena, fw_verdict_solid_end, 2 * (size_t)m->nhinge + (size_t)s->nload);
+        fw_arena_array(arena, fw_verdict_solid_end, 2 * (size_t)m->nhinge + 1);
     FW_NEED(end);
     for (int i = 0; i < 2 * m->nhinge; i++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
@@ -445,20 +443,19 @@ static fw_status make_solid(fw_arena *arena, const solids *s, int body,
         const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, i % 2),
                                root = i % 2 ? pin->root_b_m : pin->root_a_m;
         end[n++] = (fw_verdict_solid_end){
-            at, vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
+            .pin = at, .root = vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
         if (s->arm[i].known) narrow = fmin(narrow, s->arm[i].narrow_m);
     }
     const int nhinge = n;
-    for (int j = 0; j < s->nload; j++)
-        if (is_load_of(s, j, body)) end[n++] = (fw_verdict_solid_end){s->load[j].at, s->load[j].at};
+    const fw_geometry_vec2 middle = s->layout->body[body].centroid;
+    end[n++] = (fw_verdict_solid_end){.pin = middle, .root = middle, .nearest = true};
     FW_TRY(fw_verdict_body_lines(arena, s->layout, body, &line, &nline));
-    FW_TRY(fw_verdict_body_solid_of(arena, line, nline, s->layout->body[body].centroid, narrow, end,
-                                    n, out));
+    FW_TRY(fw_verdict_body_solid_of(arena, line, nline, middle, narrow, end, n, out));
     out->nhinge = nhinge;
     return FW_OK;
 }
 
-/* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose; loads 0. rest (3): what else
+/* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose; nothing in its middle. rest (3): what else
    there must be, force and moment about `about`, but for inertia */
 static void wrenches_of(const solids *s, int body, const double *instant, fw_geometry_vec2 about,
                         double *w, double rest[3]) {
@@ -476,28 +473,16 @@ static void wrenches_of(const solids *s, int body, const double *instant, fw_geo
         rest[0] -= -sign * on[0] + vec_cross(arm, force);
         rest[1] -= force.x, rest[2] -= force.y;
     }
-    for (int j = 0; j < s->nload; j++)
-        if (is_load_of(s, j, body)) *w++ = 0, *w++ = 0, *w++ = 0;
+    w[0] = w[1] = w[2] = 0;
 }
 
-/* The most, wherever the rest of what acts does so: spread as inertia, or where a load of this scene is. Of loads in several
-   places the energy is convex in how they share it. */
-static double solid_energy(const solids *s, int body, const fw_verdict_body_solid *solid,
-                           fw_geometry_vec2 about, double *w, const double rest[3]) {
-    double most = fw_verdict_solid_energy_J(solid, s->stiff_N, w), *to = w + 3 * solid->nhinge;
-    for (int j = 0; j < s->nload; j++) {
-        if (!is_load_of(s, j, body)) continue;
-        bool here = false;
-        for (int k = j; k < s->nload; k++)
-            here = here || (s->load[k].scene == s->scene && s->load[k].first == j);
-        const fw_geometry_vec2 force = {rest[1], rest[2]};
-        to[0] = rest[0] - vec_cross(vec_sub(s->load[j].at, about), force);
-        to[1] = rest[1], to[2] = rest[2];
-        if (here) most = fmax(most, fw_verdict_solid_energy_J(solid, s->stiff_N, w));
-        to[0] = to[1] = to[2] = 0;
-        to += 3;
-    }
-    return most;
+/* the more of both: what else acts is spread as inertia is, or acts in the middle; what loads bend beyond that is another
+   bound (theory, 5a) */
+static double solid_energy(const solids *s, const fw_verdict_body_solid *of, double *w,
+                           const double rest[3]) {
+    const double spread_J = fw_verdict_solid_energy_J(of, s->stiff_N, w);
+    memcpy(w + 3 * of->nhinge, rest, 3 * sizeof *w);
+    return fmax(spread_J, fw_verdict_solid_energy_J(of, s->stiff_N, w));
 }
 
 typedef struct stored { /* largest over instants: as beams, and as solids where these are known */
@@ -530,7 +515,7 @@ static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
         if (s->arm[i].known)
             beam += fw_verdict_arm_energy_J(&s->arm[i], s->stiff_N, -on[0], on[1], on[2], &turn);
     }
-    const double one = solid->known ? solid_energy(s, body, solid, about, w, rest) : beam;
+    const double one = solid->known ? solid_energy(s, solid, w, rest) : beam;
     most->beam_J[body] = fmax(most->beam_J[body], beam);
     most->solid_J[body] = fmax(most->solid_J[body], one);
     *beams += beam, *all += one;
@@ -542,7 +527,7 @@ static fw_status take_solids(fw_arena *arena, const solids *s, const fw_verdict_
     const size_t bodies = (size_t)m->nbody;
     stored most = {.beam_J = fw_arena_array(arena, double, bodies),
                    .solid_J = fw_arena_array(arena, double, bodies)};
-    double *w = fw_arena_array(arena, double, 3 * (2 * (size_t)m->nhinge + (size_t)s->nload) + 1);
+    double *w = fw_arena_array(arena, double, 6 * (size_t)m->nhinge + 3);
     FW_NEED(most.beam_J && most.solid_J ? w : NULL);
     for (int k = 0; k < b->kept->n; k++) {
         const double *instant = b->kept->instant + (size_t)k * instant_size(m);
@@ -560,16 +545,13 @@ static fw_status take_solids(fw_arena *arena, const solids *s, const fw_verdict_
 }
 
 /* Solids are made of bodies that as beams give a hundredth of what the hinges do, where all of them come to what is told */
-static fw_status by_solids(fw_arena *arena, const fw_layout *layout, int scene,
-                           fw_verdict_bending *b, fw_verdict_variant_verdict *v) {
+static fw_status by_solids(fw_arena *arena, const fw_layout *layout, fw_verdict_bending *b,
+                           fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     const double hardly = 0.01;
-    fw_verdict_load_end *load;
-    solids s = {.m = m, .layout = layout, .arm = b->arm, .scene = scene, .stiff_N = b->stiff_N};
+    solids s = {.m = m, .layout = layout, .arm = b->arm, .stiff_N = b->stiff_N};
     if (!b->kept || b->kept->n == 0 || !(b->bodies_J > fw_verdict_bending_told * b->hinges_J))
         return FW_OK;
-    FW_TRY(fw_verdict_load_ends(arena, m, &load, &s.nload));
-    s.load = load;
     fw_verdict_body_solid *solid = fw_arena_array(arena, fw_verdict_body_solid, (size_t)m->nbody);
     FW_NEED(solid);
     for (int i = 0; i < m->nbody; i++) {
@@ -581,9 +563,9 @@ static fw_status by_solids(fw_arena *arena, const fw_layout *layout, int scene,
     return take_solids(arena, &s, solid, b);
 }
 
-fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout, int scene,
+fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout,
                                  fw_verdict_strain_monitor *monitor,
                                  fw_verdict_strain_monitor *other, fw_verdict_variant_verdict *v) {
-    FW_TRY(by_solids(arena, layout, scene, &monitor->bending, v));
-    return by_solids(arena, layout, scene, &other->bending, v);
+    FW_TRY(by_solids(arena, layout, &monitor->bending, v));
+    return by_solids(arena, layout, &other->bending, v);
 }

@@ -126,13 +126,14 @@ fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, struct fw_mechanism_plates *soft);
 /* ---- body_solid.c: what a body gives under all that acts on it together ---- */
 
-typedef struct
-    fw_verdict_solid_end { /* of a hinge, or where a load acts: pin and root are that place */
+typedef struct fw_verdict_solid_end { /* of a hinge; of what else acts pin and root are one place */
     fw_geometry_vec2 pin, root;
+    bool
+        nearest; /* in place of its root it acts on what is full of material and nearest to the body's middle */
 } fw_verdict_solid_end;
 typedef struct fw_verdict_body_solid {
     bool known;
-    int n, nhinge; /* ends; those of hinges stand first */
+    int n, nhinge; /* ends; those of hinges stand first, then the middle */
     double *fine,
         *coarse; /* (3n x 3n) C: energy w^T C w/(2 E h) of wrenches w = (M, Fx, Fy) about the pins, world axes of the
                               drawn pose; the body's inertia balances them. Of two meshes */

@@ -345,7 +345,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, scene, v->motion[i]);
-        FW_TRY(fw_verdict_bending_end(arena, layout, (int)i, &monitor[i], &other[i], v));
+        FW_TRY(fw_verdict_bending_end(arena, layout, &monitor[i], &other[i], v));
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         if (v->motion[i])
             FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->loads, v->motion[i]->level));

@@ -57,7 +57,7 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout,
 /* body_solid.c: where bodies as beams give enough to count in what the two runs of a scene saw, those that matter do as
    plane solids */
 struct fw_verdict_strain_monitor;
-fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout, int scene,
+fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout,
                                  struct fw_verdict_strain_monitor *monitor,
                                  struct fw_verdict_strain_monitor *other,
                                  fw_verdict_variant_verdict *v);

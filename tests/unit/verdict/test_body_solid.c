@@ -25,7 +25,7 @@ static void add_outline(drawing *d, const fw_geometry_vec2 *corner, int n, doubl
 static fw_verdict_body_solid solid_of(fw_arena *arena, const drawing *d, fw_geometry_vec2 middle, double narrow_m,
                                       fw_geometry_vec2 a, fw_geometry_vec2 b, double turn_rad) {
     const fw_geometry_vec2 p = fw_geometry_vec_rotate(a, turn_rad), q = fw_geometry_vec_rotate(b, turn_rad);
-    const fw_verdict_solid_end end[2] = {{p, p}, {q, q}};
+    const fw_verdict_solid_end end[2] = {{.pin = p, .root = p}, {.pin = q, .root = q}};
     fw_verdict_body_solid s;
     assert_int_equal(fw_verdict_body_solid_of(arena, d->line, d->n, fw_geometry_vec_rotate(middle, turn_rad),
                                               narrow_m, end, 2, &s),
