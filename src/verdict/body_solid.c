@@ -476,13 +476,11 @@ static void wrenches_of(const solids *s, int body, const double *instant, fw_geo
     w[0] = w[1] = w[2] = 0;
 }
 
-/* the more of both: what else acts is spread as inertia is, or acts in the middle; what loads bend beyond that is another
-   bound (theory, 5a) */
+/* What else acts does so in the middle: what loads, and inertia, bend beyond that is another bound (theory, 5a) */
 static double solid_energy(const solids *s, const fw_verdict_body_solid *of, double *w,
                            const double rest[3]) {
-    const double spread_J = fw_verdict_solid_energy_J(of, s->stiff_N, w);
     memcpy(w + 3 * of->nhinge, rest, 3 * sizeof *w);
-    return fmax(spread_J, fw_verdict_solid_energy_J(of, s->stiff_N, w));
+    return fw_verdict_solid_energy_J(of, s->stiff_N, w);
 }
 
 typedef struct stored { /* largest over instants: as beams, and as solids where these are known */
