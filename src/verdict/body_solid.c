@@ -455,13 +455,13 @@ static fw_status make_solid(fw_arena *arena, const solids *s, int body,
     return FW_OK;
 }
 
-/* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose; nothing in its middle. rest (3): what else
-   there must be, force and moment about `about`, but for inertia */
+/* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose, and in its
+   middle, `about`, all else: what loads, and inertia, bend beyond that is another bound (theory, 5a) */
 static void wrenches_of(const solids *s, int body, const double *instant, fw_geometry_vec2 about,
-                        double *w, double rest[3]) {
+                        double *w) {
     const fw_mechanism *m = s->m;
     const double turn = instant[3 * m->nhinge + body];
-    rest[0] = rest[1] = rest[2] = 0;
+    double rest[3] = {0};
     for (int i = 0; i < 2 * m->nhinge; i++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
         if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
@@ -473,14 +473,7 @@ static void wrenches_of(const solids *s, int body, const double *instant, fw_geo
         rest[0] -= -sign * on[0] + vec_cross(arm, force);
         rest[1] -= force.x, rest[2] -= force.y;
     }
-    w[0] = w[1] = w[2] = 0;
-}
-
-/* What else acts does so in the middle: what loads, and inertia, bend beyond that is another bound (theory, 5a) */
-static double solid_energy(const solids *s, const fw_verdict_body_solid *of, double *w,
-                           const double rest[3]) {
-    memcpy(w + 3 * of->nhinge, rest, 3 * sizeof *w);
-    return fw_verdict_solid_energy_J(of, s->stiff_N, w);
+    memcpy(w, rest, sizeof rest);
 }
 
 typedef struct stored { /* largest over instants: as beams, and as solids where these are known */
@@ -488,32 +481,42 @@ typedef struct stored { /* largest over instants: as beams, and as solids where 
     double *beam_J, *solid_J; /* (nbody) */
 } stored;
 
+/* how far the end of a hinge goes over its width, or turns over its limit, against the middle of a solid */
+static double end_goes(const solids *s, const fw_verdict_body_solid *of, const double *w, int end,
+                       const fw_mechanism_hinge *h, fw_geometry_vec2 arm) {
+    double to[3], middle[3];
+    fw_verdict_solid_goes(of, s->stiff_N, w, end, to);
+    fw_verdict_solid_goes(of, s->stiff_N, w, of->nhinge, middle);
+    const double far =
+        hypot(to[1] - middle[1] + middle[0] * arm.y, to[2] - middle[2] - middle[0] * arm.x);
+    return fmax(far / h->input.width_m, fabs(to[0] - middle[0]) / h->closed_form.limit_angle_rad);
+}
+
 /* of one body: adds to what all store at the instant */
 static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
-                        const fw_verdict_body_solid *solid, const double *instant, double *w,
+                        const fw_verdict_body_solid *of, const double *instant, double *w,
                         stored *most, double *beams, double *all) {
     const fw_mechanism *m = s->m;
     const double rad = instant[3 * m->nhinge + body];
     const fw_verdict_turn turn = {rad, cos(rad), sin(rad)};
     const fw_geometry_vec2 about = s->layout->body[body].centroid;
-    double beam = 0, rest[3], to[3];
-    wrenches_of(s, body, instant, about, w, rest);
+    double beam = 0;
+    wrenches_of(s, body, instant, about, w);
     for (int i = 0, end = 0; i < 2 * m->nhinge; i++) {
         const fw_mechanism_hinge *h = &m->hinge[i / 2];
         const fw_mechanism_pin *pin = &m->pin[h->pin];
         const double *on = instant + 3 * (i / 2);
         if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
-        if (solid->known) {
-            fw_verdict_solid_goes(solid, s->stiff_N, w, end++, to);
-            most->gone = fmax(most->gone, fmax(hypot(to[1], to[2]) / h->input.width_m,
-                                               fabs(to[0]) / h->closed_form.limit_angle_rad));
-        } else if (s->arm[i].known)
+        const fw_geometry_vec2 arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
+        if (of->known)
+            most->gone = fmax(most->gone, end_goes(s, of, w, end++, h, arm));
+        else if (s->arm[i].known)
             most->gone =
                 fmax(most->gone, fw_verdict_arm_gone(b, h, &s->arm[i], -on[0], on + 1, &turn));
         if (s->arm[i].known)
             beam += fw_verdict_arm_energy_J(&s->arm[i], s->stiff_N, -on[0], on[1], on[2], &turn);
     }
-    const double one = solid->known ? solid_energy(s, solid, w, rest) : beam;
+    const double one = of->known ? fw_verdict_solid_energy_J(of, s->stiff_N, w) : beam;
     most->beam_J[body] = fmax(most->beam_J[body], beam);
     most->solid_J[body] = fmax(most->solid_J[body], one);
     *beams += beam, *all += one;

@@ -18,7 +18,7 @@ void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_v
     fw_geometry_vec2 along = vec_unit(vec_sub(until, from));
     fw_geometry_vec2 r = vec_sub(at, pin), side = vec_left(along);
     /* moment, axial and shear force of M, Fx, Fy there */
-    const double m[3] = {1, -r.y, r.x}, a[3] = {0, along.x, along.y}, s[3] = {0, side.x, side.y};
+    const double m[3] = {1, r.y, -r.x}, a[3] = {0, along.x, along.y}, s[3] = {0, side.x, side.y};
     const int row_of[6] = {0, 0, 0, 1, 1, 2}, column_of[6] = {0, 1, 2, 1, 2, 2};
     for (int k = 0; k < 6; k++) {
         int i = row_of[k], j = column_of[k];

@@ -30,8 +30,8 @@ CASES = {
     "Solids as hinges": (f"{THEORY}/flexures.xml", None, "hinge --json", '"level": ?"continuum"|"level": "ends".*"strain": 0\\.011'),
     "What tips devices with guides": ("tests/data/effects/rubbing.xml", None, "check --corners none --advice none",
                                       r"out of the plane.*not known: joint slide is no flexure"),
-    "Bending of links": (LEAF, None, "check --corners none --advice none --set body[crank]/@width=26um "
-                         "--set body[coupler]/@width=26um --set body[rocker]/@width=26um", "FW-D510"),
+    "Bending of links": (LEAF, None, "check --corners none --advice none --set body[crank]/@width=17um "
+                         "--set body[coupler]/@width=17um --set body[rocker]/@width=17um", "FW-D510"),
     "Strength of bodies": (f"{THEORY}/neck.xml", None, "check --corners none --advice none",
                            r"neck: INCONCLUSIVE.*body arm is not known to bear what force brings.*where it is [67]"),
     "Exactly two ground hinges": ("tests/data/hangs-between.xml", None, "check --corners none --advice none", "one base between them"),

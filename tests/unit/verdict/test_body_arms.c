@@ -461,8 +461,25 @@ static void what_hangs_over_bends(void **state) {
     }
 }
 
+/* A link whose ends are turned alike: moments M at both and forces across that balance them, 2 M/L. It is bent as an S, by
+   M (1 - 2 s/L), and not by M (1 + 2 s/L): M^2 L/(6 E I) of both halves, where the other sign gives seven times that */
+static void a_link_bent_as_an_s(void **state) {
+    (void)state;
+    const double corner[4][2] = {{0, 0}, {1, 0}, {1, 0.05}, {0, 0.05}}, moment = 1e-9, length = 1e-3, wide = 5e-5;
+    scene s = body(4, corner, 10, 0);
+    const fw_verdict_turn as_drawn = {0, 1, 0};
+    double sum = 0;
+    for (int k = 0; k < 2; k++) { /* both moments are against the clock, and the pair with it */
+        const double across = (s.m.pin[k].bx_m < 0.5e-3 ? 1 : -1) * 2 * moment / length;
+        sum += fw_verdict_arm_energy_J(&s.arm[2 * k + 1], 1, moment, 0, across, &as_drawn);
+    }
+    assert_relative(sum, moment * moment * length / (6 * pow(wide, 3) / 12), 0.1);
+    fw_arena_free(s.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_link_bent_as_an_s),
         cmocka_unit_test(a_neck_before_a_load_is_seen),
         cmocka_unit_test(a_bar_is_a_beam),
         cmocka_unit_test(what_hangs_over_bends),
