@@ -163,7 +163,9 @@ double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double
     double c = turn->cosine, s = turn->sine;
     double x = c * fx_N + s * fy_N, y = c * fy_N - s * fx_N, m = moment_Nm;
     const double *g = arm->give;
-    return (g[0] * m * m + 2 * m * (g[1] * x + g[2] * y) + g[3] * x * x + 2 * g[4] * x * y +
+    /* moment and force as if both bent it one way: what a body gives aside of the loads, as a turn that nothing drives, is not
+       bounded by the energy alone, and links bent as an S would leave little (decision 169) */
+    return (g[0] * m * m + 2 * fabs(m * (g[1] * x + g[2] * y)) + g[3] * x * x + 2 * g[4] * x * y +
             g[5] * y * y) /
            (2 * stiff_N);
 }
@@ -173,9 +175,10 @@ double fw_verdict_arm_gone(const fw_verdict_bending *b, const fw_mechanism_hinge
                            const fw_verdict_turn *turn) {
     const double *g = arm->give, c = turn->cosine, s = turn->sine, m = moment_Nm;
     const double x = c * force[0] + s * force[1], y = c * force[1] - s * force[0];
-    const double far = hypot(g[1] * m + g[3] * x + g[4] * y, g[2] * m + g[4] * x + g[5] * y);
+    const double far = hypot(fabs(g[1] * m) + fabs(g[3] * x + g[4] * y),
+                             fabs(g[2] * m) + fabs(g[4] * x + g[5] * y));
     return fmax(far / h->input.width_m,
-                fabs(g[0] * m + g[1] * x + g[2] * y) / h->closed_form.limit_angle_rad) /
+                (fabs(g[0] * m) + fabs(g[1] * x + g[2] * y)) / h->closed_form.limit_angle_rad) /
            b->stiff_N;
 }
 

@@ -468,11 +468,13 @@ static void a_link_bent_as_an_s(void **state) {
     const double corner[4][2] = {{0, 0}, {1, 0}, {1, 0.05}, {0, 0.05}}, moment = 1e-9, length = 1e-3, wide = 5e-5;
     scene s = body(4, corner, 10, 0);
     const fw_verdict_turn as_drawn = {0, 1, 0};
-    double sum = 0;
+    double sum = 0, most = 0;
     for (int k = 0; k < 2; k++) { /* both moments are against the clock, and the pair with it */
-        const double across = (s.m.pin[k].bx_m < 0.5e-3 ? 1 : -1) * 2 * moment / length;
-        sum += fw_verdict_arm_energy_J(&s.arm[2 * k + 1], 1, moment, 0, across, &as_drawn);
+        const double across = (s.m.pin[k].bx_m < 0.5e-3 ? 1 : -1) * 2 * moment / length, *g = s.arm[2 * k + 1].give;
+        sum += 0.5 * (g[0] * moment * moment + 2 * g[2] * moment * across + g[5] * across * across);
+        most += fw_verdict_arm_energy_J(&s.arm[2 * k + 1], 1, moment, 0, across, &as_drawn);
     }
+    assert_relative(most, 7 * sum, 0.1); /* the bound takes no sign */
     assert_relative(sum, moment * moment * length / (6 * pow(wide, 3) / 12), 0.1);
     fw_arena_free(s.arena);
 }
