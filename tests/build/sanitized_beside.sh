@@ -23,6 +23,10 @@ for device in docs/gallery/*/device.xml; do
     [ "$status" -eq "$expected" ] || { echo "$device: status $status, not $expected"; exit 1; }
     "$build/flexwright" simulate "$device" --accuracy 3e-2 --json >/dev/null
 done
+# laws that come again are followed once more at corners, with what is kept of a device that is given back
+status=0
+"$build/flexwright" check tests/data/clearance/comb-root.xml --corners auto --advice none -q >/dev/null || status=$?
+[ "$status" -eq 1 ] || { echo "comb-root: status $status, not 1"; exit 1; }
 wait "$beside" || {
     cat "$out/log"
     exit 1
