@@ -16,7 +16,8 @@
 
    holds for any sum of them. In: outlines of the layout in the drawn pose. Error: from a second mesh with cells
    twice as large; crystals count as isotropic, 15 % (fw_verdict_solid_energy_J). Cost: of 6000 cells and 6 ends about
-   0.1 s. Range: up to CELLS, and a narrowest place that has NARROW cells; else not known. Test: test_body_solid.c */
+   0.1 s. Range: NARROW cells across the narrowest place as far as CELLS allow it; not known where that is narrower than a
+   cell. Of a motion what else acts on a body does so in its middle (wrenches_of). Test: test_body_solid.c */
 #include "base/sort.h"
 #include "geometry/segment.h"
 #include "maths/dense.h"
@@ -237,8 +238,7 @@ static bool spread(const grid *s, const double *weight, const int *node, int n,
             for (int j = 0; j < 9; j++)
                 g[j] += w * rigid[a][j / 3] * rigid[a][j % 3];
     }
-    const double size = g[0];
-    if (!(size > 0) || !fw_maths_cholesky(3, g) || !fw_maths_cholesky_solve(3, g, by)) return false;
+    if (!(g[0] > 0) || !fw_maths_cholesky(3, g) || !fw_maths_cholesky_solve(3, g, by)) return false;
     for (int i = 0; i < n; i++) {
         const int at = node ? node[i] : i;
         const fw_geometry_vec2 r = vec_sub(place_of(s, at), about);

@@ -126,17 +126,18 @@ fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, struct fw_mechanism_plates *soft);
 /* ---- body_solid.c: what a body gives under all that acts on it together ---- */
 
-typedef struct fw_verdict_solid_end { /* of a hinge; of what else acts pin and root are one place */
+/* of a hinge; of what else acts pin and root are one place. nearest: in place of its root it acts on what is full of
+   material and nearest to the body's middle */
+typedef struct fw_verdict_solid_end {
     fw_geometry_vec2 pin, root;
-    bool
-        nearest; /* in place of its root it acts on what is full of material and nearest to the body's middle */
+    bool nearest;
 } fw_verdict_solid_end;
+/* fine, coarse: (3n x 3n) C of two meshes, energy w^T C w/(2 E h) of wrenches w = (M, Fx, Fy) about the pins, world axes
+   of the drawn pose; the body's inertia balances what they are not in balance by themselves */
 typedef struct fw_verdict_body_solid {
     bool known;
     int n, nhinge; /* ends; those of hinges stand first, then the middle */
-    double *fine,
-        *coarse; /* (3n x 3n) C: energy w^T C w/(2 E h) of wrenches w = (M, Fx, Fy) about the pins, world axes of the
-                              drawn pose; the body's inertia balances them. Of two meshes */
+    double *fine, *coarse;
 } fw_verdict_body_solid;
 fw_status fw_verdict_body_solid_of(fw_arena *arena, const fw_verdict_line *line, int nline,
                                    fw_geometry_vec2 middle, double narrow_m,
