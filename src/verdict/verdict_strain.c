@@ -547,10 +547,11 @@ static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     return s->used == FW_HINGE_REVOLUTE && swings ? fmax(usual, computed) : computed;
 }
 
+/* What no motion has and nothing bounds adds twice the share of the forces, as it does where it is small enough to count
+   for nothing else (set_aside in effects/table.c): one volt more makes no band jump. */
 double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     const double level = level_error(m, x);
-    if (!x->ledger.undecided) return level;
-    return fmin(1, fmax(level, fmax(fw_verdict_model_not_known, 2 * x->ledger.undecided_share)));
+    return x->ledger.undecided ? fmin(1, level + 2 * x->ledger.undecided_share) : level;
 }
 
 /* What effects that no motion has may change of a strain, over what is seen, of which it is at most 1/(1 - that). Errors of
