@@ -247,9 +247,11 @@ static reached what_is_reached(const fw_dynamics_recorder *record) {
 }
 
 /* What errors are relative to, rad. A mechanism that nothing moves has no deflection, only round-off,
-   which no tolerance makes accurate: there 1e-4 is taken, a thousandth of what a hinge bears. */
+   which no tolerance makes accurate: there 1e-4 is taken, a thousandth of what a hinge bears. Loads that
+   balance each other leave it at rest, too: what is below 1e-8 has no accuracy of its own; of an arm
+   of 1 mm that is 10 pm. */
 static double relative_to(const fw_dynamics_recorder *record, const reached *x) {
-    return record->problem->idle ? fmax(1e-4, x->angle_rad) : x->angle_rad;
+    return fmax(record->problem->idle ? 1e-4 : 1e-8, x->angle_rad);
 }
 
 double fw_dynamics_run_error_ratio(const fw_dynamics_recorder *record) {

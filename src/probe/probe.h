@@ -120,6 +120,7 @@ typedef struct fw_probe_monitor { /* of one run */
     const fw_device_scene *scene;
     const bool *history;           /* (nprobe) whose whole course is kept; NULL: none */
     const bool *judged;            /* (nprobe) by which a run is near enough; NULL: none */
+    const double *asked;           /* (nprobe) SI, the largest size that is required of it */
     const bool *only;              /* (nprobe) that are looked at; NULL: all */
     const fw_effects_loads *loads; /* that `probe` is bound to */
     fw_probe *probe;               /* (nprobe) */
@@ -140,8 +141,9 @@ void fw_probe_monitor_record(void *context, const fw_dynamics_instant *instant);
 void fw_probe_monitor_trace(void *context, const fw_dynamics_piece *piece);
 
 /* fw_dynamics_motion_options.unsettled of probes: twice what two runs differ by, times the margin,
-   over thirty times the accuracy wanted (at most 3 %) of the largest departure from the drawn value;
-   the worst of those that are judged */
+   over thirty times the accuracy wanted (at most 3 %) of the largest departure from the drawn value,
+   or of a millionth of what is required where it goes no farther: loads that balance each other leave
+   round-off, which no tolerance settles; the worst of those that are judged */
 double fw_probe_monitor_unsettled(const fw_probe_monitor *tighter, const fw_probe_monitor *looser,
                                   double margin, double accuracy);
 

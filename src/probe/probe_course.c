@@ -232,12 +232,13 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
 
 double fw_probe_monitor_unsettled(const fw_probe_monitor *tighter, const fw_probe_monitor *looser,
                                   double margin, double accuracy) {
+    const double nothing = 1e-6; /* of what is required */
     double worst = 0;
     for (int i = 0; tighter->judged && i < fw_probe_count(tighter->mechanism); i++) {
         const fw_probe_course *c = &tighter->course[i], *o = &looser->course[i];
         if (!tighter->judged[i] || c->count == 0 || o->count == 0) continue;
         double origin = fw_probe_origin(&tighter->probe[i]);
-        double far = farthest(c, origin);
+        double far = fmax(farthest(c, origin), nothing * tighter->asked[i]);
         double apart = fmax(fabs(c->maximum.value - o->maximum.value),
                             fabs(c->minimum.value - o->minimum.value));
         if (apart > 0) worst = fmax(worst, 2 * margin * apart / (fmin(30 * accuracy, 0.03) * far));

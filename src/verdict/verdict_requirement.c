@@ -95,21 +95,26 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, 
                                         fw_probe_monitor *monitor[2]) {
     const fw_device *d = m->device;
     bool *history, *judged, any = !required;
+    double *asked;
     monitor[0] = monitor[1] = NULL;
     if (!v->probed || !moves_in(d, scene)) return FW_OK;
     FW_NEED(history = fw_arena_array(arena, bool, (size_t)d->nprobe));
     FW_NEED(judged = fw_arena_array(arena, bool, (size_t)d->nprobe));
+    FW_NEED(asked = fw_arena_array(arena, double, (size_t)d->nprobe));
     for (int k = 0; k < v->nrequirement; k++) {
         const fw_device_requirement *q = &d->requirement[v->requirement[k].asked];
         if (v->requirement[k].scene_index != scene || !v->requirement[k].measure) continue;
         judged[q->probe] = any = true;
-        history[q->probe] = history[q->probe] || q->measure == FW_MEASURE_SETTLING;
+        const bool settles = q->measure == FW_MEASURE_SETTLING; /* its bounds are times */
+        history[q->probe] = history[q->probe] || settles;
+        asked[q->probe] =
+            fmax(asked[q->probe], settles ? q->band : fmax(fabs(q->min), fabs(q->max)));
     }
     for (int i = 0; any && i < 2; i++) {
         FW_NEED(monitor[i] = fw_arena_one(arena, fw_probe_monitor));
         FW_TRY(fw_probe_monitor_new(arena, m, &d->scene[scene], history, required ? judged : NULL,
                                     monitor[i]));
-        monitor[i]->judged = judged;
+        monitor[i]->judged = judged, monitor[i]->asked = asked;
     }
     return FW_OK;
 }
