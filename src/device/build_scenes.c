@@ -214,12 +214,11 @@ static void check_comb(fw_device_reader *r, const fw_xml_record *record, const f
     char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
     fw_xml_label(record, label);
     if (!fw_xml_given(record, "voltage"))
-        fw_diag_error(r->diags, 76, record->element->place,
-                      "%s has no voltage, so it exerts no force; add voltage=\"...\"", label);
-    else if (c->voltage_V == 0)
         fw_diag_error(
-            r->diags, 76, fw_xml_place_of(record, "voltage"),
-            "%s: with voltage 0 V it exerts no force; give a voltage, or remove the drive", label);
+            r->diags, 76, record->element->place,
+            "%s has no voltage; add voltage=\"...\", which may be 0 V where its electrodes "
+            "are only in the way",
+            label);
     if (c->body_a == c->body_b && c->body_b >= 0)
         fw_diag_error(r->diags, 62, fw_xml_place_of(record, "against"),
                       "%s: rotor and stator are both on '%s' and never move against each other; "

@@ -141,7 +141,9 @@ static const fw_xml_attribute_row comb_rows[] = {
     {"depth", THICKNESS, .fallback = "thickness of the device layer",
      .sentence = "Of the electrodes, across the wafer."},
     {"voltage", D_VOLTAGE, RANGE(-1e4, 1e4, "gaps of micrometres break down far below 10 kV"),
-     .sentence = "Between rotor and stator, times the law; the force goes with its square."},
+     .sentence =
+         "Between rotor and stator, times the law; the force goes with its square. 0 V drives "
+         "nothing, and the electrodes are there all the same."},
     {"pad", .kind = FW_KIND_WORD, .words = pad_places, .fallback = "probed",
      .sentence = "Where the stator is contacted: probed on its pad, or at the edge of the chip, to "
                  "which a track leads through a gap in the frame (in flows with an insulating "

@@ -297,6 +297,22 @@ modulus-change="0 ppm/K" law="expression" factor="(1 - cos(pi*time/(4 ms)))/2"/>
         change = abs(self.ledger(lower, "switch-on")[1] / peak - 1)
         self.assertTrue(0.5 * share < change < rises["bound"], (share, change, rises["bound"]))
 
+    def test_electrodes_without_a_voltage(self):
+        """0 V moves nothing, and what the electrodes weigh stays; beside one that pulls, pull-in is that of the other"""
+        stage = ROOT / "docs/gallery/comb-stage/device.xml"
+        said = json.loads(run("check", stage, "--json", "--corners", "none", "--advice", "none", "--set", "volts=0 V").stdout)
+        self.assertEqual((said["verdict"], "pull_in" in said), ("accept", False))
+        self.assertTrue(all(h["utilisation"] < 1e-6 for h in said["hinges"]), said["hinges"])
+        modes = [json.loads(run("modes", stage, "--json", *more).stdout)["modes"][0]["f_Hz"] for more in ((), ("--set", "volts=0 V"))]
+        self.assertAlmostEqual(*modes, 6)
+        text = stage.read_text()
+        one = re.sub(r'(y="0.44 mm"[^>]*voltage=)"volts"', r'\1"0 V"', text)
+        alone = re.sub(r'<comb-drive id="upper".*?/>', "", text)
+        both = [json.loads(run("statics", "-", "--json", input=of).stdout)["pull_in"][0] for of in (one, alone)]
+        self.assertNotEqual(one, text)
+        self.assertEqual([p["comb"] for p in both], ["lower", "lower"])
+        self.assertAlmostEqual(both[0]["voltage_V"] / both[1]["voltage_V"], 1, 2)
+
     def test_widths_are_accepted_where_the_verdict_judged_them(self):
         """top and bottom of the narrowest flexure, 6 um, of 50 um silicon: printed edge 0.15 um and that of the aluminium 0.22 um
         either way, and what an anisotropy takes at the top, (1 - A) 50 um in the nominal time at every edge"""
