@@ -154,6 +154,7 @@ typedef struct fw_effect_choice {
     double below;    /* > 0: auto came to this level because the one below was off by so much */
     bool pins_first; /* hinge is REVOLUTE because pins are tried before anything else */
     bool ended;      /* hinge is ELASTICA because the closed form does not hold where this leads */
+    bool elsewhere;  /* likewise, because exact beams may rest elsewhere */
     bool untold;     /* nobody reads bounds: those that decide nothing are not found */
     const struct fw_effect_ledger *like; /* of a device much like this one, or NULL: what acts there
                                             by far is taken to act here without finding its bound */

@@ -428,6 +428,8 @@ const char *fw_effects_hinge_forced_reason(const fw_effect_choice *choice) {
         return "ideal pins in place of the hinges were asked for (--hinge-model revolute)";
     if (choice->ended)
         return "called for, as exact beams: the closed form does not hold where this leads";
+    if (choice->elsewhere)
+        return "called for, as exact beams: they may rest elsewhere than the closed form";
     if (choice->below > 0)
         return choice->hinge == FW_HINGE_ELASTICA
                    ? "called for, as exact beams: the closed form was found to be off by more than "
@@ -455,6 +457,10 @@ static const char *why_used(const fw_effect_entry *entry, const fw_effect_choice
     fw_effects_hinge_model asked = choice->hinge;
     if (choice->ended && asked == used)
         return "closed forms were tried, and a flexure came to where its own does not hold";
+    if (choice->elsewhere && asked == used)
+        return "closed forms were tried, and exact beams may rest elsewhere: they have no "
+               "equilibrium "
+               "there, or forces along and across a flexure are coupled";
     if (choice->pins_first && asked == used) return "pins are what stated stiffnesses describe";
     if (asked == used) return "asked for";
     if (!entry || !entry->called_for) return "no flexure has a law of its own";

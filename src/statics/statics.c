@@ -224,106 +224,61 @@ fw_status fw_statics_level_note(fw_arena *arena, const fw_statics_level_step *st
 fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *step,
                                  const char *why_not, fw_effects_hinge_use *use) {
     char by[32];
+    const char *why = use->why ? use->why : "", *next = fw_effects_hinge_model_text(step->next);
     fw_percent_text(by, sizeof by, step->relative);
-    FW_NEED(use->why = fw_arena_printf(arena, "%s; %s is computed to change %s %%, but %s",
-                                       use->why ? use->why : "",
-                                       fw_effects_hinge_model_text(step->next), by, why_not));
+    use->why = step->why_not
+                   ? fw_arena_printf(arena, "%s; what %s changes is not known: %s, and %s", why,
+                                     next, step->why_not, why_not)
+                   : fw_arena_printf(arena, "%s; %s is computed to change %s %%, but %s", why, next,
+                                     by, why_not);
+    FW_NEED(use->why);
     return FW_OK;
 }
 
-/* ---- pins first ---- */
+/* ---- whether another level is used ---- */
 
-/* row of a pin's point on a body: coordinate `axis` of it by the body's place and turn, sign +-1 */
-static void put_row(const fw_mechanism *m, const fw_mechanism_pin *pin, int side, int axis,
-                    double length_m, double *row) {
-    int body = side ? pin->body_b : pin->body_a;
-    if (body == FW_GROUND) return;
-    fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, side);
-    double x = (at.x - m->body[body].x_m) / length_m, y = (at.y - m->body[body].y_m) / length_m;
-    double sign = side ? 1 : -1;
-    row[3 * body + axis] += sign;
-    row[3 * body + 2] += sign * (axis ? x : -y);
+bool fw_statics_level_far_apart(const fw_statics_level_step *step) {
+    return step && !step->why_not && step->next == FW_HINGE_ELASTICA &&
+           step->relative > fw_statics_level_bounds;
 }
 
-/* rows of all pins, reduced: each has one leading 1 that no other row has. Returns their number */
-static int reduce(int rows, int n, double *a) {
-    static const double new_row = 1e-9;
-    int rank = 0;
-    for (int c = 0; c < n && rank < rows; c++) {
-        int best = rank;
-        for (int r = rank + 1; r < rows; r++)
-            if (fabs(a[r * n + c]) > fabs(a[best * n + c])) best = r;
-        if (!(fabs(a[best * n + c]) > new_row)) continue;
-        double by = a[best * n + c];
-        for (int k = 0; k < n; k++) {
-            double t = a[best * n + k];
-            a[best * n + k] = a[rank * n + k], a[rank * n + k] = t / by;
-        }
-        for (int r = 0; r < rows; r++) {
-            double share = r == rank ? 0 : a[r * n + c];
-            for (int k = c; k < n && share != 0; k++)
-                a[r * n + k] -= share * a[rank * n + k];
-        }
-        rank++;
-    }
-    return rank;
+bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy) {
+    return step && !step->why_not && step->relative < accuracy;
 }
 
-/* Does some body that hangs on flexures stand still where these are pins? What it does then is what
-   they give, of which pins know nothing: not its motion, not even that there is one. */
-static fw_status pins_hold(fw_arena *arena, const fw_mechanism *m, bool *hold) {
-    int n = 3 * m->nbody, rows = 2 * m->npin;
-    double length = 0, *a;
-    *hold = false;
-    if (n > FW_LEVEL_MOST) return FW_OK; /* no step to hinges that give will be known */
-    fw_mark mark = fw_arena_mark(arena);
-    FW_NEED(a = fw_arena_array(arena, double, (size_t)(rows * n)));
-    memset(a, 0, (size_t)(rows * n) * sizeof *a);
-    for (int i = 0; i < m->npin; i++)
-        for (int side = 0; side < 2; side++) {
-            int body = side ? m->pin[i].body_b : m->pin[i].body_a;
-            fw_geometry_vec2 at = fw_mechanism_pin_place(m, &m->pin[i], side);
-            if (body != FW_GROUND)
-                length = fmax(length, hypot(at.x - m->body[body].x_m, at.y - m->body[body].y_m));
-        }
-    for (int i = 0; i < rows; i++)
-        for (int side = 0; side < 2; side++)
-            put_row(m, &m->pin[i / 2], side, i % 2, length > 0 ? length : 1, a + i * n);
-    int rank = reduce(rows, n, a);
-    for (int k = 0; k < m->nhinge && !*hold; k++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
-        for (int side = 0; side < 2; side++) {
-            int body = side ? pin->body_b : pin->body_a, still = 0;
-            for (int r = 0; r < rank && body != FW_GROUND; r++) {
-                int first = 0, others = 0;
-                while (fabs(a[r * n + first]) < 0.5)
-                    first++;
-                for (int c = first + 1; c < n; c++)
-                    others += fabs(a[r * n + c]) > 1e-9;
-                still += others == 0 && first / 3 == body;
-            }
-            *hold = *hold || still == 3;
-        }
-    }
-    fw_arena_rewind(arena, mark);
-    return FW_OK;
+/* a flexure's own closed form ended it, and not another formula */
+static bool closed_form_ended(const fw_diags *said) {
+    for (size_t i = 0; i < said->count; i++)
+        if (said->item[i].ended == FW_ENDED_CLOSED_FORM) return true;
+    return false;
 }
 
-fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *m,
-                                      const fw_device_scene *scene, const fw_effect_choice *asked,
-                                      bool *first) {
-    bool alone = asked->mode == FW_EFFECTS_AUTO || asked->mode == FW_EFFECTS_WHOLE, hold;
-    *first = false;
-    if (asked->hinge != FW_HINGE_AUTO || !alone || m->nhinge == 0) return FW_OK;
-    if (scene &&
-        (scene->ncontact > 0 || scene->ntemperature > 0 || scene->nstress > 0 || scene->ncomb > 0))
-        return FW_OK;
-    for (int k = 0; k < m->nhinge; k++)
-        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad)) return FW_OK;
-    FW_TRY(pins_hold(arena, m, &hold));
-    *first = !hold;
-    return FW_OK;
+bool fw_statics_level_may_go_on(const fw_effect_choice *asked, const fw_effect_choice *choice) {
+    bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
+    return asked->hinge == FW_HINGE_AUTO && !by_hand && !choice->ended;
 }
+
+bool fw_statics_level_goes_on(const fw_effect_choice *asked, const fw_diags *said,
+                              fw_effect_choice *choice) {
+    if (!fw_statics_level_may_go_on(asked, choice) || !closed_form_ended(said)) return false;
+    choice->hinge = FW_HINGE_ELASTICA;
+    choice->ended = true;
+    return true;
+}
+
+bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
+                            const fw_effect_choice *asked, fw_effect_choice *choice) {
+    if (asked->hinge != FW_HINGE_AUTO || !step || step->why_not || step->relative < accuracy)
+        return false;
+    /* a list, or none: what was left out by hand stays out */
+    bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
+    if (by_hand && step->used == FW_HINGE_REVOLUTE) return false;
+    choice->hinge = step->next;
+    choice->below = step->relative;
+    return true;
+}
+
+/* ---- an equilibrium with its step to the next level ---- */
 
 static fw_status with_level(fw_arena *arena, const fw_statics *found,
                             const fw_statics_level_step *step, double accuracy,
@@ -353,12 +308,40 @@ static fw_status equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
     return fw_statics_level_of_equilibrium(&w, step);
 }
 
-/* the next level was wanted and has no equilibrium: what is there counts */
-static fw_status stay(fw_arena *arena, const fw_statics **statics) {
+/* Exact beams may rest elsewhere: they have no equilibrium here, or the flexures' forces along and across are coupled, which
+   closed forms leave out, so that both may have one beyond a snap that only these have gone through. */
+static bool may_rest_elsewhere(const fw_mechanism *m, const fw_statics_level_step *step) {
+    const double matters = 0.05;
+    bool doubt = step && step->unknown;
+    if (!step || step->used != FW_HINGE_COMPLIANCE || step->next != FW_HINGE_ELASTICA) return false;
+    for (int k = 0; k < m->nhinge; k++)
+        doubt = doubt || m->hinge[k].coupling > matters;
+    return doubt;
+}
+
+/* *choice then asks for them, from the start */
+static bool elsewhere(const fw_mechanism *m, const fw_statics_level_step *step,
+                      const fw_effect_choice *asked, fw_effect_choice *choice) {
+    if (!may_rest_elsewhere(m, step) || !fw_statics_level_may_go_on(asked, choice)) return false;
+    choice->hinge = FW_HINGE_ELASTICA, choice->elsewhere = true;
+    return true;
+}
+
+/* the next level was wanted and has no equilibrium: what is there counts, and may be another branch */
+static fw_status stay(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                      fw_diags *diags, const fw_statics **statics) {
     fw_statics *own = fw_arena_one(arena, fw_statics);
     FW_NEED(own);
     *own = **statics;
     *statics = own;
+    if (may_rest_elsewhere(m, own->level))
+        fw_diag_warning(
+            diags, 690, scene->place,
+            "%s%s: exact beams could not follow its loads, and may rest elsewhere than "
+            "the closed forms that are used in their place: where it snaps may be off by "
+            "several times, and it may have a stable position that is not seen; ask for "
+            "smaller loads, or draw hinges that are mirror images of themselves",
+            FW_NAMED("scene", fw_text_name(scene->name)));
     return fw_statics_level_stays(arena, own->level, "the equilibrium could not be found with it",
                                   &own->ledger.hinge);
 }
@@ -381,7 +364,7 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
         const fw_statics *found;
         bool higher = *statics != NULL;
         fw_status status = equilibrium(arena, mechanism, scene, &o, &own, &found, &step);
-        if (higher && status == FW_SOLVER) return stay(arena, statics);
+        if (higher && status == FW_SOLVER) return stay(arena, mechanism, scene, diags, statics);
         if (tried && (status == FW_SOLVER || status == FW_INPUT ||
                       (status == FW_OK && !fw_statics_level_is_below(step, stated)))) {
             choice = options->effects, tried = false; /* as if they had not been tried */
@@ -393,7 +376,8 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(status);
         if (tried) accuracy = stated, fw_diags_take(diags, &own);
         FW_TRY(with_level(arena, found, step, accuracy, options, statics));
-        if (!fw_statics_level_climb(step, accuracy, &options->effects, &choice)) return FW_OK;
+        if (fw_statics_level_climb(step, accuracy, &options->effects, &choice)) continue;
+        if (!elsewhere(mechanism, step, &options->effects, &choice)) return FW_OK;
     }
 }
 

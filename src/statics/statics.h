@@ -332,8 +332,9 @@ typedef struct fw_statics_level_step {
     bool unknown;        /* not computed, and nothing else bounds what the level used is off by */
 } fw_statics_level_step;
 
-/* of a motion at the row of `sample` nearest the largest peak of a hinge: both levels under the
-   loads of that time and the same inertia forces */
+/* Of a motion at the row of `sample` nearest the largest peak of a hinge: both levels under the
+   loads of that time and the same inertia forces. `relative` is the largest of that and, where exact beams are next, of a
+   quarter and half of the way, 1 where they have no equilibrium there. */
 fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *mechanism,
                                      const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                      const fw_statics_level_step **step);
@@ -366,6 +367,10 @@ fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *mecha
 static const double fw_statics_level_stated = 30;
 /* what rings may be: pins in a motion are taken to be off by 2.9 %, whatever the step says (verdict_strain.c) */
 static const double fw_statics_level_rings_most = 0.029;
+/* Exact beams change more than a first step bounds: what they do may be another motion, that has not snapped where this one
+   did. step may be NULL. Test: judge.examples bistable-* */
+static const double fw_statics_level_bounds = 0.25;
+bool fw_statics_level_far_apart(const fw_statics_level_step *step);
 /* it was computed, and changes less; step may be NULL */
 bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy);
 

@@ -230,6 +230,31 @@ static fw_status sizes(fw_arena *arena, const fw_mechanism *m, const fw_dynamics
     return FW_OK;
 }
 
+/* Rows in which a motion has first come a quarter and half of its largest way, places and turns together. Where it snaps that
+   is on the way over: a level that has not snapped is far from there, while both may agree beyond. */
+enum { FW_ON_THE_WAY = 2 };
+
+static fw_status rows_on_the_way(fw_arena *arena, const fw_mechanism *m,
+                                 const fw_dynamics_motion *x, const double *rest, double length_m,
+                                 int row[FW_ON_THE_WAY]) {
+    double *q = fw_arena_array(arena, double, 3 * (size_t)m->nbody), *way, most = 0;
+    FW_NEED(q);
+    FW_NEED(way = fw_arena_array(arena, double, (size_t)x->nsample));
+    for (int i = 0; i < x->nsample; i++) {
+        fw_dynamics_motion_pose(x, i, q);
+        for (int b = 0; b < m->nbody; b++) {
+            const double dx = q[3 * b] - rest[3 * b], dy = q[3 * b + 1] - rest[3 * b + 1],
+                         turn = fabs(q[3 * b + 2] - rest[3 * b + 2]);
+            way[i] = fmax(way[i], hypot(dx, dy) + length_m * turn);
+        }
+        most = fmax(most, way[i]);
+    }
+    for (int k = 0; k < FW_ON_THE_WAY; k++)
+        for (row[k] = 0; row[k] + 1 < x->nsample && way[row[k]] < 0.25 * (k + 1) * most;)
+            row[k]++;
+    return FW_OK;
+}
+
 static fw_status in_time(fw_statics_equilibrium *w, fw_arena *arena, const fw_mechanism *m,
                          const fw_device_scene *scene, const fw_effects_loads *loads,
                          fw_diags *diags) {
@@ -255,6 +280,27 @@ static void hand_inertia(const fw_statics_equilibrium *low, fw_statics_equilibri
     }
 }
 
+/* both levels at a row; gravity: of `high` without inertia */
+static fw_status climb_at(fw_statics_equilibrium *low, fw_statics_equilibrium *high,
+                          const fw_dynamics_motion *x, int row, const double *gravity,
+                          const double least[2], fw_statics_level_step *step) {
+    double *q = fw_arena_array(low->arena, double, (size_t)low->model->nq);
+    FW_NEED(q);
+    fw_dynamics_motion_pose(x, row, q);
+    at_time(low, x->t_s[row]);
+    place(low, q, low->y);
+    const fw_status status = fw_statics_equilibrium_evaluate(low);
+    if (status == FW_SOLVER) {
+        step->why_not = "the pose of the peak could not be evaluated", step->unknown = true;
+        return FW_OK;
+    }
+    FW_TRY(status);
+    memcpy(high->gravity, gravity, (size_t)high->model->nq * sizeof *gravity);
+    if (!x->loads->quasi_static) hand_inertia(low, high);
+    at_time(high, x->t_s[row]);
+    return climb(low, high, least, step);
+}
+
 fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
                                      const fw_device_scene *scene, const fw_dynamics_motion *x,
                                      const fw_statics_level_step **out) {
@@ -263,7 +309,7 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     fw_effects_loads loads = *x->loads, up;
     *out = NULL;
     if (m->nhinge == 0 || x->nsample < 1) return FW_OK;
-    int row = row_of_peak(m, x);
+    int row = row_of_peak(m, x), way[FW_ON_THE_WAY];
     fw_statics_level_step *step = begin(arena, m, &x->ledger, x->t_s[row]);
     FW_NEED(step);
     *out = step;
@@ -273,19 +319,19 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     FW_TRY(in_time(&low, arena, m, scene, &loads, &own));
     FW_TRY(in_time(&high, arena, m, scene, &up, &own));
     low.ledger = x->ledger;
-    at_time(&low, step->t_s);
-    place(&low, x->q + (size_t)row * 3 * (size_t)m->nbody, low.y);
-    fw_status status = fw_statics_equilibrium_evaluate(&low);
-    if (status == FW_SOLVER) {
-        step->why_not = "the pose of the peak could not be evaluated", step->unknown = true;
-        return FW_OK;
-    }
-    FW_TRY(status);
-    if (!x->loads->quasi_static) hand_inertia(&low, &high);
-    at_time(&high, step->t_s);
-    double least[2];
+    double least[2], *gravity = fw_arena_array(arena, double, (size_t)high.model->nq);
+    FW_NEED(gravity);
+    memcpy(gravity, high.gravity, (size_t)high.model->nq * sizeof *gravity);
     FW_TRY(sizes(arena, m, x, low.q0, least));
-    return climb(&low, &high, least, step);
+    FW_TRY(climb_at(&low, &high, x, row, gravity, least, step));
+    if (step->why_not || step->next != FW_HINGE_ELASTICA) return FW_OK;
+    FW_TRY(rows_on_the_way(arena, m, x, low.q0, low.model->scale.length_m, way));
+    for (int k = 0; k < FW_ON_THE_WAY; k++) {
+        fw_statics_level_step there = *step;
+        FW_TRY(climb_at(&low, &high, x, way[k], gravity, least, &there));
+        step->relative = fmax(step->relative, there.why_not ? 1 : there.relative);
+    }
+    return FW_OK;
 }
 
 /* ---- what is put on at once, or nearly so ----
@@ -526,40 +572,4 @@ fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative,
     }
     *relative = worst, *each = change;
     return FW_OK;
-}
-
-bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy) {
-    return step && !step->why_not && step->relative < accuracy;
-}
-
-/* a flexure's own closed form ended it, and not another formula */
-static bool closed_form_ended(const fw_diags *said) {
-    for (size_t i = 0; i < said->count; i++)
-        if (said->item[i].ended == FW_ENDED_CLOSED_FORM) return true;
-    return false;
-}
-
-bool fw_statics_level_may_go_on(const fw_effect_choice *asked, const fw_effect_choice *choice) {
-    bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
-    return asked->hinge == FW_HINGE_AUTO && !by_hand && !choice->ended;
-}
-
-bool fw_statics_level_goes_on(const fw_effect_choice *asked, const fw_diags *said,
-                              fw_effect_choice *choice) {
-    if (!fw_statics_level_may_go_on(asked, choice) || !closed_form_ended(said)) return false;
-    choice->hinge = FW_HINGE_ELASTICA;
-    choice->ended = true;
-    return true;
-}
-
-bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
-                            const fw_effect_choice *asked, fw_effect_choice *choice) {
-    if (asked->hinge != FW_HINGE_AUTO || !step || step->why_not || step->relative < accuracy)
-        return false;
-    /* a list, or none: what was left out by hand stays out */
-    bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
-    if (by_hand && step->used == FW_HINGE_REVOLUTE) return false;
-    choice->hinge = step->next;
-    choice->below = step->relative;
-    return true;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the forces at a pose derive from, where elements are driven, and their exact derivatives. */
+/* What the forces at a pose derive from, where elements are driven, and their exact derivatives; what pins hold, by the
+   rows of their constraint Jacobian. */
 #include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>
@@ -359,4 +360,98 @@ int fw_statics_tangent_pairs(const fw_multibody_model *m, int *bodies) {
             for (int b = 0; b < a; b++)
                 add_two(m, m->element[i].body[a], m->element[i].body[b], bodies, &count);
     return count;
+}
+
+/* ---- pins first: what they hold ---- */
+
+/* row of a pin's point on a body: coordinate `axis` of it by the body's place and turn, sign +-1 */
+static void put_row(const fw_mechanism *m, const fw_mechanism_pin *pin, int side, int axis,
+                    double length_m, double *row) {
+    int body = side ? pin->body_b : pin->body_a;
+    if (body == FW_GROUND) return;
+    fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, side);
+    double x = (at.x - m->body[body].x_m) / length_m, y = (at.y - m->body[body].y_m) / length_m;
+    double sign = side ? 1 : -1;
+    row[3 * body + axis] += sign;
+    row[3 * body + 2] += sign * (axis ? x : -y);
+}
+
+/* rows of all pins, reduced: each has one leading 1 that no other row has. Returns their number */
+static int reduce(int rows, int n, double *a) {
+    static const double new_row = 1e-9;
+    int rank = 0;
+    for (int c = 0; c < n && rank < rows; c++) {
+        int best = rank;
+        for (int r = rank + 1; r < rows; r++)
+            if (fabs(a[r * n + c]) > fabs(a[best * n + c])) best = r;
+        if (!(fabs(a[best * n + c]) > new_row)) continue;
+        double by = a[best * n + c];
+        for (int k = 0; k < n; k++) {
+            double t = a[best * n + k];
+            a[best * n + k] = a[rank * n + k], a[rank * n + k] = t / by;
+        }
+        for (int r = 0; r < rows; r++) {
+            double share = r == rank ? 0 : a[r * n + c];
+            for (int k = c; k < n && share != 0; k++)
+                a[r * n + k] -= share * a[rank * n + k];
+        }
+        rank++;
+    }
+    return rank;
+}
+
+/* Does some body that hangs on flexures stand still where these are pins? What it does then is what
+   they give, of which pins know nothing: not its motion, not even that there is one. */
+static fw_status pins_hold(fw_arena *arena, const fw_mechanism *m, bool *hold) {
+    int n = 3 * m->nbody, rows = 2 * m->npin;
+    double length = 0, *a;
+    *hold = false;
+    if (n > FW_LEVEL_MOST) return FW_OK; /* no step to hinges that give will be known */
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(a = fw_arena_array(arena, double, (size_t)(rows * n)));
+    memset(a, 0, (size_t)(rows * n) * sizeof *a);
+    for (int i = 0; i < m->npin; i++)
+        for (int side = 0; side < 2; side++) {
+            int body = side ? m->pin[i].body_b : m->pin[i].body_a;
+            fw_geometry_vec2 at = fw_mechanism_pin_place(m, &m->pin[i], side);
+            if (body != FW_GROUND)
+                length = fmax(length, hypot(at.x - m->body[body].x_m, at.y - m->body[body].y_m));
+        }
+    for (int i = 0; i < rows; i++)
+        for (int side = 0; side < 2; side++)
+            put_row(m, &m->pin[i / 2], side, i % 2, length > 0 ? length : 1, a + i * n);
+    int rank = reduce(rows, n, a);
+    for (int k = 0; k < m->nhinge && !*hold; k++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
+        for (int side = 0; side < 2; side++) {
+            int body = side ? pin->body_b : pin->body_a, still = 0;
+            for (int r = 0; r < rank && body != FW_GROUND; r++) {
+                int first = 0, others = 0;
+                while (fabs(a[r * n + first]) < 0.5)
+                    first++;
+                for (int c = first + 1; c < n; c++)
+                    others += fabs(a[r * n + c]) > 1e-9;
+                still += others == 0 && first / 3 == body;
+            }
+            *hold = *hold || still == 3;
+        }
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *m,
+                                      const fw_device_scene *scene, const fw_effect_choice *asked,
+                                      bool *first) {
+    bool alone = asked->mode == FW_EFFECTS_AUTO || asked->mode == FW_EFFECTS_WHOLE, hold;
+    *first = false;
+    if (asked->hinge != FW_HINGE_AUTO || !alone || m->nhinge == 0) return FW_OK;
+    if (scene &&
+        (scene->ncontact > 0 || scene->ntemperature > 0 || scene->nstress > 0 || scene->ncomb > 0))
+        return FW_OK;
+    for (int k = 0; k < m->nhinge; k++)
+        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad)) return FW_OK;
+    FW_TRY(pins_hold(arena, m, &hold));
+    *first = !hold;
+    return FW_OK;
 }

@@ -174,7 +174,8 @@ static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, 
     const double bodies = fw_verdict_bending_share(motion);
     double whole = fw_verdict_motion_model_error(m, motion) + bodies;
     const bool exact = motion->ledger.hinge.used == FW_HINGE_ELASTICA;
-    if (isnan(level) || exact || motion->ledger.undecided) return whole;
+    const bool apart = fw_statics_level_far_apart(motion->level);
+    if (isnan(level) || exact || motion->ledger.undecided || apart) return whole;
     double computed = level + fw_verdict_motion_lasting_error(m) + bodies;
     bool swings = motion->loads && !motion->loads->quasi_static;
     return swings && motion->ledger.hinge.used == FW_HINGE_REVOLUTE ? fmax(computed, whole)

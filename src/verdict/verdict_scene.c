@@ -234,7 +234,19 @@ static fw_status judge_stability(fw_arena *arena, const fw_device_scene *scene, 
 static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
     const fw_statics_level_step *step = motion->level;
-    if (!step || !step->unknown) return FW_OK;
+    const bool apart = fw_statics_level_far_apart(step);
+    char by[32];
+    if (!step || !(step->unknown || apart)) return FW_OK;
+    fw_percent_text(by, sizeof by, step->relative);
+    const char *why =
+        apart
+            ? fw_arena_printf(arena,
+                              "exact beams are computed to change it by %s %% of the largest way, "
+                              "so that they may move otherwise, as where one snaps and the other "
+                              "does not",
+                              by)
+            : step->why_not;
+    FW_NEED(why);
     return fw_verdict_scene_reason(
         v, scene, 293, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
         fw_arena_printf(arena,
@@ -242,7 +254,7 @@ static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
                         "known: %s; lower the load, or ask for exact beams with "
                         "--hinge-model elastica",
                         fw_effects_hinge_model_text(step->used), FW_NAMED("scene", scene->name),
-                        step->why_not));
+                        why));
 }
 
 /* what no motion has and nothing bounds */

@@ -524,9 +524,8 @@ double fw_verdict_motion_lasting_below(const fw_mechanism *m) {
    step. Exact beams have no next level: what is left is what they have in common with solids, and what contacts leave ringing
    along them, whose phases a percent of stiffness changes (quasi_static.c). Where the
    step is not known and nothing else bounds it, as beside buckling and pull-in, where the next level may have no
-   equilibrium, the utilisation may be off by half: a verdict is then neither. Nor is it where no motion has what
-   matters and nothing bounds it (FW-D607): that may take as much away as it adds, and a rejection is no surer than an
-   acceptance; forces that it changes by a share may change what they do by twice as much. */
+   equilibrium, the utilisation may be off by half: a verdict is then neither. Where exact beams are so far from it
+   that they may move otherwise, it may be off by all. */
 const double fw_verdict_model_not_known = 0.5;
 
 static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
@@ -535,6 +534,7 @@ static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
            off = 0, largest = 0;
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common) + (s ? s->blows : 0);
     if (s && s->unknown) return fw_verdict_model_not_known;
+    if (fw_statics_level_far_apart(s)) return 1; /* of another motion nothing is known */
     if (!s || s->why_not || m->nhinge == 0) return usual;
     for (int k = 0; k < m->nhinge; k++) {
         if (isinf(s->at.strain[k]) || isinf(s->up.strain[k])) return fw_verdict_model_not_known;
