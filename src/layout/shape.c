@@ -338,9 +338,14 @@ bool fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_geometry
 /* ---- what hinges take of it ---- */
 
 fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
-    const double told_m2 = 25e-12; /* less is no more than a rounded corner */
+    const double told_m2 = 25e-12, /* less is no more than a rounded corner */
+        weighs = 0.05;             /* of what is drawn: more is felt in every frequency */
     const fw_geometry_region *solid = &d->shapes[body].solid;
     fw_geometry_region drawn = {&d->raw[body], 1};
+    const char *label = fw_layout_body_label(d, body);
+    double all = 0;
+    char part[32];
+    FW_NEED(label);
     for (int j = 0; j < d->device->nrevolute && !d->said; j++) {
         const fw_layout_hinge_layout *h = &d->layout->hinge[j];
         fw_geometry_contour disc;
@@ -353,9 +358,8 @@ fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
         for (int i = 0; i < lost.count; i++)
             area += fw_geometry_contour_area(&lost.contour[i]);
         if (area < told_m2) continue;
+        all += area;
         char r[32], um2[32], x[32], y[32];
-        const char *label = fw_layout_body_label(d, body);
-        FW_NEED(label);
         fw_diag_note(d->diags, 537, fw_layout_body_place(d, body),
                      "%s is drawn into the round place of %s%s, %s um about (%s, %s) um, and "
                      "%s um^2 of it are not on the masks; end what is drawn outside of that, or "
@@ -364,5 +368,13 @@ fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
                      fw_layout_um(r, h->keep_out_m), fw_layout_um(x, h->centre.x),
                      fw_layout_um(y, h->centre.y), fw_number_text(um2, sizeof um2, 1e12 * area, 3));
     }
+    const double share = all / fabs(fw_geometry_region_moments(solid).area_m2);
+    if (share > weighs)
+        fw_diag_warning(
+            d->diags, 537, fw_layout_body_place(d, body),
+            "%s is drawn into the round places of its hinges or of others, and %s %% of what is "
+            "drawn is neither on the masks nor in its mass: frequencies and weight are those of "
+            "what is left (-v says where); end what is drawn outside of them",
+            label, fw_number_text(part, sizeof part, 100 * share, 2));
     return FW_OK;
 }

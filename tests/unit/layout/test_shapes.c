@@ -256,7 +256,7 @@ static void between_hinges(void **state) {
 }
 
 /* a plate that begins within its hinge's round place loses a segment of the circle, of which the head and the neck give
-   some back: that is said once */
+   some back: that is said once, and loudly where it is much */
 static void what_hinges_take_is_said(void **state) {
     (void)state;
     double um2 = 0;
@@ -269,6 +269,19 @@ static void what_hinges_take_is_said(void **state) {
     const double r = d.layout->hinge[0].keep_out_m / UM, from = 200;
     const double segment = r * r * acos(from / r) - from * sqrt(r * r - from * from);
     assert_true(um2 < segment && um2 > 0.2 * segment);
+    fw_arena_free(d.arena);
+    /* half of a plate is gone, and a frequency of what is drawn is not that of the device: a warning, once for the body */
+    d = draw(BODY("<plate x=\"150 um\" width=\"300 um\" height=\"300 um\"/>"), NO_TETHER);
+    int warned = 0;
+    double percent = 0;
+    for (size_t i = 0; i < d.diags.count; i++)
+        if (d.diags.item[i].number == 537 && d.diags.item[i].severity == FW_WARNING) {
+            said = strstr(d.diags.item[i].message, ", and ");
+            if (!said || sscanf(said, ", and %lf %%", &percent) != 1) fail_msg("%s", d.diags.item[i].message);
+            warned++;
+        }
+    assert_int_equal(warned, 1);
+    assert_true(percent > 20 && percent < 100);
     fw_arena_free(d.arena);
 }
 
