@@ -314,15 +314,40 @@ static void fill_judged(fw_process_flow *flow, const char *least, const char *mo
     fill(flow, most, known ? ceil(1e3 * b) / 1e3 : (double)NAN, 0.0);
 }
 
-/* between which widths, against the drawn ones, lines of the layer that masks the last etch are judged: what the mask adds
-   for that etch, and the ranges of the corners of edges; to 10 nm outwards */
-static void fill_metal(fw_process_flow *flow) {
+/* widths of lines against the drawn ones, both of whose edges stand `off_m` outside: as planned, and between which they are
+   judged, to 10 nm outwards. Where there is no range nothing would be accepted, and the limits are not known. */
+static void fill_lines(fw_process_flow *flow, const char *const id[3], double off_m, double low_m,
+                       double high_m) {
+    const double to = 1e8;
+    const bool known = high_m > low_m;
+    fill(flow, id[0], 2.0 * off_m, 0.0);
+    fill(flow, id[1], known ? floor(2.0 * to * (off_m + low_m) + 1e-6) / to : (double)NAN, 0.0);
+    fill(flow, id[2], known ? ceil(2.0 * to * (off_m + high_m) - 1e-6) / to : (double)NAN, 0.0);
+}
+
+/* Lines of the test die stand on the mask as they are drawn, without its bias: in the resist they come out as it prints,
+   and in the layer that masks the last etch narrower by all that isotropic etches take, which devices are given back. */
+static void fill_coupon_lines(fw_process_flow *flow) {
+    static const char *const metal[] = {"mask.metal-planned", "mask.metal-least",
+                                        "mask.metal-most"},
+                             *const print[] = {"mask.print-planned", "mask.print-least",
+                                               "mask.print-most"};
     const fw_process_fixed_point *p = &flow->edges;
-    const double more = p->etch_m + p->worn_m, to = 1e8;
-    fill(flow, "mask.metal-least",
-         p->solved ? floor(2.0 * to * (more + p->off_low_m) + 1e-6) / to : (double)NAN, 0.0);
-    fill(flow, "mask.metal-most",
-         p->solved ? ceil(2.0 * to * (more + p->off_high_m) - 1e-6) / to : (double)NAN, 0.0);
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
+    double low, high;
+    fill_lines(flow, metal, p->wet_open ? (double)NAN : -p->printed_m - p->wet_m, p->off_low_m,
+               p->off_high_m);
+    if (!edge || edge->unknown) return;
+    fw_process_quantity_range(edge, &low, &high);
+    fill_lines(flow, print, edge->value, low - edge->value, high - edge->value);
+}
+
+/* what of the layer's thickness a wet step leaves that takes of its open faces: of its top, until it is free. As far as
+   that is known. */
+static void fill_thickness(fw_process_flow *flow) {
+    const double d =
+        flow->thickness && !flow->thickness->unknown ? flow->thickness->value : (double)NAN;
+    fill(flow, "mask.thickness-left", d - flow->edges.worn_m, 0.0);
 }
 
 static void fill_widths(fw_process_flow *flow, const fw_process_mask_facts *facts) {
@@ -335,7 +360,8 @@ static void fill_widths(fw_process_flow *flow, const fw_process_mask_facts *fact
     fill_judged(flow, "mask.top-least", "mask.top-most", width_m, low.top_m, high.top_m);
     fill_judged(flow, "mask.bottom-least", "mask.bottom-most", width_m, low.bottom_m,
                 high.bottom_m);
-    fill_metal(flow);
+    fill_coupon_lines(flow);
+    fill_thickness(flow);
 }
 
 /* edges, bias and gaps; the narrowest opening goes to the laws of the steps */

@@ -550,6 +550,21 @@ static fw_status lint_watched(fw_arena *arena, fw_process_flow *flow, const fw_p
     return FW_OK;
 }
 
+/* A limit that is a number of the pack does not follow a value that was changed, and one that does may still be far from
+   it: where what is planned is not accepted, every wafer that comes out right is refused. Test: test_accepted.c. */
+static void lint_planned(const fw_process_step *s, const fw_process_accept *a, fw_diags *diags) {
+    double planned, low, high;
+    if (!fw_number_parse(a->planned, strlen(a->planned), &planned)) return;
+    const bool under = fw_number_parse(a->low, strlen(a->low), &low) && planned < low,
+               over = fw_number_parse(a->high, strlen(a->high), &high) && planned > high;
+    if (!under && !over) return;
+    fw_diag_warning(
+        diags, 667, a->place,
+        "step %s measures '%s', of which %s %s is planned, and accepts no %s than %s: every wafer "
+        "that comes out right is refused; change what is planned, or the limit",
+        s->id, a->measure, a->planned, a->unit, under ? "less" : "more", under ? a->low : a->high);
+}
+
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
@@ -558,6 +573,8 @@ fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_di
         FW_TRY(lint_watched(arena, flow, s, diags));
         for (int k = 0; k < s->nexposed; k++)
             FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
+        for (int k = 0; k < s->naccept; k++)
+            lint_planned(s, &s->accept[k], diags);
         for (int k = 0; k < s->nderive; k++)
             FW_TRY(lint_most(arena, flow, s, &s->derive[k], diags));
         for (int k = 0; k < s->nchange; k++)

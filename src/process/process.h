@@ -136,8 +136,8 @@ typedef struct fw_process_exposed {
 } fw_process_exposed;
 
 typedef struct fw_process_accept {
-    const char *measure, *low, *high, *unit;
-    const char *coupon; /* id of the pattern that is looked at; "" */
+    const char *measure, *low, *high, *planned, *unit; /* planned: what a wafer as planned reads */
+    const char *coupon;                                /* id of the pattern that is looked at; "" */
     int sites, every;
     fw_place place;
 } fw_process_accept;

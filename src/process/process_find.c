@@ -216,6 +216,7 @@ static fw_status keep_step(fw_process_pack *pack, fw_process_step *s) {
         FW_TRY(keep(pack, &s->accept[i].measure, s->accept[i].place));
         FW_TRY(keep(pack, &s->accept[i].low, s->accept[i].place));
         FW_TRY(keep(pack, &s->accept[i].high, s->accept[i].place));
+        FW_TRY(keep(pack, &s->accept[i].planned, s->accept[i].place));
     }
     for (int i = 0; i < s->non_fail; i++) {
         FW_TRY(keep(pack, &s->on_fail[i].condition, s->place));
