@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One pass of the computed flow: times, edges and judgement for the facts of a mask. What changes it can make the device
    with: process_judge.c. */
+#include "base/constants.h"
 #include "process/pack.h"
 #include "process/process_law.h"
 #include <math.h>
@@ -59,22 +60,38 @@ static void fill(fw_process_flow *flow, const char *id, double value, double unc
 }
 
 /* everything that is on the wafer at once */
-static double all_structure(const fw_process_mask_facts *m) {
-    return m->wafer_area_m2 > 0.0 ? m->wafer_structure_m2 : m->structure_area_m2 * m->dies;
-}
 static double all_perimeter(const fw_process_mask_facts *m) {
     return m->wafer_area_m2 > 0.0 ? m->wafer_perimeter_m : m->perimeter_m * m->dies;
 }
-static double all_area(const fw_process_mask_facts *m) {
-    return m->wafer_area_m2 > 0.0 ? m->wafer_area_m2 : m->die_area_m2 * m->dies;
+
+/* What stands on the wafer, whose edges the mask puts `bias` further out, where it does so, and a process so far outside of
+   that: A(b) = A + P b, to a relative (b/w)^2 of what is w wide. m2, exact for the drawing. Test: test_flow.c, areas. */
+static double all_structure(const fw_process_flow *flow, const fw_process_mask_facts *m,
+                            double outside_m) {
+    const bool laid = m->wafer_area_m2 > 0.0;
+    const double drawn = laid ? m->wafer_structure_m2 : m->structure_area_m2 * m->dies,
+                 biased = laid ? m->wafer_biased_m : m->biased_perimeter_m * m->dies;
+    return drawn + flow->edges.bias_m * biased + outside_m * all_perimeter(m);
+}
+
+/* The whole wafer is in the plasma, between its dies and at its rim, too. Where none is laid out it is the pack's, or the
+   dies alone. */
+static double all_area(const fw_process_flow *flow, const fw_process_mask_facts *m,
+                       fw_quantity_value_status *status) {
+    const fw_quantity *D = fw_process_flow_own_quantity(flow, "wafer.D");
+    const double dies = m->die_area_m2 * m->dies;
+    if (m->wafer_area_m2 > 0.0) return m->wafer_area_m2;
+    const double own = D && !D->unknown ? 0.25 * FW_PI * D->value * D->value : 0.0;
+    if (own > dies) *status = fw_process_status_worse(*status, D->status);
+    return fmax(own, dies);
 }
 
 /* A = n A_die + ring + thief; u^2 = (P u_edge)^2 + u_ring^2 + u_thief^2, since A(b) = A + P b for
-   an edge that prints b further out. The mask's own area is exact. All m2. */
+   an edge that prints b further out. The printed area of the mask is exact. All m2. */
 static void fill_plated(fw_process_flow *flow, const fw_process_mask_facts *m) {
     static const char *const extra[] = {"ring.area", "thief.area"};
     const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
-    double area = all_structure(m);
+    double area = all_structure(flow, m, -flow->edges.printed_m);
     double u = edge && !edge->unknown ? edge->uncertainty * all_perimeter(m) : 0.0;
     fw_quantity_value_status worst = FW_DERIVED;
     for (int i = 0; i < 2; i++) {
@@ -95,8 +112,6 @@ static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
     const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0; /* of a width: two edges */
     double flexure = usable(m->deepest_hinge_width_m) ? m->deepest_hinge_width_m : (double)NAN;
-    fill(flow, "mask.structure-area", all_structure(m), 0.0);
-    fill(flow, "mask.open-area", all_area(m) - all_structure(m), 0.0);
     fill(flow, "mask.perimeter", all_perimeter(m), 0.0);
     fill(flow, "mask.dies", m->dies, 0.0);
     fill(flow, "mask.pads", m->pads > 0 ? m->pads : (double)NAN, 0.0);
@@ -105,6 +120,18 @@ static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
     fill(flow, "mask.narrowest-flexure", flexure, u);
     fill(flow, "mask.widest-hollow", m->widest_hollow_m > 0.0 ? m->widest_hollow_m : (double)NAN,
          0.0);
+}
+
+/* areas as they come out, once the bias is known: what is printed is plated, and an etch sees the layer that masks it */
+static void fill_areas(fw_process_flow *flow, const fw_process_mask_facts *m) {
+    const fw_process_fixed_point *p = &flow->edges;
+    fw_quantity_value_status status = FW_DERIVED;
+    const double whole = all_area(flow, m, &status),
+                 standing = all_structure(flow, m, -p->printed_m - p->wet_m);
+    fill(flow, "mask.structure-area", all_structure(flow, m, -p->printed_m), 0.0);
+    fill(flow, "mask.open-area", whole - standing, 0.0);
+    fw_quantity *open = fw_process_flow_own_quantity(flow, "mask.open-area");
+    if (open) open->status = open->u_status = status;
     fill_plated(flow, m);
 }
 
@@ -485,6 +512,7 @@ fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
         fw_process_step_overrun(&flow->step[i]);
     FW_TRY(fw_process_flow_fill_texts(arena, flow, diags));
     FW_TRY(solve_edges(arena, flow, facts));
+    if (facts) fill_areas(flow, facts);
     flow->total_s = 0.0;
     flow->not_computable = 0;
     for (int i = 0; i < flow->nstep; i++) {
