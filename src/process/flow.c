@@ -513,6 +513,7 @@ fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
     FW_TRY(fw_process_flow_fill_texts(arena, flow, diags));
     FW_TRY(solve_edges(arena, flow, facts));
     if (facts) fill_areas(flow, facts);
+    FW_TRY(fw_process_flow_uncover(arena, flow));
     flow->total_s = 0.0;
     flow->not_computable = 0;
     for (int i = 0; i < flow->nstep; i++) {

@@ -132,6 +132,7 @@ typedef struct fw_process_exposed {
     const fw_quantity *rate; /* m/s; may be unknown, NULL */
     /* 1, of the etched material to this one; may be unknown, NULL */
     const fw_quantity *selectivity;
+    bool uncovered; /* computed: bare only once what the step takes off is through */
     fw_place place;
 } fw_process_exposed;
 
