@@ -37,7 +37,9 @@ static void add_areas(const fw_layout *layout, bool islands, fw_process_mask_fac
             continue;
         } else if (is_structure(layout->piece[i].role)) {
             facts->structure_area_m2 += fw_geometry_contour_area(&layout->piece[i].contour);
-            facts->perimeter_m += fw_plan_free_perimeter(&layout->piece[i].contour);
+            const double edges_m = fw_plan_free_perimeter(&layout->piece[i].contour);
+            facts->perimeter_m += edges_m;
+            facts->biased_perimeter_m += edges_m;
         } else if (layout->piece[i].role == FW_ROLE_TEXT || layout->piece[i].role == FW_ROLE_MARK) {
             /* lettering and marks lie in the frame and are taken out of it */
             facts->structure_area_m2 -= fw_geometry_contour_area(&layout->piece[i].contour);

@@ -2,6 +2,7 @@
 /* The flows computed with what the mask of a die, or the plate of a wafer, hands to them: times, bias,
    judgement, and for a release the distances of the drawing and the least change that opens a window; and
    which measurement pays. */
+#include "base/constants.h"
 #include "base/text.h"
 #include "base/sort.h"
 #include "layout/layout_rules.h"
@@ -287,7 +288,8 @@ static fw_status find_change(fw_plan *plan, fw_plan_flow *pf, const char **out) 
 /* ---- times, bias, judgement ---- */
 
 /* what one mask leaves standing, as drawn: + where a term of the plate draws, - where it takes away
-   (lettering and marks lie within what they are taken out of) */
+   (lettering and marks lie within what they are taken out of). A test die has its bias, where a pattern
+   wants it, in its outlines already */
 static void add_mask(const fw_mask *mask, const fw_mask_plate_term *term, int nterm, int times,
                      fw_process_mask_facts *facts) {
     for (int t = 0; t < nterm; t++)
@@ -296,8 +298,20 @@ static void add_mask(const fw_mask *mask, const fw_mask_plate_term *term, int nt
             if (mask->shape[i].layer != term[t].layer) continue;
             double sign = term[t].rule == FW_SET_NOT ? -1.0 : 1.0;
             facts->wafer_structure_m2 += sign * times * fw_geometry_contour_area(c);
-            facts->wafer_perimeter_m += times * fw_plan_free_perimeter(c);
+            const double edges_m = times * fw_plan_free_perimeter(c);
+            facts->wafer_perimeter_m += edges_m;
+            if (mask->bias_m != 0.0 && mask->table->layer[mask->shape[i].layer].biased)
+                facts->wafer_biased_m += edges_m;
         }
+}
+
+/* a disc less the segment of its flat: R^2 acos(h/R) - h sqrt(R^2 - h^2), h from the centre to the chord. The notch is
+   some mm2 and is not taken off. m2 */
+static double wafer_area(const fw_wafer_form *form) {
+    if (!(form->diameter_m > 0.0)) return 0.0;
+    const double R = 0.5 * form->diameter_m, half = fmin(0.5 * form->flat_m, R),
+                 h = sqrt(R * R - half * half);
+    return FW_PI * R * R - (R * R * acos(h / R) - h * half);
 }
 
 /* what the plate of a wafer places, added to the facts of its die: exact areas and edges as
@@ -307,7 +321,7 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
     fw_mask_plate_term *term;
     int n;
     FW_TRY(fw_mask_plate_terms(arena, wafer->table, &term, &n));
-    facts->wafer_structure_m2 = facts->wafer_perimeter_m = 0.0;
+    facts->wafer_structure_m2 = facts->wafer_perimeter_m = facts->wafer_biased_m = 0.0;
     for (int i = 0; i < wafer->ncell; i++)
         if (wafer->cell[i].mask)
             add_mask(wafer->cell[i].mask, term, n, wafer->cell[i].placed, facts);
@@ -318,8 +332,7 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
                y = fmax(fabs((double)site->y), fabs((double)site->y + wafer->grid.height));
         facts->wafer_reach_m = fmax(facts->wafer_reach_m, 1e-9 * hypot(x, y));
     }
-    facts->wafer_area_m2 =
-        (double)wafer->grid.nsite * wafer->grid.width * wafer->grid.height * 1e-18;
+    facts->wafer_area_m2 = wafer_area(&wafer->form);
     return FW_OK;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One pass of the computed flow: times, edges and judgement for the facts of a mask. What changes it can make the device
    with: process_judge.c. */
+#include "base/constants.h"
 #include "process/pack.h"
 #include "process/process_law.h"
 #include <math.h>
@@ -59,22 +60,38 @@ static void fill(fw_process_flow *flow, const char *id, double value, double unc
 }
 
 /* everything that is on the wafer at once */
-static double all_structure(const fw_process_mask_facts *m) {
-    return m->wafer_area_m2 > 0.0 ? m->wafer_structure_m2 : m->structure_area_m2 * m->dies;
-}
 static double all_perimeter(const fw_process_mask_facts *m) {
     return m->wafer_area_m2 > 0.0 ? m->wafer_perimeter_m : m->perimeter_m * m->dies;
 }
-static double all_area(const fw_process_mask_facts *m) {
-    return m->wafer_area_m2 > 0.0 ? m->wafer_area_m2 : m->die_area_m2 * m->dies;
+
+/* What stands on the wafer, whose edges the mask puts `bias` further out, where it does so, and a process so far outside of
+   that: A(b) = A + P b, to a relative (b/w)^2 of what is w wide. m2, exact for the drawing. Test: test_flow.c, areas. */
+static double all_structure(const fw_process_flow *flow, const fw_process_mask_facts *m,
+                            double outside_m) {
+    const bool laid = m->wafer_area_m2 > 0.0;
+    const double drawn = laid ? m->wafer_structure_m2 : m->structure_area_m2 * m->dies,
+                 biased = laid ? m->wafer_biased_m : m->biased_perimeter_m * m->dies;
+    return drawn + flow->edges.bias_m * biased + outside_m * all_perimeter(m);
+}
+
+/* The whole wafer is in the plasma, between its dies and at its rim, too. Where none is laid out it is the pack's, or the
+   dies alone. */
+static double all_area(const fw_process_flow *flow, const fw_process_mask_facts *m,
+                       fw_quantity_value_status *status) {
+    const fw_quantity *D = fw_process_flow_own_quantity(flow, "wafer.D");
+    const double dies = m->die_area_m2 * m->dies;
+    if (m->wafer_area_m2 > 0.0) return m->wafer_area_m2;
+    const double own = D && !D->unknown ? 0.25 * FW_PI * D->value * D->value : 0.0;
+    if (own > dies) *status = fw_process_status_worse(*status, D->status);
+    return fmax(own, dies);
 }
 
 /* A = n A_die + ring + thief; u^2 = (P u_edge)^2 + u_ring^2 + u_thief^2, since A(b) = A + P b for
-   an edge that prints b further out. The mask's own area is exact. All m2. */
+   an edge that prints b further out. The printed area of the mask is exact. All m2. */
 static void fill_plated(fw_process_flow *flow, const fw_process_mask_facts *m) {
     static const char *const extra[] = {"ring.area", "thief.area"};
     const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
-    double area = all_structure(m);
+    double area = all_structure(flow, m, -flow->edges.printed_m);
     double u = edge && !edge->unknown ? edge->uncertainty * all_perimeter(m) : 0.0;
     fw_quantity_value_status worst = FW_DERIVED;
     for (int i = 0; i < 2; i++) {
@@ -95,8 +112,6 @@ static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
     const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0; /* of a width: two edges */
     double flexure = usable(m->deepest_hinge_width_m) ? m->deepest_hinge_width_m : (double)NAN;
-    fill(flow, "mask.structure-area", all_structure(m), 0.0);
-    fill(flow, "mask.open-area", all_area(m) - all_structure(m), 0.0);
     fill(flow, "mask.perimeter", all_perimeter(m), 0.0);
     fill(flow, "mask.dies", m->dies, 0.0);
     fill(flow, "mask.pads", m->pads > 0 ? m->pads : (double)NAN, 0.0);
@@ -105,6 +120,18 @@ static void fill_mask(fw_process_flow *flow, const fw_process_mask_facts *m) {
     fill(flow, "mask.narrowest-flexure", flexure, u);
     fill(flow, "mask.widest-hollow", m->widest_hollow_m > 0.0 ? m->widest_hollow_m : (double)NAN,
          0.0);
+}
+
+/* areas as they come out, once the bias is known: what is printed is plated, and an etch sees the layer that masks it */
+static void fill_areas(fw_process_flow *flow, const fw_process_mask_facts *m) {
+    const fw_process_fixed_point *p = &flow->edges;
+    fw_quantity_value_status status = FW_DERIVED;
+    const double whole = all_area(flow, m, &status),
+                 standing = all_structure(flow, m, -p->printed_m - p->wet_m);
+    fill(flow, "mask.structure-area", all_structure(flow, m, -p->printed_m), 0.0);
+    fill(flow, "mask.open-area", whole - standing, 0.0);
+    fw_quantity *open = fw_process_flow_own_quantity(flow, "mask.open-area");
+    if (open) open->status = open->u_status = status;
     fill_plated(flow, m);
 }
 
@@ -314,15 +341,40 @@ static void fill_judged(fw_process_flow *flow, const char *least, const char *mo
     fill(flow, most, known ? ceil(1e3 * b) / 1e3 : (double)NAN, 0.0);
 }
 
-/* between which widths, against the drawn ones, lines of the layer that masks the last etch are judged: what the mask adds
-   for that etch, and the ranges of the corners of edges; to 10 nm outwards */
-static void fill_metal(fw_process_flow *flow) {
+/* widths of lines against the drawn ones, both of whose edges stand `off_m` outside: as planned, and between which they are
+   judged, to 10 nm outwards. Where there is no range nothing would be accepted, and the limits are not known. */
+static void fill_lines(fw_process_flow *flow, const char *const id[3], double off_m, double low_m,
+                       double high_m) {
+    const double to = 1e8;
+    const bool known = high_m > low_m;
+    fill(flow, id[0], 2.0 * off_m, 0.0);
+    fill(flow, id[1], known ? floor(2.0 * to * (off_m + low_m) + 1e-6) / to : (double)NAN, 0.0);
+    fill(flow, id[2], known ? ceil(2.0 * to * (off_m + high_m) - 1e-6) / to : (double)NAN, 0.0);
+}
+
+/* Lines of the test die stand on the mask as they are drawn, without its bias: in the resist they come out as it prints,
+   and in the layer that masks the last etch narrower by all that isotropic etches take, which devices are given back. */
+static void fill_coupon_lines(fw_process_flow *flow) {
+    static const char *const metal[] = {"mask.metal-planned", "mask.metal-least",
+                                        "mask.metal-most"},
+                             *const print[] = {"mask.print-planned", "mask.print-least",
+                                               "mask.print-most"};
     const fw_process_fixed_point *p = &flow->edges;
-    const double more = p->etch_m + p->worn_m, to = 1e8;
-    fill(flow, "mask.metal-least",
-         p->solved ? floor(2.0 * to * (more + p->off_low_m) + 1e-6) / to : (double)NAN, 0.0);
-    fill(flow, "mask.metal-most",
-         p->solved ? ceil(2.0 * to * (more + p->off_high_m) - 1e-6) / to : (double)NAN, 0.0);
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
+    double low, high;
+    fill_lines(flow, metal, p->wet_open ? (double)NAN : -p->printed_m - p->wet_m, p->off_low_m,
+               p->off_high_m);
+    if (!edge || edge->unknown) return;
+    fw_process_quantity_range(edge, &low, &high);
+    fill_lines(flow, print, edge->value, low - edge->value, high - edge->value);
+}
+
+/* what of the layer's thickness a wet step leaves that takes of its open faces: of its top, until it is free. As far as
+   that is known. */
+static void fill_thickness(fw_process_flow *flow) {
+    const double d =
+        flow->thickness && !flow->thickness->unknown ? flow->thickness->value : (double)NAN;
+    fill(flow, "mask.thickness-left", d - flow->edges.worn_m, 0.0);
 }
 
 static void fill_widths(fw_process_flow *flow, const fw_process_mask_facts *facts) {
@@ -335,7 +387,8 @@ static void fill_widths(fw_process_flow *flow, const fw_process_mask_facts *fact
     fill_judged(flow, "mask.top-least", "mask.top-most", width_m, low.top_m, high.top_m);
     fill_judged(flow, "mask.bottom-least", "mask.bottom-most", width_m, low.bottom_m,
                 high.bottom_m);
-    fill_metal(flow);
+    fill_coupon_lines(flow);
+    fill_thickness(flow);
 }
 
 /* edges, bias and gaps; the narrowest opening goes to the laws of the steps */
@@ -459,6 +512,8 @@ fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
         fw_process_step_overrun(&flow->step[i]);
     FW_TRY(fw_process_flow_fill_texts(arena, flow, diags));
     FW_TRY(solve_edges(arena, flow, facts));
+    if (facts) fill_areas(flow, facts);
+    FW_TRY(fw_process_flow_uncover(arena, flow));
     flow->total_s = 0.0;
     flow->not_computable = 0;
     for (int i = 0; i < flow->nstep; i++) {

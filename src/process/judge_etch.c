@@ -3,6 +3,7 @@
 #include "process/films.h"
 #include "process/process_law.h"
 #include <math.h>
+#include <string.h>
 
 /* u(z) = (1 - A)(E - z), E = R T the depth the floor would have reached in the whole time: the wall
    at depth z is exposed from z/R on. w m, A 1, depth and E m. w_top = w - 2u(0), w_bottom = w -
@@ -377,4 +378,187 @@ fw_status fw_process_judge_etching(fw_process_judge *j) {
         if (c->device) FW_TRY(lag(j, c));
     }
     return open_slot(j);
+}
+
+/* ---- what the computed times do to the layers ----
+   Known only with the mask and the thickness of the device. Test: test_lint.c, loss, mould. */
+
+/* thickness of what lies outermost on a face of a column and is all of one material, or below films that have holes; NaN: a
+   part is unknown */
+static double top_layer(const fw_process_flow *flow, const fw_process_stack *stack, int column,
+                        const char *material, bool back) {
+    double sum = 0.0;
+    const int n = stack->n[column];
+    for (int i = 0; i < n; i++) {
+        const fw_process_cell *c = &stack->cell[column][back ? i : n - 1 - i];
+        const fw_process_material *m = fw_process_flow_material(flow, c->material);
+        const bool same = strcmp(c->material, material) == 0;
+        if (!same && !(sum == 0.0 && m && m->holes)) break;
+        if (same) sum += c->thickness_m;
+    }
+    return sum;
+}
+
+/* The thickness of a material that lies open on a face in a column, where step `by` works; 0: it does not, or the step does
+   not reach that face. Columns of the back follow those of the front. */
+static double open_in(const fw_process_flow *flow, const fw_process_stack *stack,
+                      const fw_process_step *by, const char *material, int column) {
+    const bool back = column >= stack->columns;
+    return fw_process_step_meets(by, back)
+               ? top_layer(flow, stack, column % stack->columns, material, back)
+               : 0.0;
+}
+
+/* before step index, and after it */
+static fw_status stacks_about(fw_arena *arena, const fw_process_flow *flow, int index,
+                              fw_process_stack stack[2]) {
+    FW_TRY(fw_process_flow_stack(arena, flow, index - 1, &stack[0], NULL));
+    return fw_process_flow_stack(arena, flow, index, &stack[1], NULL);
+}
+
+/* does the step put the material there anew? */
+static bool adds(const fw_process_step *s, const char *material) {
+    for (int k = 0; k < s->nchange; k++)
+        if (strcmp(s->change[k].kind, "add") == 0 && strcmp(s->change[k].material, material) == 0)
+            return true;
+    return false;
+}
+
+typedef struct taken { /* of a layer in each column of both faces, m */
+    double nominal_m[2 * FW_STACK_MOST], most_m[2 * FW_STACK_MOST];
+} taken;
+
+/* what steps since the material was put there took of it where it lay open */
+static fw_status taken_before(fw_arena *arena, const fw_process_flow *flow, int index,
+                              const char *material, taken *sum) {
+    *sum = (taken){0};
+    for (int i = index - 1; i >= 0 && !adds(&flow->step[i], material); i--) {
+        const fw_process_step *s = &flow->step[i];
+        for (int k = 0; k < s->nexposed; k++) {
+            fw_process_stack stack[2];
+            double most, loss = fw_process_exposed_loss(s, &s->exposed[k], &most);
+            if (strcmp(s->exposed[k].material, material) != 0 || isnan(loss)) continue;
+            FW_TRY(stacks_about(arena, flow, i, stack));
+            for (int column = 0; column < 2 * stack[0].columns; column++) {
+                if (!(open_in(flow, &stack[0], s, material, column) > 0.0) &&
+                    !(open_in(flow, &stack[1], s, material, column) > 0.0))
+                    continue;
+                sum->nominal_m[column] += loss;
+                sum->most_m[column] += most;
+            }
+        }
+    }
+    return FW_OK;
+}
+
+/* Laid open by the step alone, which is timed for what it takes off: bare only from when that is through. */
+static fw_status uncovers(fw_arena *arena, const fw_process_flow *flow, int index,
+                          fw_process_exposed *x) {
+    const fw_process_step *s = &flow->step[index];
+    const fw_quantity *timed = fw_process_step_argument(s, "thickness");
+    bool before = false, after = false, through = false;
+    fw_process_stack stack[2];
+    if (!timed) timed = fw_process_step_argument(s, "depth");
+    for (int k = 0; k < s->nchange && timed; k++)
+        through = through ||
+                  (strcmp(s->change[k].kind, "remove") == 0 && s->change[k].thickness == timed);
+    x->uncovered = false;
+    if (!through) return FW_OK;
+    FW_TRY(stacks_about(arena, flow, index, stack));
+    for (int column = 0; column < 2 * stack[0].columns; column++) {
+        before = before || open_in(flow, &stack[0], s, x->material, column) > 0.0;
+        after = after || open_in(flow, &stack[1], s, x->material, column) > 0.0;
+    }
+    x->uncovered = after && !before;
+    return FW_OK;
+}
+
+fw_status fw_process_flow_uncover(fw_arena *arena, fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nexposed; k++)
+            FW_TRY(uncovers(arena, flow, i, &flow->step[i].exposed[k]));
+    return FW_OK;
+}
+
+fw_status fw_process_lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
+                               const fw_process_exposed *x, fw_diags *diags) {
+    const fw_process_step *s = &flow->step[index];
+    double most, loss = fw_process_exposed_loss(s, x, &most), least = (double)INFINITY,
+                 sure = (double)INFINITY;
+    const char *then = "";
+    fw_process_stack stack[2]; /* open from the start, or laid open by the step */
+    taken before;
+    FW_TRY(stacks_about(arena, flow, index, stack));
+    FW_TRY(taken_before(arena, flow, index, x->material, &before));
+    for (int i = 0; i < 4 * stack[0].columns; i++) {
+        const int column = i / 2;
+        const double there = open_in(flow, &stack[i % 2], s, x->material, column),
+                     left = fmax(0.0, there - before.nominal_m[column]);
+        if (!(there > 0.0)) continue;
+        if (left < least) then = before.nominal_m[column] > 0.0 ? " by then" : "";
+        least = fmin(least, left);
+        sure = fmin(sure, there - before.most_m[column]);
+    }
+    if (isnan(loss) || !(most >= sure)) return FW_OK;
+    char lost[32], have[32], is[32], u[32], needed[32];
+    const char *name = fw_process_flow_material_name(flow, x->material);
+    const fw_quantity *q = x->rate ? x->rate : x->selectivity;
+    double unit = fw_quantity_in_unit(q) / q->value, share = loss / fmax(least, 1e-12);
+    fw_number_text(lost, sizeof lost, loss * 1e6, 3);
+    fw_number_text(have, sizeof have, least * 1e6, 3);
+    fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 4);
+    fw_number_text(u, sizeof u, q->uncertainty * unit, 3);
+    fw_number_text(needed, sizeof needed, q->value * unit * (x->rate ? 1.0 / share : share), 4);
+    if (loss >= least)
+        fw_diag_warning(diags, 270, x->place,
+                        "step %s removes %s um of %s, but that layer is "
+                        "only %s um thick%s; use a thicker layer or a "
+                        "better selectivity",
+                        s->id, lost, name, have, then);
+    const char *of = x->rate ? "rate" : "selectivity", *gap = strcmp(q->unit, "1") ? " " : "";
+    const char *why =
+        fw_arena_printf(arena,
+                        "step %s takes %s um of the open %s, %s um thick%s, at a %s of %s%s%s (u = "
+                        "%s): it lasts %s "
+                        "%s%s%s. %s",
+                        s->id, lost, name, have, then, of, is, gap, gap[0] ? q->unit : "", u,
+                        x->rate ? "below" : "above", needed, gap, gap[0] ? q->unit : "",
+                        loss >= least ? "Nearest change: a thicker layer, or another etch"
+                                      : "Measure it before the first wafer");
+    return fw_process_flow_add_reason(arena, flow, loss >= least ? 0 : -1, why);
+}
+
+/* Plating beyond the mould's top closes its gaps: d f <= h, with d m the mean thickness, f the
+   largest local thickness over the mean (spread, 1 when it is not given) and h m the mould, all of
+   one material on top of the field. Test: test_lint.c, mould. */
+fw_status fw_process_lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
+                                const fw_process_change *c, fw_diags *diags) {
+    fw_process_stack stack;
+    double spread = c->spread && !c->spread->unknown ? c->spread->value : 1.0;
+    if (!c->thickness || c->thickness->unknown) return FW_OK;
+    FW_TRY(fw_process_flow_stack(arena, flow, index - 1, &stack, NULL));
+    int field = strcmp(c->where, "field") == 0 ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
+    if (stack.n[field] == 0) return FW_OK;
+    const char *mould = stack.cell[field][stack.n[field] - 1].material;
+    double height = top_layer(flow, &stack, field, mould, false),
+           grown = c->thickness->value * spread;
+    if (isnan(height) || grown <= height) return FW_OK;
+    char up[32], high[32], layer[32];
+    const bool thinner = flow->nearest_known && !isnan(flow->nearest_layer_m);
+    fw_number_text(up, sizeof up, grown * 1e6, 4);
+    fw_number_text(high, sizeof high, height * 1e6, 4);
+    fw_diag_warning(diags, 273, c->place,
+                    "step %s plates up to %s um into a mould only %s um "
+                    "high; use a higher mould or plate less",
+                    flow->step[index].id, up, high);
+    return fw_process_flow_add_reason(
+        arena, flow, 0,
+        fw_arena_printf(
+            arena,
+            "step %s plates up to %s um where the mould of %s is %s um high: "
+            "the metal grows over it and closes the gaps. Nearest change: %s%s%s",
+            flow->step[index].id, up, fw_process_flow_material_name(flow, mould), high,
+            thinner ? "a device layer of " : "a higher mould, or thinner plating",
+            thinner ? fw_number_text(layer, sizeof layer, 1e6 * flow->nearest_layer_m, 4) : "",
+            thinner ? " um, or a higher mould" : ""));
 }

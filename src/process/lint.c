@@ -319,100 +319,6 @@ fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw
 
 /* What the computed times do to the layers: known only with the mask and the device's thickness. */
 
-/* thickness of what lies outermost on a face of a column and is all of one material, or below films that have holes; NaN: a
-   part is unknown */
-static double top_layer(const fw_process_flow *flow, const fw_process_stack *stack, int column,
-                        const char *material, bool back) {
-    double sum = 0.0;
-    const int n = stack->n[column];
-    for (int i = 0; i < n; i++) {
-        const fw_process_cell *c = &stack->cell[column][back ? i : n - 1 - i];
-        const fw_process_material *m = fw_process_flow_material(flow, c->material);
-        const bool same = strcmp(c->material, material) == 0;
-        if (!same && !(sum == 0.0 && m && m->holes)) break;
-        if (same) sum += c->thickness_m;
-    }
-    return sum;
-}
-
-static fw_status lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
-                           const fw_process_exposed *x, fw_diags *diags) {
-    const fw_process_step *s = &flow->step[index];
-    double most, loss = fw_process_exposed_loss(s, x, &most), least = (double)INFINITY;
-    for (int k = index - 1; k <= index; k++) { /* open from the start, or laid open by the step */
-        fw_process_stack stack;
-        FW_TRY(fw_process_flow_stack(arena, flow, k, &stack, NULL));
-        for (int column = 0; column < 2 * stack.columns; column++) {
-            const bool back = column >= stack.columns;
-            double there = fw_process_step_meets(s, back)
-                               ? top_layer(flow, &stack, column % stack.columns, x->material, back)
-                               : 0.0;
-            if (there > 0.0) least = fmin(least, there);
-        }
-    }
-    if (isnan(loss) || !(most >= least)) return FW_OK;
-    char lost[32], have[32], is[32], u[32], needed[32];
-    const char *name = fw_process_flow_material_name(flow, x->material);
-    const fw_quantity *q = x->rate ? x->rate : x->selectivity;
-    double unit = fw_quantity_in_unit(q) / q->value, share = loss / least;
-    fw_number_text(lost, sizeof lost, loss * 1e6, 3);
-    fw_number_text(have, sizeof have, least * 1e6, 3);
-    fw_number_text(is, sizeof is, fw_quantity_in_unit(q), 4);
-    fw_number_text(u, sizeof u, q->uncertainty * unit, 3);
-    fw_number_text(needed, sizeof needed, q->value * unit * (x->rate ? 1.0 / share : share), 4);
-    if (loss >= least)
-        fw_diag_warning(diags, 270, x->place,
-                        "step %s removes %s um of %s, but that layer is "
-                        "only %s um thick; use a thicker layer or a "
-                        "better selectivity",
-                        s->id, lost, name, have);
-    const char *of = x->rate ? "rate" : "selectivity", *gap = strcmp(q->unit, "1") ? " " : "";
-    const char *why = fw_arena_printf(
-        arena,
-        "step %s takes %s um of the open %s, %s um thick, at a %s of %s%s%s (u = %s): it lasts %s "
-        "%s%s%s. %s",
-        s->id, lost, name, have, of, is, gap, gap[0] ? q->unit : "", u, x->rate ? "below" : "above",
-        needed, gap, gap[0] ? q->unit : "",
-        loss >= least ? "Nearest change: a thicker layer, or another etch"
-                      : "Measure it before the first wafer");
-    return fw_process_flow_add_reason(arena, flow, loss >= least ? 0 : -1, why);
-}
-
-/* Plating beyond the mould's top closes its gaps: d f <= h, with d m the mean thickness, f the
-   largest local thickness over the mean (spread, 1 when it is not given) and h m the mould, all of
-   one material on top of the field. Test: test_lint.c, mould. */
-static fw_status lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
-                            const fw_process_change *c, fw_diags *diags) {
-    fw_process_stack stack;
-    double spread = c->spread && !c->spread->unknown ? c->spread->value : 1.0;
-    if (!c->thickness || c->thickness->unknown) return FW_OK;
-    FW_TRY(fw_process_flow_stack(arena, flow, index - 1, &stack, NULL));
-    int field = strcmp(c->where, "field") == 0 ? FW_STACK_STRUCTURE : FW_STACK_FIELD;
-    if (stack.n[field] == 0) return FW_OK;
-    const char *mould = stack.cell[field][stack.n[field] - 1].material;
-    double height = top_layer(flow, &stack, field, mould, false),
-           grown = c->thickness->value * spread;
-    if (isnan(height) || grown <= height) return FW_OK;
-    char up[32], high[32], layer[32];
-    const bool thinner = flow->nearest_known && !isnan(flow->nearest_layer_m);
-    fw_number_text(up, sizeof up, grown * 1e6, 4);
-    fw_number_text(high, sizeof high, height * 1e6, 4);
-    fw_diag_warning(diags, 273, c->place,
-                    "step %s plates up to %s um into a mould only %s um "
-                    "high; use a higher mould or plate less",
-                    flow->step[index].id, up, high);
-    return fw_process_flow_add_reason(
-        arena, flow, 0,
-        fw_arena_printf(
-            arena,
-            "step %s plates up to %s um where the mould of %s is %s um high: "
-            "the metal grows over it and closes the gaps. Nearest change: %s%s%s",
-            flow->step[index].id, up, fw_process_flow_material_name(flow, mould), high,
-            thinner ? "a device layer of " : "a higher mould, or thinner plating",
-            thinner ? fw_number_text(layer, sizeof layer, 1e6 * flow->nearest_layer_m, 4) : "",
-            thinner ? " um, or a higher mould" : ""));
-}
-
 static const fw_quantity *derived_named(const fw_process_step *s, const char *name) {
     for (int i = 0; i < s->nderived; i++)
         if (s->derived[i]->id && strcmp(s->derived[i]->id, name) == 0) return s->derived[i];
@@ -550,6 +456,21 @@ static fw_status lint_watched(fw_arena *arena, fw_process_flow *flow, const fw_p
     return FW_OK;
 }
 
+/* A limit that is a number of the pack does not follow a value that was changed, and one that does may still be far from
+   it: where what is planned is not accepted, every wafer that comes out right is refused. Test: test_accepted.c. */
+static void lint_planned(const fw_process_step *s, const fw_process_accept *a, fw_diags *diags) {
+    double planned, low, high;
+    if (!fw_number_parse(a->planned, strlen(a->planned), &planned)) return;
+    const bool under = fw_number_parse(a->low, strlen(a->low), &low) && planned < low,
+               over = fw_number_parse(a->high, strlen(a->high), &high) && planned > high;
+    if (!under && !over) return;
+    fw_diag_warning(
+        diags, 667, a->place,
+        "step %s measures '%s', of which %s %s is planned, and accepts no %s than %s: every wafer "
+        "that comes out right is refused; change what is planned, or the limit",
+        s->id, a->measure, a->planned, a->unit, under ? "less" : "more", under ? a->low : a->high);
+}
+
 fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_diags *diags) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
@@ -557,14 +478,16 @@ fw_status fw_process_lint_computed(fw_arena *arena, fw_process_flow *flow, fw_di
         FW_TRY(lint_lasts(arena, flow, s, diags));
         FW_TRY(lint_watched(arena, flow, s, diags));
         for (int k = 0; k < s->nexposed; k++)
-            FW_TRY(lint_loss(arena, flow, i, &s->exposed[k], diags));
+            FW_TRY(fw_process_lint_loss(arena, flow, i, &s->exposed[k], diags));
+        for (int k = 0; k < s->naccept; k++)
+            lint_planned(s, &s->accept[k], diags);
         for (int k = 0; k < s->nderive; k++)
             FW_TRY(lint_most(arena, flow, s, &s->derive[k], diags));
         for (int k = 0; k < s->nchange; k++)
             FW_TRY(lint_circle(arena, flow, s, &s->change[k], diags));
         for (int k = 0; k < s->nchange && strcmp(s->op, "plate") == 0; k++)
             if (strcmp(s->change[k].kind, "add") == 0 && strcmp(s->change[k].where, "all") != 0)
-                FW_TRY(lint_mould(arena, flow, i, &s->change[k], diags));
+                FW_TRY(fw_process_lint_mould(arena, flow, i, &s->change[k], diags));
     }
     return FW_OK;
 }

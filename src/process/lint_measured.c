@@ -427,6 +427,7 @@ void fw_process_lint_unit(fw_process_pack *pack, const fw_process_step *s,
     lint_measured_in(pack, s, a);
     lint_limit_in(pack, s, a, &a->low);
     lint_limit_in(pack, s, a, &a->high);
+    lint_limit_in(pack, s, a, &a->planned);
 }
 
 /* ---- what is left in the end ---- */

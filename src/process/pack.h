@@ -189,6 +189,14 @@ fw_status fw_process_lint_chemistry(fw_process_pack *pack); /* reactivity.c (FW-
 double fw_process_exposed_loss(const fw_process_step *step, const fw_process_exposed *exposed,
                                double *most_m);
 
+/* judge_etch.c: exposed materials that lie open only once their step is through, before losses are asked for; what is lost of
+   a layer against what earlier steps left of it (FW-D270), and what a mould holds (FW-D273) */
+fw_status fw_process_flow_uncover(fw_arena *arena, fw_process_flow *flow);
+fw_status fw_process_lint_loss(fw_arena *arena, fw_process_flow *flow, int index,
+                               const fw_process_exposed *exposed, fw_diags *diags);
+fw_status fw_process_lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
+                                const fw_process_change *change, fw_diags *diags);
+
 /* the relative uncertainty of what is lost at a rate, the step's own or another, in a time */
 double fw_process_lost_uncertainty(bool own, double u_rate, double u_time);
 

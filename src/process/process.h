@@ -132,12 +132,13 @@ typedef struct fw_process_exposed {
     const fw_quantity *rate; /* m/s; may be unknown, NULL */
     /* 1, of the etched material to this one; may be unknown, NULL */
     const fw_quantity *selectivity;
+    bool uncovered; /* computed: bare only once what the step takes off is through */
     fw_place place;
 } fw_process_exposed;
 
 typedef struct fw_process_accept {
-    const char *measure, *low, *high, *unit;
-    const char *coupon; /* id of the pattern that is looked at; "" */
+    const char *measure, *low, *high, *planned, *unit; /* planned: what a wafer as planned reads */
+    const char *coupon;                                /* id of the pattern that is looked at; "" */
     int sites, every;
     fw_place place;
 } fw_process_accept;
@@ -417,18 +418,17 @@ typedef struct fw_process_flow {
 typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
     double structure_area_m2;          /* of one die: what is plated, or masked by aluminium */
     double die_area_m2;
-    double perimeter_m;
+    double perimeter_m, biased_perimeter_m;    /* all edges as drawn; those that the bias moves */
     double narrowest_slot_m, narrowest_line_m; /* as drawn; INFINITY: none */
     double deepest_hinge_width_m;              /* narrowest flexure, as drawn; 0: none */
     /* side of the largest square within a hollow below the device; 0: it has none */
     double widest_hollow_m;
     int pads; /* of one die, with metal for a wire; 0: it has none */
     int dies; /* on the wafer or coupon */
-    /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the
-       die's own */
-    double wafer_structure_m2, wafer_area_m2, wafer_perimeter_m;
-    /* of the wafer itself, and how far from its centre the outermost die reaches; 0: no wafer is laid out */
-    double wafer_diameter_m, wafer_reach_m;
+    /* of all that the wafer's plate places, test dies and alignment sites too; 0: so many times the die's own */
+    double wafer_structure_m2, wafer_perimeter_m, wafer_biased_m;
+    /* of the wafer itself, whose rim lies in a bath or a plasma as its dies do, and how far from its centre the outermost die reaches; 0: no wafer is laid out */
+    double wafer_area_m2, wafer_diameter_m, wafer_reach_m;
     double device_thickness_m; /* as the device file wants it; 0 or NaN: the pack's own */
     /* (ngap) openings by name, as drawn; the narrowest slot need not be among them */
     const fw_process_mask_gap *gap;

@@ -216,6 +216,7 @@ static fw_status keep_step(fw_process_pack *pack, fw_process_step *s) {
         FW_TRY(keep(pack, &s->accept[i].measure, s->accept[i].place));
         FW_TRY(keep(pack, &s->accept[i].low, s->accept[i].place));
         FW_TRY(keep(pack, &s->accept[i].high, s->accept[i].place));
+        FW_TRY(keep(pack, &s->accept[i].planned, s->accept[i].place));
     }
     for (int i = 0; i < s->non_fail; i++) {
         FW_TRY(keep(pack, &s->on_fail[i].condition, s->place));
@@ -443,8 +444,9 @@ static double wide_depth(const fw_process_step *s) {
      by rate r:            l = r T (1 + overrun),           u/l of fw_process_lost_uncertainty
      by selectivity S:     l = d (T/T_wide)(1 + overrun)/S, u/l = u_S/S
    r m/s, T the step's nominal time, T_wide that of openings that do not lag, s; d m the depth that the step removes; l m.
-   NaN when an input is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss and
-   mask_lasts_as_planned. */
+   What lies below that depth is bare for 1 - 1/((T/T_wide)(1 + overrun)) of all that time, and T_wide, too, may be 2 u_T
+   shorter. NaN when an input is not known. Source: docs/theory/process.md, What a step takes along. Test: test_lint.c, loss,
+   mask_lasts_as_planned, bare_once_it_is_through. */
 double fw_process_exposed_loss(const fw_process_step *s, const fw_process_exposed *x,
                                double *most_m) {
     double loss = (double)NAN, share = 0.0;
@@ -458,5 +460,9 @@ double fw_process_exposed_loss(const fw_process_step *s, const fw_process_expose
         share = x->selectivity->uncertainty / x->selectivity->value;
     }
     *most_m = share < 0.5 ? loss / (1.0 - 2.0 * share) : (double)INFINITY;
-    return loss;
+    if (!x->uncovered || !s->time.computable) return loss;
+    const double through = 1.0 / (s->time.slowed * (1.0 + s->overrun)),
+                 sooner = fmax(0.0, 1.0 - 2.0 * s->time.relative_uncertainty);
+    *most_m *= 1.0 - through * sooner;
+    return loss * (1.0 - through);
 }

@@ -285,7 +285,10 @@ static const fw_xml_attribute_row accept_rows[] = {
     {"measure", TEXT, REQUIRED, .sentence = "What is measured."},
     {"lo", TEXT, REQUIRED, .sentence = "Lowest that is accepted; or empty."},
     {"hi", TEXT, REQUIRED, .sentence = "Highest that is accepted; or empty."},
-    {"unit", TEXT, REQUIRED, .sentence = "Of lo and hi."},
+    {"unit", TEXT, REQUIRED, .sentence = "Of lo, hi and planned."},
+    {"planned", TEXT,
+     .sentence =
+         "What a wafer reads that comes out as planned: outside of lo and hi the plan warns."},
     {"sites", COUNT, REQUIRED, .sentence = "At how many sites of a wafer."},
     {"every", COUNT, REQUIRED, .sentence = "On every so many wafers."},
     {"coupon", TEXT, .datatype = "NCName",

@@ -409,6 +409,7 @@ static bool read_accept(const fw_process_pack *pack, const fw_xml_record *e, fw_
     *a = (fw_process_accept){.measure = fw_process_pack_text(e, "measure"),
                              .low = fw_process_pack_text(e, "lo"),
                              .high = fw_process_pack_text(e, "hi"),
+                             .planned = fw_process_pack_text(e, "planned"),
                              .unit = fw_process_pack_text(e, "unit"),
                              .coupon = fw_process_pack_text(e, "coupon"),
                              .sites = (int)fw_process_pack_number(e, "sites", 1.0),

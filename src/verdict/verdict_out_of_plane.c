@@ -490,12 +490,39 @@ static fw_status put_stiffness(fw_arena *arena, const both *is, fw_verdict_out_o
     out->body = fw_text_name(is->rigid.mechanism->body[stiff.body].id);
     out->across_N_per_m = stiff.across_N_per_m;
     out->ratio = stiff.across_N_per_m / stiff.in_N_per_m;
+    return FW_OK;
+}
+
+/* how far it comes down where it lies flat on a table */
+static void put_weight(const both *is, fw_verdict_out_of_plane *out) {
+    const fw_geometry_vec2 origin = {0, 0};
     fw_mechanism_plates_weight(&is->rigid, -FW_STANDARD_GRAVITY_m_per_s2, is->f);
     fw_mechanism_plates_answer(&is->rigid, is->f, is->x);
-    const fw_geometry_vec2 origin = {0, 0};
     out->weight_m = is->hangs * FW_STANDARD_GRAVITY_m_per_s2 -
                     fw_mechanism_plates_reached(&is->rigid, is->x, NULL, 0, origin).lowest_m;
-    return FW_OK;
+}
+
+/* A scene that says nothing of weight leaves open which way is down. Where the device would lie on its carrier by its weight
+   alone it is no answer that nobody asked: undecided until it is said. */
+static fw_status judge_unsaid(fw_arena *arena, const fw_device_scene *s,
+                              const fw_verdict_out_of_plane *out, fw_verdict_variant_verdict *v,
+                              fw_verdict_across *to) {
+    const fw_mechanism_below *below = &v->mechanism->variant->below;
+    const double down_m = out->weight_m * (1 + out->error) + fmax(0, -to->lowest_m);
+    char down[32], has[32];
+    if (s->gravity || !below->known || below->open || !(down_m > below->low_m)) return FW_OK;
+    if (to->decision == FW_REJECT || (to->asked && !isfinite(down_m))) return FW_OK;
+    to->decision = FW_INCONCLUSIVE;
+    return fw_verdict_scene_reason(
+        v, s, 673, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
+        fw_arena_printf(
+            arena,
+            "where it lies flat the device comes down by up to %s um by its weight, and below it "
+            "are %s um (%s): it may lie on its carrier in %s%s, which does not say how it is "
+            "held; state <gravity gz=\"-9.81 m/s^2\"/> there, or gy where it stands on edge",
+            fw_number_text(down, sizeof down, 1e6 * down_m, 3),
+            fw_number_text(has, sizeof has, 1e6 * below->m, 3), below->words,
+            FW_NAMED("scene", s->name)));
 }
 
 fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, bool brief,
@@ -516,6 +543,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     if (!out->why) {
         out->error = is->rigid.error;
         FW_TRY(put_modes(arena, is, out));
+        put_weight(is, out);
         if (!brief) FW_TRY(put_stiffness(arena, is, out));
     }
     for (int i = 0; i < d->nscene; i++) {
@@ -539,6 +567,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
                                              is->rigid.error, v, to));
         if (out->why) continue;
         if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, is, s, v, to));
+        FW_TRY(judge_unsaid(arena, s, out, v, to));
         if (!brief && s->ncomb > 0 && fw_effects_levitation_may_be(m))
             FW_TRY(warn_of_lift(is, s, diags, v, to));
     }

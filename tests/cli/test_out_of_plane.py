@@ -314,6 +314,24 @@ class OutOfPlane(unittest.TestCase):
         up = self.across(f'<gravity gz="{-2 * gap / per} m/s^2"/>', flow=GLASS)[0]
         self.assertEqual(up["verdict"], "accept")  # upwards there is nothing
 
+    def test_weight_that_nobody_states(self):
+        """a heavy stage would lie on its glass: a scene that does not say which way is down is undecided, one that says so is
+        judged as it comes down, or not at all where the device stands on edge"""
+        sag = self.across(flow=GLASS)[1]["weight_sag_m"]
+        self.assertLess(sag, 1e-6)
+        for heavy, said in (("0.5 mg", "accept"), ("30 mg", "inconclusive")):
+            options = QUICK + ("--set", f"body[stage]/@mass={heavy}", "--set", "body[stage]/@inertia=10 mg mm^2")
+            whole, all_, _ = self.across(flow=GLASS, options=options)
+            self.assertEqual(whole["verdict"], said)
+            self.assertEqual(all_["weight_sag_m"] > all_["below"]["gap_m"], said != "accept")
+            self.assertEqual("FW-D673" in json.dumps(whole), said != "accept")
+        self.assertNotIn("FW-D673", json.dumps(self.across(options=options)[0]))  # nothing is known to be below it
+        flat = self.across('<gravity gz="-9.81 m/s^2"/>', flow=GLASS, options=options)[0]
+        self.assertEqual(flat["verdict"], "reject")
+        self.assertNotIn("FW-D673", json.dumps(flat))
+        edge = self.across('<gravity gy="-9.81 m/s^2"/>', flow=GLASS, options=options)[0]
+        self.assertNotIn("FW-D673", json.dumps(edge))
+
     def test_shock(self):
         still = self.across('<gravity gz="-100 m/s^2"/>')[2]
         at_once = self.across('<base-motion az="100 m/s^2"/>')[2]

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wafer of a plan: every step of its sweep is the device that --set would make, a rejected one
    is replaced unless forced, and the process works with the number of dies. */
+#include "base/constants.h"
 #include "plan/plan.h"
 #include "test.h"
 #include <stdlib.h>
@@ -131,11 +132,12 @@ static const fw_quantity *quantity(const fw_process_flow *flow, const char *id) 
     return NULL;
 }
 
-/* from the polygons: a mask's area is A = A0 + b P + O(b^2) with the bias b, P the drawn edges */
-static double standing(const fw_mask *mask) {
+/* from the polygons, which have the bias: the aluminium is A = A0 - b P + O(b^2) once its etch has taken b from all edges, of
+   lettering and marks, too */
+static double standing(const fw_mask *mask, double taken_m) {
     const fw_mask_measure *m = mask->measure;
     return m[0].polygon_area_m2 - m[1].polygon_area_m2 - m[2].polygon_area_m2 -
-           mask->bias_m * m[0].perimeter_m;
+           taken_m * (m[0].perimeter_m + m[1].perimeter_m + m[2].perimeter_m);
 }
 
 /* what the process etches is the area of everything that the plate places: dies of every step, the
@@ -148,10 +150,14 @@ static void process_knows_dies(void **state) {
     const fw_quantity *area = quantity(plan->flow[0].flow, "mask.open-area");
     assert_true(dies || area);
     if (dies) assert_near(dies->value, w->dies, 0);
-    double whole = (double)w->grid.nsite * w->grid.width * w->grid.height * 1e-18, left = 0.0;
+    /* the rim of the wafer lies in the plasma, too: a disc less the segment beyond its flat */
+    const double R = 0.5 * w->form.diameter_m, turn = asin(0.5 * w->form.flat_m / R);
+    double sites = (double)w->grid.nsite * w->grid.width * w->grid.height * 1e-18, left = 0.0;
+    double whole = R * R * (FW_PI - turn + sin(turn) * cos(turn));
+    assert_true(whole > 1.05 * sites);
     int placed = 0;
     for (int i = 0; i < w->ncell; i++) {
-        left += w->cell[i].placed * standing(w->cell[i].mask);
+        left += w->cell[i].placed * standing(w->cell[i].mask, plan->flow[0].flow->edges.wet_m);
         placed += w->cell[i].placed;
     }
     assert_true(placed >= w->dies + w->tests + w->alignments);
@@ -159,8 +165,11 @@ static void process_knows_dies(void **state) {
     assert_near(area->value, whole - left, 2e-3 * left);
     /* and that is not what so many dies of the description would be */
     fw_plan *one = planned(NULL, 0, false, 1);
-    double times = quantity(one->flow[0].flow, "mask.open-area")->value * w->dies;
-    assert_true(fabs(area->value - times) > 5e-3 * times);
+    const fw_process_flow *single = one->flow[0].flow;
+    const double D = quantity(single, "wafer.D")->value;
+    double times =
+        (0.25 * FW_PI * D * D - quantity(single, "mask.open-area")->value) * w->dies;
+    assert_true(fabs(whole - area->value - times) > 5e-3 * times);
     fw_plan_free(one);
 }
 

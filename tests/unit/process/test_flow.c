@@ -325,9 +325,39 @@ static void counted(void **state) {
     assert_non_null(strstr(diags.item[0].message, "S03, S09"));
 }
 
+/* 0.07 of 0.08 m of edges are moved by the bias of the mask: what is printed is plated, and the plasma sees the aluminium and
+   all of the wafer that it does not cover */
+static void areas(void **state) {
+    (void)state;
+    fw_process_mask_facts facts = plain_facts;
+    facts.biased_perimeter_m = 0.07;
+    fw_process_flow *f = computed(COPPER, NULL, NULL, &facts);
+    measured(f, "seed.d", 0.8e-6, 1e-8);
+    measured(f, "seed.R", 0.1e-6 / 60, 1e-11);
+    measured(f, "litho.edge", 0.1e-6, 1e-8);
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_relative(f->bias_m, 0.96e-6 - 0.1e-6, 1e-9);
+    const double printed = 30 * (5e-6 + 0.86e-6 * 0.07 + 0.1e-6 * 0.08), ring = 2e-4;
+    assert_relative(fw_process_flow_quantity(f, "mask.structure-area")->value, printed, 1e-9);
+    assert_relative(fw_process_flow_quantity(f, "mask.plated-area")->value, printed + ring, 1e-9);
+    assert_relative(shown(f, "C22", "current"), 200 * (printed + ring) * 1e3, 1e-9);
+    f = computed(SILICON, NULL, NULL, &facts);
+    const double left = 30 * (5e-6 + 1.1e-6 * (0.07 - 0.08)), wafer = 0.25 * FW_PI * 0.01;
+    const fw_quantity *open = fw_process_flow_quantity(f, "mask.open-area");
+    assert_relative(open->value, wafer - left, 1e-9);
+    assert_int_equal(open->status, FW_ASSUMED); /* of the pack's own wafer */
+    facts.wafer_area_m2 = 7e-3, facts.wafer_diameter_m = 0.1;
+    facts.wafer_structure_m2 = 2e-4, facts.wafer_perimeter_m = 3, facts.wafer_biased_m = 2;
+    f = computed(SILICON, NULL, NULL, &facts);
+    open = fw_process_flow_quantity(f, "mask.open-area");
+    assert_relative(open->value, 7e-3 - 2e-4 + 1.1e-6, 1e-9);
+    assert_int_equal(open->status, FW_DERIVED);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 int main(void) {
     const struct CMUnitTest tests[] = {TEST(copper),
+                                       TEST(areas),
                                        TEST(silicon_as_published),
                                        TEST(silicon),
                                        TEST(silicon_without_lag),

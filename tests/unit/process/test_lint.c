@@ -903,6 +903,61 @@ static void mask_lasts_as_planned(void **state) {
     }
 }
 
+/* Wax lies below the silicon: 0.5 um/min would take 49.5 um of it in 99 min, and takes 4.5 um in the 9 min of the over-etch,
+   of the 10 um that are there. Of resist, which lies open from the start, all of the time counts. */
+static void bare_once_it_is_through(void **state) {
+    (void)state;
+    static const double rate_um_min[] = {0.5, 1.0, 1.2};
+    for (size_t i = 0; i < 3; i++) {
+        double most;
+        diags = fw_diags_new(arena);
+        fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+        measured(f, "rie.R-wax", rate_um_min[i] * 1e-6 / 60, 1e-12);
+        measured(f, "rie.R", 50e-6 / 5400, 1e-14);
+        assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+        const fw_process_step *s = step_of(f, "S18");
+        assert_false(s->exposed[0].uncovered);
+        assert_true(s->exposed[1].uncovered);
+        assert_relative(fw_process_exposed_loss(s, &s->exposed[1], &most), rate_um_min[i] * 9e-6,
+                        1e-9);
+        assert_true(most >= rate_um_min[i] * 9e-6);
+        assert_int_equal(said_of(270, "S18") != NULL, i == 2);
+        assert_int_equal(f->manufacturable, i == 2 ? 0 : -1); /* A is unknown anyway */
+    }
+    /* narrow openings are waited for while wide ones are through */
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    double most;
+    measured(f, "rie.R-wax", 0.5e-6 / 60, 1e-12);
+    measured(f, "rie.S", 0.3, 0);
+    assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+    const fw_process_step *s = step_of(f, "S18");
+    assert_relative(fw_process_exposed_loss(s, &s->exposed[1], &most),
+                    0.5e-6 / 60 * (1.1 * s->time.nominal_s - s->time.nominal_s / s->time.slowed), 1e-9);
+    assert_non_null(said_of(270, "S18"));
+}
+
+/* a developer takes 0.72 of 1 um of the aluminium that it opens, and what takes 0.6 um after it finds 0.28 um */
+static void what_was_lost_before_is_gone(void **state) {
+    (void)state;
+    for (int twice = 0; twice < 2; twice++) {
+        diags = fw_diags_new(arena);
+        fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+        fw_process_step *develop = step_of(f, "S11"), *bake = step_of(f, "S13");
+        measured(f, "develop.al", 0.6e-6 / 60, 1e-12);
+        if (twice) { /* in the open field, which the developer has opened */
+            bake->exposed = develop->exposed;
+            bake->nexposed = develop->nexposed;
+            measured(f, "hard.t", 60, 0.1);
+            bake->op = develop->op;
+        }
+        assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+        assert_null(said_of(270, "S11")); /* 0.72 of 1 um */
+        assert_int_equal(said_of(270, "step S13 removes 0.6 um of aluminium, sputtered, but that layer is only 0.28 "
+                                      "um thick by then") != NULL,
+                         twice);
+    }
+}
+
 /* two coats of 8 um are the mould: 16 um */
 static void mould(void **state) {
     (void)state;
@@ -1028,6 +1083,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(sheets_go_over_to_dies, setup, teardown),
         cmocka_unit_test_setup_teardown(loss, setup, teardown),
         cmocka_unit_test_setup_teardown(mask_lasts_as_planned, setup, teardown),
+        cmocka_unit_test_setup_teardown(bare_once_it_is_through, setup, teardown),
+        cmocka_unit_test_setup_teardown(what_was_lost_before_is_gone, setup, teardown),
         cmocka_unit_test_setup_teardown(mould, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

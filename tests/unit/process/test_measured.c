@@ -82,7 +82,7 @@ static void measured_too_early(void **state) {
     (void)state;
     judged(SILICON, put_before(bare(SILICON), "S04", "S03"), 624, FW_WARNING, "step S04 measures 'sheet resistance'");
     judged(SILICON, put_before(bare(SILICON), "S12", "S11"), 624, FW_ERROR, "step S12 measures 'resist width");
-    judged(SILICON, put_before(bare(SILICON), "S15", "S14"), 624, FW_ERROR, "step S15 measures 'flexure width in al");
+    judged(SILICON, put_before(bare(SILICON), "S15", "S14"), 624, FW_ERROR, "step S15 measures 'line width in al");
     judged(SILICON, put_before(bare(SILICON), "S19", "S17"), 624, FW_ERROR, "step S19 looks at the coupon 'slots'");
     judged(COPPER, put_before(bare(COPPER), "C19", "C18"), 624, FW_ERROR, "step C19 measures 'width against");
     judged(COPPER, put_before(bare(COPPER), "C23", "C22"), 623, FW_ERROR, "step C23 accepts a wafer by cu.d");
