@@ -1,16 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A laboratory's calibration: the table of measurements is read, and what follows from it is
    written as a pack. */
+#include "base/constants.h"
 #include "process/calibrate.h"
+#include "process/coupon.h"
+#include "process/pack.h"
 #include <math.h>
 #include <string.h>
 
 /* ---- the table of measurements ---- */
 /* The table of measurements: CSV as RFC 4180, without line breaks inside fields. */
 
-enum { COUPON, FEATURE, DRAWN, MEASURED, U, UNIT, AT, U_AT, AT_UNIT, COLUMNS, MOST_ROWS = 5000 };
-static const char *const column[COLUMNS] = {"coupon", "feature", "drawn_um", "measured", "u",
-                                            "unit",   "at",      "u_at",     "at_unit"};
+enum {
+    COUPON,
+    FEATURE,
+    DRAWN,
+    MEASURED,
+    U,
+    UNIT,
+    AT,
+    U_AT,
+    AT_UNIT,
+    WARM,
+    U_WARM,
+    COLUMNS,
+    MOST_ROWS = 5000
+};
+static const char *const column[COLUMNS] = {
+    "coupon", "feature", "drawn_um",        "measured",       "u", "unit", "at",
+    "u_at",   "at_unit", "temperature_Cel", "u_temperature_K"};
 
 typedef struct table {
     fw_arena *arena;
@@ -69,7 +87,8 @@ static fw_status header(table *t, const char *line) {
         else
             status = fw_diag_error(t->diags, 211, t->place,
                                    "unknown column '%s'; the header is coupon,feature,drawn_um,"
-                                   "measured,u,unit,at,u_at,at_unit",
+                                   "measured,u,unit,at,u_at,at_unit and, where it is known, "
+                                   "temperature_Cel,u_temperature_K",
                                    name[i]);
     }
     for (int k = 0; k <= UNIT; k++)
@@ -115,6 +134,35 @@ static bool amount(table *t, const char *const *cell, int value_at, double *valu
     return true;
 }
 
+double fw_process_written_uncertainty(const char *number) {
+    const char *mantissa = number + strspn(number, " +-"), *point = strchr(mantissa, '.');
+    const char *e = strpbrk(mantissa, "eE");
+    double power = 0.0;
+    if (e)
+        fw_number_parse(e + 1 + (e[1] == '+'), strspn(e + 1 + (e[1] == '+'), "-0123456789"),
+                        &power);
+    if (point && (!e || point < e)) power -= (double)strspn(point + 1, "0123456789");
+    return pow(10.0, power) / sqrt(12.0);
+}
+
+/* of the bath, in degrees Celsius, and by how much that may be off: as it is written, where nothing is said */
+static bool warmth(table *t, const char *const *cell, fw_process_measurement *r) {
+    double T, u;
+    if (!number(t, cell[WARM], WARM, &T) || !number(t, cell[U_WARM], U_WARM, &u)) return false;
+    if (isnan(T)) return true;
+    if (isnan(u)) u = fw_process_written_uncertainty(cell[WARM]);
+    if (!(T > -FW_ICE_POINT_K) || !(u >= 0.0)) {
+        fw_diag_error(t->diags, 211, t->place,
+                      "%s='%s', %s='%s': a temperature above absolute zero is needed, and a "
+                      "standard uncertainty of 0 or more",
+                      column[WARM], cell[WARM], column[U_WARM], cell[U_WARM]);
+        return false;
+    }
+    r->temperature_K = T + FW_ICE_POINT_K;
+    r->temperature_uncertainty = u;
+    return true;
+}
+
 static fw_status one_row(table *t, const char *line, fw_process_measurement *r, bool *good) {
     const char *name[MOST_FIELDS], *cell[COLUMNS];
     int n;
@@ -137,6 +185,7 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
     if (!(counted && !*cell[MEASURED]))
         *good = amount(t, cell, MEASURED, &r->value, &r->uncertainty, &r->dimension) && *good;
     *good = amount(t, cell, AT, &r->at, &r->at_uncertainty, &r->at_dimension) && *good;
+    *good = warmth(t, cell, r) && *good;
     if (*good && !counted && isnan(r->value)) {
         fw_diag_error(t->diags, 211, t->place,
                       "this row lacks measured, u or unit; it needs all three");
@@ -206,6 +255,26 @@ static void attribute(fw_text *out, const char *name, const char *value) {
     fw_text_printf(out, " %s=\"", name);
     fw_text_escaped(out, value);
     fw_text_add(out, "\"");
+}
+
+/* "; etched at 35 Cel, written as at pan.T-reference = 22 Cel (law arrhenius of step S14)"; nothing where it was at that */
+static void put_warmth(const fw_process_flow *flow, const fw_process_calibrated *c, fw_text *out) {
+    static const double same = 1e-3; /* K */
+    const fw_process_step *s = c->warmest_K > 0.0 ? fw_process_flow_warms(flow, c->id) : NULL;
+    const fw_quantity *T0 = s ? fw_process_step_argument(s, "reference_temperature") : NULL;
+    if (!s || (fabs(c->coldest_K - T0->value) < same && fabs(c->warmest_K - T0->value) < same))
+        return;
+    fw_text_add(out, "; etched at ");
+    fw_text_number(out, c->coldest_K - FW_ICE_POINT_K, 4);
+    if (c->warmest_K - c->coldest_K > same) {
+        fw_text_add(out, " to ");
+        fw_text_number(out, c->warmest_K - FW_ICE_POINT_K, 4);
+    }
+    fw_text_add(out, " Cel, corrected to ");
+    fw_text_escaped(out, T0->id ? T0->id : "the reference temperature");
+    fw_text_add(out, " = ");
+    fw_text_number(out, fw_quantity_in_unit(T0), 4);
+    fw_text_printf(out, " %s by the law %s of step %s", T0->unit, s->law, s->id);
 }
 
 static void put_test(fw_text *out, const fw_process_calibrated *c) {
@@ -289,6 +358,7 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         fw_text_escaped(out, c->coupon);
         fw_text_add(out, ": ");
         fw_text_escaped(out, c->note);
+        put_warmth(flow, c, out);
         fw_text_add(out, "; ");
         put_test(out, c);
         fw_text_add(out, "\"/>\n");
@@ -322,8 +392,10 @@ fw_status fw_process_calibration_text(const fw_process_flow *flow,
             put_amount(out, q, q->value, q->uncertainty);
             fw_text_printf(out, " (%s)", fw_quantity_value_status_text(q->status));
         }
-        fw_text_printf(out, "\n  %s, %d row%s: %s; ", c->coupon, c->rows, c->rows > 1 ? "s" : "",
+        fw_text_printf(out, "\n  %s, %d row%s: %s", c->coupon, c->rows, c->rows > 1 ? "s" : "",
                        c->note);
+        put_warmth(flow, c, out);
+        fw_text_add(out, "; ");
         put_test(out, c);
         fw_text_add(out, "\n");
     }

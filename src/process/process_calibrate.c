@@ -38,6 +38,16 @@ bool fw_process_coupon_is_looked_at(const fw_process_measurement *row) {
     return kind && !kind->sides_measured && fw_process_coupon_other_side(row);
 }
 
+const char *fw_process_coupon_rate(const fw_process_flow *flow, const fw_process_measurement *row) {
+    const fw_process_coupon *kind = kind_named(row->coupon);
+    const fw_quantity *etched = fw_process_flow_etch(flow).rate;
+    if (kind && kind->rate) return row->feature;
+    if (kind == &fw_process_coupon_release) return "release.R";
+    return (kind == &fw_process_coupon_slots || kind == &fw_process_coupon_ladder) && etched
+               ? etched->id
+               : NULL;
+}
+
 bool fw_process_coupon_of_one_run(const char *coupon) {
     const fw_process_coupon *kind = kind_named(coupon);
     return kind && kind->one_run;
@@ -228,6 +238,12 @@ fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags
     return makes_sense(r, diags) ? FW_OK : FW_INPUT;
 }
 
+void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calibrated *b) {
+    const bool both = a->warmest_K > 0.0 && b->warmest_K > 0.0;
+    a->coldest_K = both ? fmin(a->coldest_K, b->coldest_K) : 0.0;
+    a->warmest_K = both ? fmax(a->warmest_K, b->warmest_K) : 0.0;
+}
+
 /* two coupons of one number: their weighted mean, unless they contradict each other */
 static fw_status join(fw_arena *arena, fw_diags *diags, fw_process_calibrated *list, int *n) {
     for (int i = 0; i < *n; i++)
@@ -246,6 +262,7 @@ static fw_status join(fw_arena *arena, fw_diags *diags, fw_process_calibrated *l
             FW_NEED(a->coupon = fw_arena_printf(arena, "%s, %s", a->coupon, b->coupon));
             FW_NEED(a->note = fw_arena_printf(arena, "%s; and %s", a->note, b->note));
             a->value = f.value[0], a->uncertainty = f.uncertainty[0];
+            fw_process_calibrated_join(a, b);
             a->rows += b->rows;
             a->chi_square += b->chi_square + f.chi_square;
             a->freedom += b->freedom + 1;
@@ -282,6 +299,7 @@ static fw_status fit_all(fw_process_coupon_work *w, const fw_process_measurement
             w->measurement[w->n++] = &measurement[i];
         }
         if (w->n == 0) continue;
+        w->one_run = table[k]->one_run;
         fw_status of_kind = table[k]->fit(w);
         if (of_kind == FW_OK) of_kind = join(w->arena, w->diags, w->out, &w->nout);
         if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
@@ -337,29 +355,28 @@ static void ask_too_good(const fw_process_calibration *calibration, int i, const
                     c->coupon, c->freedom, fw_number_text(p, sizeof p, c->probability, 5));
 }
 
-/* A rate that the law of a step corrects for temperature is of its reference temperature; what the bath was at when the coupon
-   was etched no row says. R(T0 + 1 K)/R(T0) = exp(Ea/(k T0 (T0 + 1))): Ea J, T0 K. Test: test_calibrate.c, rates_of_a_temperature. */
+/* A rate that the law of a step corrects for temperature is of its reference temperature, and what the bath was at when the
+   coupon was etched not every reading says. Test: test_calibrate.c, rates_of_a_temperature. */
 static void ask_temperature(const fw_process_flow *flow, const fw_process_calibrated *c,
                             const char *file, fw_diags *diags) {
-    for (int i = 0; i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        const fw_quantity *rate = fw_process_step_argument(s, "rate"),
-                          *Ea = fw_process_step_argument(s, "activation_energy"),
-                          *T0 = fw_process_step_argument(s, "reference_temperature"),
-                          *T = fw_process_step_argument(s, "temperature");
-        if (!rate || strcmp(rate->id, c->id) != 0 || !Ea || Ea->unknown || !T0 || T0->unknown || !T)
-            continue;
-        char at[32], more[32];
-        const double kelvin = exp(Ea->value / FW_BOLTZMANN_J_PER_K / T0->value / (T0->value + 1.0));
-        fw_diag_warning(
-            diags, 668, (fw_place){.file = file},
-            "%s is written as the rate at %s = %s %s, and plans correct it from there to %s: where "
-            "the bath was at another temperature when %s was etched (a kelvin more makes it %s "
-            "times as fast), write that one as %s into the laboratory pack, beside %s",
-            c->id, T0->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(T0), 4), T0->unit,
-            T->id, c->coupon, fw_number_text(more, sizeof more, kelvin, 4), T0->id, c->id);
-        return;
-    }
+    const fw_process_step *s = fw_process_flow_warms(flow, c->id);
+    fw_process_coupon_work *w = s ? fw_arena_one(diags->arena, fw_process_coupon_work) : NULL;
+    double kelvin;
+    char at[32], more[32];
+    if (!w || c->warmest_K > 0.0) return;
+    const fw_quantity *T0 = fw_process_step_argument(s, "reference_temperature"),
+                      *T = fw_process_step_argument(s, "temperature");
+    *w = (fw_process_coupon_work){.arena = diags->arena, .flow = flow, .diags = diags};
+    if (fw_process_step_warmth(w, s, T0->value + 1.0, &kelvin) != FW_OK) return;
+    fw_diag_warning(
+        diags, 668, (fw_place){.file = file},
+        "%s is written as the rate at %s = %s %s, and plans correct it from there to %s (a kelvin "
+        "more makes it %s times as fast); not every reading of %s says at which temperature it was "
+        "etched. Say so (%s), and it is corrected",
+        c->id, T0->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(T0), 4), T0->unit, T->id,
+        fw_number_text(more, sizeof more, kelvin, 4), c->coupon,
+        c->source ? "set temperature= of the step, or temperature= of the coupon"
+                  : "columns temperature_Cel and u_temperature_K");
 }
 
 /* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
@@ -390,7 +407,7 @@ void fw_process_calibration_ask(const fw_process_flow *flow,
 
 typedef struct source { /* one independent error of the data */
     int row;            /* its measured value, or what it was measured under; -1: of the flow */
-    bool at;
+    bool at, warm;      /* of `at`, or of the temperature, of which one thermometer told all rows */
     const fw_quantity *q;
     double u;
 } source;
@@ -410,6 +427,10 @@ static const double step = 0.1;
 static void shift_row(const problem *p, const source *s, double by, fw_process_measurement *row) {
     const fw_process_coupon *kind = kind_named(p->row[s->row].coupon);
     memcpy(row, p->row, (size_t)p->n * sizeof *row);
+    for (int i = 0; s->warm && i < p->n; i++)
+        if (row[i].temperature_K > 0.0)
+            row[i].temperature_K += by / s->u * row[i].temperature_uncertainty;
+    if (s->warm) return;
     if (!s->at) {
         row[s->row].value += by;
         return;
@@ -455,6 +476,10 @@ static int sources_of(const problem *p, const fw_process_coupon_work *w, const d
         if (shared && r->at_uncertainty > 0.0 && (first || !kind->one_run))
             list[n++] = (source){.row = i, .at = true, .u = r->at_uncertainty};
     }
+    bool warm = false;
+    for (int i = 0; shared && i < p->n; i++)
+        warm = warm || (p->row[i].temperature_K > 0.0 && p->row[i].temperature_uncertainty > 0.0);
+    if (warm) list[n++] = (source){.warm = true, .u = 1.0};
     for (int i = 0; shared && i < w->nused; i++)
         list[n++] = (source){.row = -1, .q = w->used[i], .u = w->used[i]->uncertainty};
     return n;
@@ -492,7 +517,7 @@ fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *f
     FW_NEED(w);
     FW_NEED(w->out = fw_arena_array(arena, fw_process_calibrated, FW_COUPON_RESULTS));
     fw_process_measurement *row = fw_arena_array(arena, fw_process_measurement, (size_t)n);
-    source *list = fw_arena_array(arena, source, (size_t)(2 * n + FW_COUPON_USED));
+    source *list = fw_arena_array(arena, source, (size_t)(2 * n + 1 + FW_COUPON_USED));
     double value[FW_COUPON_RESULTS];
     fw_status status;
     FW_NEED(row ? list : NULL);

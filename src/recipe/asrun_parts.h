@@ -43,6 +43,10 @@ char *fw_recipe_asrun_word(char **at, char separator);
 /* FW-D282 with the names (n) that there are, and the one that was probably meant */
 fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *what,
                                   const char *name, const char *const *known, int n);
+/* asrun_measured.c: the temperature of a rate that was read in this entry and does not say it: what was set of the run that it
+   is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else it stays not said */
+void fw_recipe_asrun_warm(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          fw_process_measurement *row);
 /* the value of a word coupon= */
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
@@ -86,7 +90,7 @@ fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_
                                     fw_place place, fw_diags *diags);
 
 /* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set:
-   asrun_values.c. loads: that may share its time, one after the other; read_s: how far a clock may be off */
+   asrun_measured.c. loads: that may share its time, one after the other; read_s: how far a clock may be off */
 typedef struct fw_recipe_amount_in_time {
     bool fits;                          /* or there is nothing to hold against each other */
     const fw_recipe_measured *measured; /* in the unit of what is accepted */

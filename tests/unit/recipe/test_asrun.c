@@ -497,6 +497,42 @@ static void readings(void **state) {
     assert_near(r.item[2].row.value, 9.55e-6, 1e-18);
 }
 
+/* The bath of a rate: what the coupon says, else what was set of the run that it is of, wherever it was read; not that of
+   another wafer, nor of a run before the last one */
+static void readings_of_warm_baths(void **state) {
+    (void)state;
+    static const char rate[] = "coupon=etch-rate, pan.R, value=0.62 0.61 0.63 um, u=0.01 um, at=5 min";
+    static const char *const etch = "S14; start=2026-11-20T10:00; end=2026-11-20T10:17; by=AB; second=CD; wafer=1";
+    static const char *const later = "S15; start=2026-11-20T11:00; end=2026-11-20T11:07; by=AB; wafer=%d; %s%s";
+    static const struct {
+        const char *etched, *again; /* NULL: not */
+        int wafer;
+        const char *more;
+        double T, u;
+    } of[] = {{"; set temperature=35 Cel", NULL, 1, "", 308.15, 0.288675}, {"; set temperature=35.0 Cel", NULL, 1, "", 308.15, 0.0288675},
+              {"; set temperature=35 Cel", NULL, 2, "", 0, 0},             {"", NULL, 1, "", 0, 0},
+              {"", NULL, 1, ", temperature=30 Cel, u-temperature=0.5 K", 303.15, 0.5},
+              {"; set temperature=35 Cel", "", 1, "", 0, 0},               {"; set temperature=35 Cel", "; set temperature=31 Cel", 1, "", 304.15, 0.288675}};
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_recipe_asrun run;
+        fw_process_readings r;
+        const char *log = with(begun(), fw_arena_printf(arena, "%s%s", etch, of[i].etched), 0);
+        if (of[i].again)
+            log = with(log, fw_arena_printf(arena, "S14; start=2026-11-20T10:30; end=2026-11-20T10:32; by=AB; second=CD; wafer=1%s", of[i].again), 0);
+        log = with(log, fw_arena_printf(arena, later, of[i].wafer, rate, of[i].more), 0);
+        assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+        assert_int_equal(r.n, 1);
+        assert_near(r.item[0].row.temperature_K, of[i].T, 1e-9);
+        assert_near(r.item[0].row.temperature_uncertainty, of[i].u, 1e-6);
+    }
+    with(begun(), fw_arena_printf(arena, "%s; %s, temperature=35 um", etch, rate), 282);
+    with(begun(), fw_arena_printf(arena, "%s; %s, temperature=35 Cel, u-temperature=-1 K", etch, rate), 282);
+}
+
 /* what the plan does not know is refused with what there is */
 static void refused_values(void **state) {
     (void)state;
@@ -1042,6 +1078,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(sites_and_settings, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_values, setup, teardown),
         cmocka_unit_test_setup_teardown(readings, setup, teardown),
+        cmocka_unit_test_setup_teardown(readings_of_warm_baths, setup, teardown),
         cmocka_unit_test_setup_teardown(wafer_lists, setup, teardown),
         cmocka_unit_test_setup_teardown(anything_typed, setup, teardown),
         cmocka_unit_test_setup_teardown(wafers_are_no_repetitions, setup, teardown),
