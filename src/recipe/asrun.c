@@ -335,25 +335,6 @@ static bool same_text(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
 }
 
-bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
-        if (later->step == e->step && same_text(later->wafer, e->wafer)) return false;
-    return true;
-}
-
-/* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
-   for them, and (*together) how many share it. */
-double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                             int *together) {
-    *together = 1;
-    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
-    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
-        *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
-                     o->start_s == e->start_s && o->end_s == e->end_s &&
-                     fw_recipe_asrun_is_last(run, o);
-    return (*together + e->step->batch - 1) / e->step->batch;
-}
-
 /* ---- what a wafer waited ---- */
 
 /* of which entry of the step the wafer came to e: the last one, which takes the place of those before; one that was run again

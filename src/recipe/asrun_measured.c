@@ -382,37 +382,6 @@ static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
     return true;
 }
 
-static bool of_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
-    return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
-}
-
-void fw_recipe_asrun_warm(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                          fw_process_measurement *row) {
-    const char *rate = fw_process_coupon_rate(run->flow, row);
-    const fw_recipe_asrun_entry *of =
-        NULL; /* the run; what is read later of it has its start, too */
-    fw_quantity_unit unit;
-    for (int i = 0; rate && i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[i];
-        if (o->step && fw_process_step_warms(o->step, rate) && of_wafer(o, e) &&
-            o->start_s <= e->start_s && (!of || o->start_s > of->start_s))
-            of = o;
-    }
-    for (int i = 0; of && i < run->nentry && !(row->temperature_K > 0.0); i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
-        if (o->step != of->step || !of_wafer(o, of) || o->start_s != of->start_s) continue;
-        for (int k = 0; k < o->nset; k++) {
-            const fw_recipe_set *s = &o->set[k];
-            if (!s->q || isnan(s->value) || s->q != fw_process_step_warms(o->step, rate) ||
-                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
-                continue;
-            row->temperature_K = fw_quantity_unit_to_si(&unit, s->value);
-            row->temperature_uncertainty =
-                s->q->unknown ? fw_process_written_uncertainty(s->text) : s->q->uncertainty;
-        }
-    }
-}
-
 /* Readings of a step that was not run as it is meant to be speak of that run. They count, since nobody else knows whether
    what they tell depends on it. Times are not looked at: they are planned for a device, and this is of its log alone */
 static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e, fw_diags *diags) {
@@ -562,9 +531,30 @@ static fw_status amount_in(timing *t, double time_s, double *amount_m) {
     return FW_OK;
 }
 
-fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun_entry *e,
-                                         double loads, double read_s,
-                                         fw_recipe_amount_in_time *out) {
+/* The runs that e goes on from, in the time that they would have taken at what is set in e: t_o T_e/T_o, T the time of the
+   law for the amount that was measured; *n how many. NaN: one of them had no such time */
+static fw_status earlier(fw_arena *arena, const fw_recipe_asrun *run,
+                         const fw_recipe_asrun_entry *e, const fw_process_argument *amount,
+                         double measured, double time_s, int *n, double *earlier_s) {
+    *n = 0, *earlier_s = 0.0;
+    for (const fw_recipe_asrun_entry *o = fw_recipe_asrun_goes_on_from(run, e); o;
+         o = fw_recipe_asrun_goes_on_from(run, o), ++*n) {
+        timing t;
+        fw_process_law_answer answer = {0};
+        int together;
+        const bool known = as_run(arena, o, amount, &t);
+        if (known) FW_TRY(time_for(&t, measured, &answer));
+        *earlier_s += answer.computable && answer.value > 0
+                          ? (o->end_s - o->start_s) / fw_recipe_asrun_loads(run, o, &together) *
+                                time_s / answer.value
+                          : (double)NAN;
+    }
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                         const fw_recipe_asrun_entry *e, double loads,
+                                         double read_s, fw_recipe_amount_in_time *out) {
     const fw_process_step *s = e->step;
     timing t;
     fw_process_law_answer answer;
@@ -576,8 +566,16 @@ fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun_
     FW_TRY(time_for(&t, measured, &answer));
     if (!answer.computable || !(answer.value > 0)) return FW_OK;
     /* handling, pauses and what is finished at the machine may be in it or not */
-    const double more = s->booked_stop_s - s->time.stop_s,
-                 off = s->k * answer.uncertainty / answer.value, actual_s = e->end_s - e->start_s;
+    int before;
+    double earlier_s;
+    FW_TRY(earlier(arena, run, e, amount, measured, answer.value, &before, &earlier_s));
+    if (isnan(earlier_s)) return FW_OK;
+    const double handling = s->finish_s + s->booked_stop_s - s->booked_stop_own_s,
+                 more = s->booked_stop_s - s->time.stop_s + before * handling,
+                 off = s->k * answer.uncertainty / answer.value,
+                 actual_s = e->end_s - e->start_s + loads * earlier_s;
+    read_s *= before + 1;
+    out->took_s = actual_s;
     const bool brief = actual_s + read_s < answer.value * (1.0 - off);
     const double longest = answer.value * (1.0 + off) * (1.0 + s->overrun) + more;
     if (!brief && actual_s - read_s <= loads * longest) return FW_OK;

@@ -390,6 +390,9 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_text(out, "start", e->start);
     put_text(out, "end", e->end);
     put_number(out, "actual_s", e->end_s - e->start_s);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    if (runs.n > 1) fw_json_whole(out, "runs", runs.n);
+    if (runs.n > 1) put_number(out, "runs_s", runs.time_s);
     put_text(out, "judged", fw_recipe_asrun_in_time(run, e));
     put_text(out, "by", e->by);
     put_text(out, "second", e->second);
@@ -567,6 +570,9 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
     fw_json_whole(out, "outside", t.out);
     put_number(out, "at_machine_s", t.planned_s);
     put_number(out, "actual_s", t.actual_s);
+    put_number(out, "earlier_runs_s", t.earlier_s);
+    fw_json_whole(out, "unplanned", t.unplanned);
+    put_number(out, "unplanned_s", t.unplanned_s);
     FW_TRY(deviations_json(flow, run, out, text->arena));
     read_again_json(run, out);
     fw_recipe_asrun_declared_json(run, out);

@@ -292,6 +292,39 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
     return fw_process_measurement_check(&c->row, r->diags);
 }
 
+/* ---- the bath of a coupon ---- */
+
+static bool of_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
+}
+
+void fw_recipe_asrun_warm(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          fw_process_measurement *row) {
+    const char *rate = fw_process_coupon_rate(run->flow, row);
+    const fw_recipe_asrun_entry *of =
+        NULL; /* the run; what is read later of it has its start, too */
+    fw_quantity_unit unit;
+    for (int i = 0; rate && i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[i];
+        if (o->step && fw_process_step_warms(o->step, rate) && of_wafer(o, e) &&
+            o->start_s <= e->start_s && (!of || o->start_s > of->start_s))
+            of = o;
+    }
+    for (int i = 0; of && i < run->nentry && !(row->temperature_K > 0.0); i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
+        if (o->step != of->step || !of_wafer(o, of) || o->start_s != of->start_s) continue;
+        for (int k = 0; k < o->nset; k++) {
+            const fw_recipe_set *s = &o->set[k];
+            if (!s->q || isnan(s->value) || s->q != fw_process_step_warms(o->step, rate) ||
+                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
+                continue;
+            row->temperature_K = fw_quantity_unit_to_si(&unit, s->value);
+            row->temperature_uncertainty =
+                s->q->unknown ? fw_process_written_uncertainty(s->text) : s->q->uncertainty;
+        }
+    }
+}
+
 /* ---- limits ---- */
 
 double fw_recipe_asrun_limit(const char *text, double absent) {
@@ -346,4 +379,86 @@ int fw_recipe_asrun_count(const fw_process_flow *flow, const fw_recipe_asrun *ru
         n += before ? out->fate == fate : fate == FW_FATE_RUN;
     }
     return n;
+}
+
+/* ---- runs of one step on one wafer ---- */
+
+/* by an entry of the same run, or by one that was made later and begins earlier, which takes its place (decision 159) */
+static bool is_replaced(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o) {
+    for (const fw_recipe_asrun_entry *by = o + 1; by < run->entry + run->nentry; by++)
+        if (by->step == o->step && fw_text_same(by->wafer, o->wafer) &&
+            (by->start_s <= o->start_s || by->start_s < o->end_s))
+            return true;
+    return false;
+}
+
+bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && fw_text_same(later->wafer, e->wafer)) return false;
+    return true;
+}
+
+/* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
+   for them, and (*together) how many share it. */
+double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             int *together) {
+    *together = 1;
+    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
+                     o->start_s == e->start_s && o->end_s == e->end_s && !is_replaced(run, o);
+    return (*together + e->step->batch - 1) / e->step->batch;
+}
+
+/* what e's wafer has been through, too: an entry of the same wafer, or one of the whole lot */
+static bool of_its_wafer(const fw_recipe_asrun_entry *o, const fw_recipe_asrun_entry *e) {
+    return !o->wafer || (e->wafer && strcmp(o->wafer, e->wafer) == 0);
+}
+
+const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *run,
+                                                        const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *before = NULL;
+    for (const fw_recipe_asrun_entry *o = run->entry; e->step && o < e; o++)
+        if (o->step == e->step && of_its_wafer(o, e) && o->end_s <= e->start_s &&
+            (!before || o->start_s > before->start_s) && !is_replaced(run, o))
+            before = o;
+    return before;
+}
+
+/* Does step x make or take away what step s works on, so that s begins anew? What s removes or prints is put there, or what
+   it adds is removed. What changes nothing itself, as a bake, begins anew after whatever changes the wafer. */
+static bool renews(const fw_process_step *x, const fw_process_step *s) {
+    bool anew = s->nchange == 0 && x->nchange > 0 && x < s;
+    for (int i = 0; i < s->nchange; i++)
+        for (int k = 0; k < x->nchange; k++) {
+            const bool adds = strcmp(s->change[i].kind, "add") == 0,
+                       takes = strcmp(x->change[k].kind, "remove") == 0,
+                       puts = strcmp(x->change[k].kind, "add") == 0;
+            anew = anew || (strcmp(s->change[i].material, x->change[k].material) == 0 &&
+                            (adds ? takes : puts));
+        }
+    return anew;
+}
+
+const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun *run,
+                                                          const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *from =
+        e->step && fw_process_step_adds_up(e->step) ? fw_recipe_asrun_run_before(run, e) : NULL;
+    for (int i = 0; from && i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *x = &run->entry[i];
+        if (x->step && x->step != e->step && of_its_wafer(x, e) && x->start_s >= from->start_s &&
+            x->start_s < e->start_s && renews(x->step, e->step))
+            return NULL;
+    }
+    return from;
+}
+
+fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    fw_recipe_runs all = {0};
+    for (; e; e = fw_recipe_asrun_goes_on_from(run, e)) {
+        int together;
+        all.n++;
+        all.time_s += (e->end_s - e->start_s) / fw_recipe_asrun_loads(run, e, &together);
+    }
+    return all;
 }

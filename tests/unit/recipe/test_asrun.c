@@ -104,27 +104,33 @@ static void what_was_put_right_stands(void **state) {
 static void a_thickness_goes_with_its_time(void **state) {
     (void)state;
     static const struct {
-        const char *words, *told;
+        const char *words, *told, *before;
     } entry[] = {
         {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1",
          "step C22: thickness = 9.1 um does not go with the time that it took: that makes 18 um (16.6 to 19.3 um), by t = d rho P n "
-         "F/(eta J M) in 42 min"},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1", NULL},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; thickness=9.1", "that makes 2.14 um"},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1; set current density=10 mA/cm2", NULL},
+         "F/(eta J M) in 42 min", NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1", NULL, NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; thickness=9.1", "that makes 2.14 um", NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1; set current density=10 mA/cm2", NULL, NULL},
         {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1; set current density=10 mA/cm2",
-         "that makes 4.71 um"},
-        {"C13; start=2026-11-20T10:00; end=2026-11-20T10:01; by=AB; resist height=20 um", NULL},
+         "that makes 4.71 um", NULL},
+        {"C13; start=2026-11-20T10:00; end=2026-11-20T10:01; by=AB; resist height=20 um", NULL, NULL},
+        /* the missing charge: both runs make it, each at its own current; resist that was stripped in between begins anew */
+        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", NULL, "C22; start=2026-11-20T10:00; end=2026-11-20T10:11; by=AB"},
+        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", NULL,
+         "C22; start=2026-11-20T09:50; end=2026-11-20T10:12; by=AB; set current density=10 mA/cm2"},
+        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", "that makes ", "C22; start=2026-11-20T09:28; end=2026-11-20T09:50; by=AB"},
     };
     for (size_t i = 0; i < sizeof entry / sizeof entry[0]; i++) {
         fw_recipe_asrun run;
         fw_recipe_deviation *list;
         bool told = false, listed = false;
         int n;
-        const char *log = with(begun(), entry[i].words, 0);
+        const char *log = entry[i].before ? with(begun(), entry[i].before, 0) : begun();
+        log = with(log, entry[i].words, 0);
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         assert_int_equal(
-            fw_recipe_asrun_ask_time(arena, &run, &run.entry[0], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+            fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
         for (size_t k = 0; k < diags.count; k++) {
             if (diags.item[k].number != 654) continue;
             told = true;
@@ -905,6 +911,82 @@ static void an_entry_is_made_once(void **state) {
     }
 }
 
+/* An etch of two runs is one longer etch: judged by the sum, with the rinse of each where that is in question; what was made anew
+   in between begins anew, a run put right by a later line is one, a bake whose time is stated does not add up, and another
+   wafer's has no part in it. A run that is gone on with is not short. */
+static void runs_add_up(void **state) {
+    (void)state;
+#define E(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
+    static const struct {
+        const char *entry[4];
+        int n, asked; /* FW-D680 */
+        const char *judged, *table; /* of the last */
+        int out;
+    } log[] = {
+        {{E("S14", "10:00", "10:10", "1"), E("S14", "10:20", "10:27", "1")}, 2, 0, "in window", "adds up to 17 min in 2 runs\n", 0},
+        {{E("S14", "10:00", "10:05", "1"), E("S14", "10:20", "10:24", "1")}, 2, 0, "short", "adds up to 9 min in 2 runs", 1},
+        {{E("S14", "10:00", "10:16", "1"), E("S14", "10:20", "10:35", "1")}, 2, 1, "in window", "adds up to 31 min in 2 runs, and one run is to stop by 27 min 7 s", 0},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:30", "10:43", "1")}, 2, 0, "long", "adds up to 33 min in 2 runs", 1},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:30", "10:50", "2")}, 2, 0, "in window", NULL, 0},
+        {{E("S03", "08:00", "08:25", "1"), E("S14", "10:00", "10:20", "1"), E("S03", "12:00", "12:25", "1"), E("S14", "13:00", "13:20", "1")}, 4, 0, "in window", NULL, 0},
+        {{E("S07", "08:00", "08:03", "1"), E("S14", "10:00", "10:20", "1"), E("S07", "12:00", "12:03", "1"), E("S14", "13:00", "13:20", "1")}, 4, 0, "long", "adds up to 40 min in 2 runs", 1},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:00", "10:19", "1")}, 2, 0, "in window", NULL, 0},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "09:00", "09:20", "1")}, 2, 0, "in window", NULL, 0},
+        {{E("S06", "10:00", "10:20", "1"), E("S06", "10:30", "10:50", "1")}, 2, 0, "in window", NULL, 0},
+        {{E("S08", "10:00", "10:02", "1"), E("S08", "10:30", "10:32", "1")}, 2, 0, "long", "adds up to 4 min in 2 runs", 1},
+        {{E("S07", "09:50", "09:52", "1"), E("S08", "10:00", "10:02", "1"), E("S07", "10:10", "10:12", "1"), E("S08", "10:30", "10:32", "1")}, 4, 0, "in window", NULL, 0},
+        {{E("S18", "10:00", "10:40", "1"), E("S18", "10:50", "11:30", "1"), E("S18", "11:40", "12:10", "1")}, 3, 0, "in window", "adds up to 110 min in 3 runs", 0},
+    };
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
+        fw_recipe_asrun run;
+        fw_recipe_asrun_total total;
+        fw_text table = fw_text_new(arena), json = fw_text_new(arena);
+        const char *text = begun();
+        int asked = 0;
+        for (int k = 0; k < log[i].n; k++)
+            text = with(text, log[i].entry[k], 0);
+        assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+        const fw_recipe_asrun_entry *last = &run.entry[run.nentry - 1];
+        if (strcmp(fw_recipe_asrun_in_time(&run, last), log[i].judged) != 0) print_message("log %zu\n", i);
+        assert_string_equal(fw_recipe_asrun_in_time(&run, last), log[i].judged);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, last, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            asked += diags.item[k].number == 680;
+        assert_int_equal(asked, log[i].asked);
+        assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
+        assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+        if (log[i].table && !holds(&table, log[i].table)) print_message("log %zu\n%s\n", i, table.data);
+        assert_true(log[i].table ? holds(&table, log[i].table) : !holds(&table, "adds up"));
+        assert_true(holds(&json, "\"runs\":") == (log[i].table != NULL));
+        assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+        if (total.out != log[i].out) print_message("log %zu\n%s\n", i, table.data);
+        assert_int_equal(total.out, log[i].out);
+        if (holds(&table, "out of limits in runs that were repeated")) print_message("log %zu\n%s\n", i, strstr(table.data, "steps run"));
+        assert_false(holds(&table, "out of limits in runs that were repeated"));
+    }
+    /* planned and actual are of the same steps: those with a planned time; the others are told beside them */
+    static const char *const both[] = {E("S01", "08:00", "08:08", "1"), E("S03", "09:00", "09:30", "1"), E("S14", "10:00", "10:10", "1"), E("S14", "10:20", "10:27", "1")};
+    fw_recipe_asrun run;
+    fw_recipe_asrun_total total;
+    fw_text table = fw_text_new(arena);
+    const char *text = begun();
+    for (int k = 0; k < 4; k++)
+        text = with(text, both[k], 0);
+    assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+    assert_near(total.actual_s, 60.0 * (8 + 10 + 7), 1e-9);
+    assert_near(total.earlier_s, 600.0, 1e-9);
+    assert_near(total.unplanned_s, 1800.0, 1e-9);
+    assert_int_equal(total.unplanned, 1);
+    assert_near(total.planned_s, step_of(flow, "S01")->booked_s + step_of(flow, "S14")->booked_s, 1e-9);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
+    assert_true(holds(&table, "for those that have a planned time, actual 25 min, of which 10 min in earlier runs; 1 without a planned time took 30 min"));
+#undef E
+}
+
 /* what calibrate could make nothing of is not written */
 static void coupons_of_other_flows(void **state) {
     (void)state;
@@ -1064,6 +1146,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(heads, setup, teardown),
         cmocka_unit_test_setup_teardown(what_is_written_is_read, setup, teardown),
         cmocka_unit_test_setup_teardown(a_wafer_is_in_one_place, setup, teardown),
+        cmocka_unit_test_setup_teardown(runs_add_up, setup, teardown),
         cmocka_unit_test_setup_teardown(what_was_put_right_stands, setup, teardown),
         cmocka_unit_test_setup_teardown(dates, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_entries, setup, teardown),
