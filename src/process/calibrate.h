@@ -13,6 +13,7 @@ typedef struct fw_process_measurement { /* one row of the table; SI */
     fw_quantity_dimension dimension, at_dimension;
     fw_place place;
     double temperature_K, temperature_uncertainty; /* of the bath that etched it; 0: not said */
+    bool once; /* another row reads the very same, and stands for it */
 } fw_process_measurement;
 
 typedef struct fw_process_calibrated {

@@ -113,6 +113,8 @@ fw_status fw_process_coupon_warmed(fw_process_coupon_work *work, const char *id,
 /* how many times as fast a rate is at T as at the reference temperature of the step that warms it */
 fw_status fw_process_step_warmth(fw_process_coupon_work *work, const fw_process_step *step,
                                  double T_K, double *factor);
+/* the kind of that name; NULL: none */
+const fw_process_coupon *fw_process_coupon_kind(const char *name);
 /* says of a what both say of the temperatures that they were measured at: process_calibrate.c */
 void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calibrated *b);
 /* the first step of the flow that warms the rate; NULL: none does */
