@@ -390,6 +390,13 @@ static void wait_since(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     wait->fine = !(wait->waited_s < wait->min_s) && !(wait->waited_s > wait->max_s);
 }
 
+/* An earlier run of e's step ended the wait already: it is that one's, and e goes on from there */
+static bool is_over(const fw_recipe_asrun *run, const fw_recipe_wait *wait,
+                    const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *before = wait->from ? fw_recipe_asrun_run_before(run, e) : NULL;
+    return before && before->start_s >= wait->from->end_s;
+}
+
 /* A chamber is seasoned for the wafer that comes first: another one was in it before e */
 static bool is_later_one(const fw_recipe_asrun *run, const fw_recipe_wait *wait,
                          const fw_recipe_asrun_entry *e) {
@@ -406,18 +413,30 @@ static bool wait_in_state(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
     if (&run->flow->step[w->to] != e->step) return false;
     *wait = (fw_recipe_wait){.since = run->flow->step[w->from].id, .is = w->is, .max_s = w->max_s};
     wait_since(run, e, wait);
-    return !w->first_only || !is_later_one(run, wait, e);
+    return !is_over(run, wait, e) && (!w->first_only || !is_later_one(run, wait, e));
+}
+
+bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 const fw_recipe_wait *wait) {
+    bool again = false;
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && fw_recipe_asrun_run_before(run, later) == e) {
+            if (came_from(run, wait->since, later) == wait->from) return true;
+            again = true;
+        }
+    return !again && fw_recipe_asrun_is_last(run, e);
 }
 
 bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
                           fw_recipe_wait *wait) {
-    const int nlag = e->step->nlag, nwait = run->flow->nwait, k = *i;
-    if ((*i)++ < nlag) {
+    const int nlag = e->step->nlag, nwait = run->flow->nwait;
+    int k;
+    while ((k = (*i)++) < nlag) {
         const fw_process_lag *lag = &e->step->lag[k];
         *wait = (fw_recipe_wait){
             .since = lag->from, .min_s = isnan(lag->min_s) ? 0.0 : lag->min_s, .max_s = lag->max_s};
         wait_since(run, e, wait);
-        return true;
+        if (!is_over(run, wait, e)) return true;
     }
     for (int n = k - nlag; n < nwait; n++, (*i)++)
         if (wait_in_state(run, e, &run->flow->wait[n], wait)) return true;

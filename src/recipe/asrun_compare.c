@@ -293,9 +293,11 @@ static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
 }
 
 static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const bool repeated = b->repeated; /* no other run puts right what the wafer waited before */
     int i = 0;
     for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &i, &wait);) {
         if (wait.fine) continue;
+        b->repeated = repeated && !fw_recipe_asrun_wait_stands(run, e, &wait);
         fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
         fw_recipe_put_wait_limits(&planned, &wait);
         if (wait.waited_s < 0.0)
@@ -391,6 +393,21 @@ static void put_setting(fw_text *out, const fw_recipe_set *s) {
     fw_text_add(out, "\n");
 }
 
+/* before the first run of e's wafer that it came to from there */
+static void put_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
+    for (const fw_recipe_asrun_entry *o = e; o; o = fw_recipe_asrun_run_before(run, o)) {
+        int next = 0;
+        for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, o, &next, &wait);) {
+            if (wait.fine || (o != e && !fw_recipe_asrun_wait_stands(run, o, &wait))) continue;
+            fw_text_add(out, "      ");
+            fw_recipe_put_waited(out, &wait);
+            fw_text_add(out, ": OUT of ");
+            fw_recipe_put_wait_limits(out, &wait);
+            fw_text_add(out, "\n");
+        }
+    }
+}
+
 static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
     for (int i = 0; i < e->nmeasured; i++)
         put_measured(out, e, &e->measured[i]);
@@ -398,15 +415,7 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
         put_setting(out, &e->set[i]);
     for (int i = 0; i < e->ncoupon; i++)
         fw_text_printf(out, "      coupon %s\n", e->coupon[i].text);
-    int next = 0;
-    for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &next, &wait);) {
-        if (wait.fine) continue;
-        fw_text_add(out, "      ");
-        fw_recipe_put_waited(out, &wait);
-        fw_text_add(out, ": OUT of ");
-        fw_recipe_put_wait_limits(out, &wait);
-        fw_text_add(out, "\n");
-    }
+    put_waits(run, e, out);
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     if (runs.n > 1) {
         const double stop = stop_by_s(run, e, &runs, NULL);

@@ -463,7 +463,7 @@ void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait) {
     fw_text_add(out, early ? "began " : "waited ");
     fw_schedule_put_duration(out, fabs(wait->waited_s));
     fw_text_printf(out, early ? " before %s ended" : " since %s", wait->since);
-    if (wait->is && !early) fw_text_printf(out, ", %s,", wait->is);
+    if (wait->is && !early) fw_text_printf(out, ", %s", wait->is);
 }
 
 /* ---- what somebody wrote down as a deviation, of every entry, in the order of the log ---- */

@@ -96,7 +96,10 @@ typedef struct fw_recipe_wait {
    ends, and of the step before it where that is below 0. false: there is none */
 bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
                           fw_recipe_wait *wait);
-/* asrun_entry.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water," or "began 5 min
+/* does it stand, of a run that others follow on: did the wafer come to the next one from the same? */
+bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 const fw_recipe_wait *wait);
+/* asrun_entry.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water" or "began 5 min
    before C20 ended" */
 void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait);
 void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);

@@ -366,21 +366,26 @@ static void settings_json(const fw_recipe_asrun_entry *e, fw_json *out) {
     fw_json_end(out);
 }
 
+static void wait_json(const fw_recipe_wait *wait, fw_json *out) {
+    fw_json_object(out, NULL);
+    fw_json_text(out, "from", wait->since);
+    put_text(out, "is", wait->is);
+    put_number(out, "waited_s", wait->waited_s);
+    put_number(out, "min_s", wait->min_s);
+    put_number(out, "max_s", wait->max_s);
+    if (isnan(wait->waited_s))
+        fw_json_null(out, "accepted");
+    else
+        fw_json_truth(out, "accepted", wait->fine);
+    fw_json_end(out);
+}
+
 static void waited_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_json *out) {
     fw_json_list(out, "waited");
-    int i = 0;
-    for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &i, &wait);) {
-        fw_json_object(out, NULL);
-        fw_json_text(out, "from", wait.since);
-        put_text(out, "is", wait.is);
-        put_number(out, "waited_s", wait.waited_s);
-        put_number(out, "min_s", wait.min_s);
-        put_number(out, "max_s", wait.max_s);
-        if (isnan(wait.waited_s))
-            fw_json_null(out, "accepted");
-        else
-            fw_json_truth(out, "accepted", wait.fine);
-        fw_json_end(out);
+    for (const fw_recipe_asrun_entry *o = e; o; o = fw_recipe_asrun_run_before(run, o)) {
+        int i = 0;
+        for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, o, &i, &wait);)
+            if (o == e || fw_recipe_asrun_wait_stands(run, o, &wait)) wait_json(&wait, out);
     }
     fw_json_end(out);
 }

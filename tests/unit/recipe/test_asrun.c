@@ -864,6 +864,12 @@ static void waits_are_not_below_nothing(void **state) {
         {{C("C20", "10:00", "10:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "12:00", "12:09", "1")}, 3, 0, "", NULL},
         {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1")}, 2, 0, "", NULL},
         {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1"), C("C09", "10:20", "10:25", "1")}, 3, 0, "", NULL},
+        /* an interrupted step goes on from its first run: what it waited for was over then, and what that waited for stands */
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C22", "10:45", "10:57", "1")}, 3, 0, "", NULL},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:30", "10:40", "1"), C("C22", "10:45", "10:57", "1")}, 3, 1,
+         "step C22 of wafer 1 waited 21 min since C20, and allowed", "waited 21 min since C20: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C20", "10:40", "10:49", "1"), C("C22", "11:10", "11:22", "1")}, 4, 1,
+         "step C22 of wafer 1 waited 21 min since C20, and allowed", "waited 21 min since C20: OUT"},
         /* the wrong time was put right */
         {{C("C20", "18:00", "18:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "10:00", "10:09", "1")}, 3, 1, "before C20 ended", NULL},
     };
@@ -882,7 +888,16 @@ static void waits_are_not_below_nothing(void **state) {
     fw_recipe_deviation *list;
     fw_text json = fw_text_new(arena), page = fw_text_new(arena);
     int n, waits = 0;
-    const char *early = begun();
+    const char *late = begun(), *early = begun();
+    static const char *const once[] = {"C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; wafer=1",
+                                       "C22; start=2026-11-20T10:30; end=2026-11-20T10:40; by=AB; second=CD; wafer=1",
+                                       "C22; start=2026-11-20T10:45; end=2026-11-20T10:57; by=AB; second=CD; wafer=1"};
+    for (int i = 0; i < 3; i++)
+        late = with(late, once[i], 0);
+    assert_int_equal(read_log(late, strlen(late), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+    assert_int_equal(n, 1); /* which no second run puts right */
+    assert_false(list[0].repeated);
     for (int i = 0; i < 2; i++)
         early = with(early, log[0].entry[i], 0);
     assert_int_equal(read_log(early, strlen(early), &run), FW_OK);
