@@ -188,46 +188,6 @@ bool fw_recipe_asrun_is_log(const char *text, size_t n) {
     return n >= sizeof first_words && strncmp(text, first_words, sizeof first_words - 1) == 0;
 }
 
-static bool plain_id(const char *id, size_t n) {
-    for (size_t i = 0; i < n; i++)
-        if (!strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.", id[i]))
-            return false;
-    return n > 0 && n <= 32;
-}
-
-static const char *counted(fw_arena *arena, int n) {
-    fw_text list = fw_text_new(arena);
-    for (int i = 1; i <= n; i++)
-        fw_text_printf(&list, "%s%d", i > 1 ? "," : "", i);
-    return fw_text_end(&list) == FW_OK ? list.data : NULL;
-}
-
-const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong) {
-    double number;
-    int n = 0;
-    static const char needs[] =
-        "needs how many wafers there are, 1 to 50, or up to 50 ids of letters, digits, -, _ and . "
-        "with commas between";
-    *wrong = NULL;
-    if (!strchr(text, ',') && fw_number_parse(text, strlen(text), &number)) {
-        if (!(number >= 1.0 && number <= FW_RECIPE_WAFERS && number == floor(number))) {
-            *wrong = needs;
-            return NULL;
-        }
-        return counted(arena, (int)number);
-    }
-    for (const char *at = text; !*wrong; n++) {
-        size_t length = strcspn(at, ",");
-        if (!plain_id(at, length) || n == FW_RECIPE_WAFERS) *wrong = needs;
-        for (const char *other = text; other < at && !*wrong; other += strcspn(other, ",") + 1)
-            if (strcspn(other, ",") == length && strncmp(other, at, length) == 0)
-                *wrong = "has a wafer twice";
-        if (!at[length]) break;
-        at += length + 1;
-    }
-    return *wrong ? NULL : fw_arena_strdup(arena, text);
-}
-
 fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
                                 const char *plan_sha256, const char *lot, const char *wafers,
                                 const char **line) {
@@ -390,11 +350,17 @@ static void wait_since(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     wait->fine = !(wait->waited_s < wait->min_s) && !(wait->waited_s > wait->max_s);
 }
 
-/* An earlier run of e's step ended the wait already: it is that one's, and e goes on from there */
-static bool is_over(const fw_recipe_asrun *run, const fw_recipe_wait *wait,
+/* An earlier run of e's step ended the wait already, and is judged by it. From there on the wafer may wait as long again before
+   it goes on; true: it did not wait longer */
+static bool is_over(const fw_recipe_asrun *run, fw_recipe_wait *wait,
                     const fw_recipe_asrun_entry *e) {
     const fw_recipe_asrun_entry *before = wait->from ? fw_recipe_asrun_run_before(run, e) : NULL;
-    return before && before->start_s >= wait->from->end_s;
+    if (!before || before->start_s < wait->from->end_s) return false;
+    wait->since = e->step->id;
+    wait->from = before;
+    wait->min_s = 0.0, wait->waited_s = e->start_s - before->end_s;
+    wait->fine = !(wait->waited_s > wait->max_s);
+    return wait->fine;
 }
 
 /* A chamber is seasoned for the wafer that comes first: another one was in it before e */
@@ -419,6 +385,7 @@ static bool wait_in_state(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
 bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                  const fw_recipe_wait *wait) {
     bool again = false;
+    if (strcmp(wait->since, e->step->id) == 0) return true; /* between two of its runs */
     for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
         if (later->step == e->step && fw_recipe_asrun_run_before(run, later) == e) {
             if (came_from(run, wait->since, later) == wait->from) return true;

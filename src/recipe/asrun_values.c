@@ -135,6 +135,48 @@ double fw_recipe_asrun_mean(const double *site) {
     return sum / n;
 }
 
+/* ---- the wafers of a lot ---- */
+
+static bool plain_id(const char *id, size_t n) {
+    for (size_t i = 0; i < n; i++)
+        if (!strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.", id[i]))
+            return false;
+    return n > 0 && n <= 32;
+}
+
+static const char *counted(fw_arena *arena, int n) {
+    fw_text list = fw_text_new(arena);
+    for (int i = 1; i <= n; i++)
+        fw_text_printf(&list, "%s%d", i > 1 ? "," : "", i);
+    return fw_text_end(&list) == FW_OK ? list.data : NULL;
+}
+
+const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong) {
+    double number;
+    int n = 0;
+    static const char needs[] =
+        "needs how many wafers there are, 1 to 50, or up to 50 ids of letters, digits, -, _ and . "
+        "with commas between";
+    *wrong = NULL;
+    if (!strchr(text, ',') && fw_number_parse(text, strlen(text), &number)) {
+        if (!(number >= 1.0 && number <= FW_RECIPE_WAFERS && number == floor(number))) {
+            *wrong = needs;
+            return NULL;
+        }
+        return counted(arena, (int)number);
+    }
+    for (const char *at = text; !*wrong; n++) {
+        size_t length = strcspn(at, ",");
+        if (!plain_id(at, length) || n == FW_RECIPE_WAFERS) *wrong = needs;
+        for (const char *other = text; other < at && !*wrong; other += strcspn(other, ",") + 1)
+            if (strcspn(other, ",") == length && strncmp(other, at, length) == 0)
+                *wrong = "has a wafer twice";
+        if (!at[length]) break;
+        at += length + 1;
+    }
+    return *wrong ? NULL : fw_arena_strdup(arena, text);
+}
+
 /* ---- coupons: what calibrate reads ---- */
 
 /* a number with its unit, SI */

@@ -865,11 +865,13 @@ static void waits_are_not_below_nothing(void **state) {
         {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1")}, 2, 0, "", NULL},
         {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1"), C("C09", "10:20", "10:25", "1")}, 3, 0, "", NULL},
         /* an interrupted step goes on from its first run: what it waited for was over then, and what that waited for stands */
-        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C22", "10:45", "10:57", "1")}, 3, 0, "", NULL},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C22", "10:35", "10:47", "1")}, 3, 0, "", NULL},
         {{C("C20", "10:00", "10:09", "1"), C("C22", "10:30", "10:40", "1"), C("C22", "10:45", "10:57", "1")}, 3, 1,
          "step C22 of wafer 1 waited 21 min since C20, and allowed", "waited 21 min since C20: OUT"},
         {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C20", "10:40", "10:49", "1"), C("C22", "11:10", "11:22", "1")}, 4, 1,
          "step C22 of wafer 1 waited 21 min since C20, and allowed", "waited 21 min since C20: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C22", "10:45", "10:50", "1"), C("C22", "10:55", "11:01", "1")}, 4, 1,
+         "step C22 of wafer 1 waited 23 min since C22, and allowed is 0 s to 15 min", "waited 23 min since C22: OUT"},
         /* the wrong time was put right */
         {{C("C20", "18:00", "18:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "10:00", "10:09", "1")}, 3, 1, "before C20 ended", NULL},
     };
