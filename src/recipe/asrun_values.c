@@ -460,7 +460,7 @@ static bool of_its_wafer(const fw_recipe_asrun_entry *o, const fw_recipe_asrun_e
 const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *run,
                                                         const fw_recipe_asrun_entry *e) {
     const fw_recipe_asrun_entry *before = NULL;
-    for (const fw_recipe_asrun_entry *o = run->entry; e->step && o < e; o++)
+    for (const fw_recipe_asrun_entry *o = e; e->step && o-- > run->entry;) /* the last ones first */
         if (o->step == e->step && of_its_wafer(o, e) && o->end_s <= e->start_s &&
             (!before || o->start_s > before->start_s) && !is_replaced(run, o))
             before = o;
