@@ -406,19 +406,30 @@ static fw_status first_line(fw_plan *plan, const fw_plan_flow *pf, const char *h
     return fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, wafers, first);
 }
 
-/* an entry of several wafers whose words are wrong is wrong for each of them, and is told once */
-static void tell_once(fw_diags *diags, size_t before, size_t first, fw_place place) {
-    const fw_diag *said = diags->item + before;
-    for (size_t i = first; diags->count == before + 1 && i < before; i++) {
+static bool said_before(const fw_diags *diags, size_t first, size_t n, const fw_diag *said,
+                        fw_place place) {
+    for (size_t i = first; i < n; i++) {
         const fw_diag *old = diags->item + i;
-        if (old->severity != said->severity || old->place.line != place.line ||
-            old->place.file != said->place.file || strcmp(old->message, said->message) != 0)
-            continue;
-        diags->errors -= said->severity == FW_ERROR;
-        diags->unreliable -= said->unreliable;
-        diags->count--;
-        return;
+        if (old->severity == said->severity && old->place.line == place.line &&
+            old->place.file == place.file && strcmp(old->message, said->message) == 0)
+            return true;
     }
+    return false;
+}
+
+/* what is said of an entry of several wafers is said of each of them, and is told once */
+static void tell_once(fw_diags *diags, size_t before, size_t first, fw_place place) {
+    size_t kept = before;
+    for (size_t i = before; i < diags->count; i++) {
+        const fw_diag said = diags->item[i];
+        if (!said_before(diags, first, before, &said, place)) {
+            diags->item[kept++] = said;
+            continue;
+        }
+        diags->errors -= said.severity == FW_ERROR;
+        diags->unreliable -= said.unreliable;
+    }
+    diags->count = kept;
 }
 
 /* All lines behind what the log holds; each is read back behind those before it, as the next command would. The log after
@@ -458,9 +469,12 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     }
     FW_TRY(wrong);
     /* once all are there: wafers of one load share its time */
-    for (int i = 0; i < list.n; i++)
+    for (int i = 0; i < list.n; i++) {
+        const size_t before = plan->diags.count;
         FW_TRY(fw_recipe_asrun_ask_time(plan->arena, run, &run->entry[run->nentry - list.n + i],
                                         list.place[i], &plan->diags));
+        tell_once(&plan->diags, before, first, list.place[i]);
+    }
     return fw_text_end(added);
 }
 

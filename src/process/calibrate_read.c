@@ -1,16 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A laboratory's calibration: the table of measurements is read, and what follows from it is
    written as a pack. */
+#include "base/constants.h"
 #include "process/calibrate.h"
+#include "process/coupon.h"
+#include "process/pack.h"
 #include <math.h>
 #include <string.h>
 
 /* ---- the table of measurements ---- */
 /* The table of measurements: CSV as RFC 4180, without line breaks inside fields. */
 
-enum { COUPON, FEATURE, DRAWN, MEASURED, U, UNIT, AT, U_AT, AT_UNIT, COLUMNS, MOST_ROWS = 5000 };
-static const char *const column[COLUMNS] = {"coupon", "feature", "drawn_um", "measured", "u",
-                                            "unit",   "at",      "u_at",     "at_unit"};
+enum {
+    COUPON,
+    FEATURE,
+    DRAWN,
+    MEASURED,
+    U,
+    UNIT,
+    AT,
+    U_AT,
+    AT_UNIT,
+    WARM,
+    U_WARM,
+    COLUMNS,
+    MOST_ROWS = 5000
+};
+static const char *const column[COLUMNS] = {
+    "coupon", "feature", "drawn_um",        "measured",       "u", "unit", "at",
+    "u_at",   "at_unit", "temperature_Cel", "u_temperature_K"};
 
 typedef struct table {
     fw_arena *arena;
@@ -69,7 +87,8 @@ static fw_status header(table *t, const char *line) {
         else
             status = fw_diag_error(t->diags, 211, t->place,
                                    "unknown column '%s'; the header is coupon,feature,drawn_um,"
-                                   "measured,u,unit,at,u_at,at_unit",
+                                   "measured,u,unit,at,u_at,at_unit and, where it is known, "
+                                   "temperature_Cel,u_temperature_K",
                                    name[i]);
     }
     for (int k = 0; k <= UNIT; k++)
@@ -115,6 +134,35 @@ static bool amount(table *t, const char *const *cell, int value_at, double *valu
     return true;
 }
 
+double fw_process_written_uncertainty(const char *number) {
+    const char *mantissa = number + strspn(number, " +-"), *point = strchr(mantissa, '.');
+    const char *e = strpbrk(mantissa, "eE");
+    double power = 0.0;
+    if (e)
+        fw_number_parse(e + 1 + (e[1] == '+'), strspn(e + 1 + (e[1] == '+'), "-0123456789"),
+                        &power);
+    if (point && (!e || point < e)) power -= (double)strspn(point + 1, "0123456789");
+    return pow(10.0, power) / sqrt(12.0);
+}
+
+/* of the bath, in degrees Celsius, and by how much that may be off: as it is written, where nothing is said */
+static bool warmth(table *t, const char *const *cell, fw_process_measurement *r) {
+    double T, u;
+    if (!number(t, cell[WARM], WARM, &T) || !number(t, cell[U_WARM], U_WARM, &u)) return false;
+    if (isnan(T)) return true;
+    if (isnan(u)) u = fw_process_written_uncertainty(cell[WARM]);
+    if (!(T > -FW_ICE_POINT_K) || !(u >= 0.0)) {
+        fw_diag_error(t->diags, 211, t->place,
+                      "%s='%s', %s='%s': a temperature above absolute zero is needed, and a "
+                      "standard uncertainty of 0 or more",
+                      column[WARM], cell[WARM], column[U_WARM], cell[U_WARM]);
+        return false;
+    }
+    r->temperature_K = T + FW_ICE_POINT_K;
+    r->temperature_uncertainty = u;
+    return true;
+}
+
 static fw_status one_row(table *t, const char *line, fw_process_measurement *r, bool *good) {
     const char *name[MOST_FIELDS], *cell[COLUMNS];
     int n;
@@ -137,6 +185,7 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
     if (!(counted && !*cell[MEASURED]))
         *good = amount(t, cell, MEASURED, &r->value, &r->uncertainty, &r->dimension) && *good;
     *good = amount(t, cell, AT, &r->at, &r->at_uncertainty, &r->at_dimension) && *good;
+    *good = warmth(t, cell, r) && *good;
     if (*good && !counted && isnan(r->value)) {
         fw_diag_error(t->diags, 211, t->place,
                       "this row lacks measured, u or unit; it needs all three");
@@ -147,6 +196,43 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
 
 static bool blank(const char *line) {
     return line[strspn(line, " \t,")] == '\0' || line[strspn(line, " \t")] == '#';
+}
+
+/* ---- rows that read the very same ---- */
+
+static bool same(double a, double b) {
+    return (isnan(a) && isnan(b)) || fabs(a - b) <= 1e-12 * fabs(a);
+}
+
+/* of one thing, read under the same */
+static bool of_one(const fw_process_measurement *a, const fw_process_measurement *b) {
+    return strcmp(a->coupon, b->coupon) == 0 && strcmp(a->feature, b->feature) == 0 &&
+           same(a->drawn_m, b->drawn_m) && same(a->at, b->at) &&
+           same(a->temperature_K, b->temperature_K);
+}
+
+/* Rows of one thing whose spread is 0: the instrument does not resolve what they scatter by, so that they are off by the same
+   and their mean is known no better than one of them. They count once, as sites of a log do (calibrate_wafers.c). Test:
+   test_calibrate.c, rows_that_read_the_same */
+static void once(fw_process_measurement *row, int *n, fw_diags *diags) {
+    int kept = 0;
+    for (int i = 0; i < *n; i++) {
+        int copies = 0, first = i;
+        bool spread = fw_process_coupon_is_looked_at(&row[i]);
+        for (int k = 0; k < *n; k++)
+            if (of_one(&row[k], &row[i]))
+                spread = spread || !same(row[k].value, row[i].value), copies++,
+                first = k < first ? k : first;
+        row[i].once = !spread && copies > 1 && first < i;
+        if (!spread && copies > 1 && first == i)
+            fw_diag_warning(diags, 681, row[i].place,
+                            "%d rows of %s read the very same: their spread says nothing of how "
+                            "exactly, and they count as one row",
+                            copies, row[i].coupon);
+    }
+    for (int i = 0; i < *n; i++)
+        if (!row[i].once) row[kept++] = row[i];
+    *n = kept;
 }
 
 fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const char *text,
@@ -188,8 +274,93 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
         FW_TRY(one_row(&t, line, &(*measurement)[*nmeasurement], &good));
         *nmeasurement += good;
     }
+    once(*measurement, nmeasurement, diags);
     if (diags->failed) return FW_NOMEM;
     return diags->errors > before ? FW_INPUT : FW_OK;
+}
+
+/* ---- what is asked after ---- */
+
+/* Residuals that agree better than one in a thousand of such tables would, with more than a few of them: the same coupon
+   tells several values, and is named once. Test: test_calibrate.c, too_good */
+static void ask_too_good(const fw_process_calibration *calibration, int i, const char *file,
+                         fw_diags *diags) {
+    static const double most = 0.999;
+    static const int few = 3;
+    const fw_process_calibrated *c = &calibration->item[i];
+    char p[32];
+    if (!(c->probability > most) || c->freedom <= few) return;
+    for (int k = 0; k < i; k++) {
+        const fw_process_calibrated *other = &calibration->item[k];
+        if (strcmp(other->coupon, c->coupon) == 0 && other->chi_square == c->chi_square) return;
+    }
+    fw_diag_warning(diags, 663, (fw_place){.file = file},
+                    "readings of %s agree with their law better than their uncertainties let them: "
+                    "%d degrees of freedom, probability %s of a larger chi square. Readings that "
+                    "were copied, or a u= that is of an error which all of them share, look so",
+                    c->coupon, c->freedom, fw_number_text(p, sizeof p, c->probability, 5));
+}
+
+/* A rate that the law of a step corrects for temperature is of its reference temperature, and what the bath was at when the
+   coupon was etched not every reading says. Test: test_calibrate.c, rates_of_a_temperature. */
+static void ask_temperature(const fw_process_flow *flow, const fw_process_calibrated *c,
+                            const char *file, fw_diags *diags) {
+    const fw_process_step *s = fw_process_flow_warms(flow, c->id);
+    fw_process_coupon_work *w = s ? fw_arena_one(diags->arena, fw_process_coupon_work) : NULL;
+    double kelvin;
+    char at[32], more[32];
+    if (!w || c->warmest_K > 0.0) return;
+    const fw_quantity *T0 = fw_process_step_argument(s, "reference_temperature"),
+                      *T = fw_process_step_argument(s, "temperature");
+    *w = (fw_process_coupon_work){.arena = diags->arena, .flow = flow, .diags = diags};
+    if (fw_process_step_warmth(w, s, T0->value + 1.0, &kelvin) != FW_OK) return;
+    fw_diag_warning(
+        diags, 668, (fw_place){.file = file},
+        "%s is written as the rate at %s = %s %s, and plans correct it from there to %s (a kelvin "
+        "more makes it %s times as fast); not every reading of %s says at which temperature it was "
+        "etched. Say so (%s), and it is corrected",
+        c->id, T0->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(T0), 4), T0->unit, T->id,
+        fw_number_text(more, sizeof more, kelvin, 4), c->coupon,
+        c->source ? "set temperature= of the step, or temperature= of the coupon"
+                  : "columns temperature_Cel and u_temperature_K");
+}
+
+/* Nothing that a laboratory reads is known to one part in a hundred thousand; a spread of 0, or a u= in another unit than its
+   value, says so. Test: test_calibrate.c, rows_that_read_the_same */
+static void ask_too_exact(const fw_process_calibrated *c, const char *file, fw_diags *diags) {
+    static const double least = 1e-5;
+    char parts[32];
+    if (!(c->uncertainty < least * fabs(c->value))) return;
+    fw_diag_warning(
+        diags, 682, (fw_place){.file = file},
+        "%s of %s would be known to one part in %s: no instrument reads so exactly. Give "
+        "what it may be off by as u, in the unit of the value",
+        c->id, c->coupon, fw_number_text(parts, sizeof parts, fabs(c->value) / c->uncertainty, 2));
+}
+
+/* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
+   test_calibrate.c, far_from_the_plan. */
+void fw_process_calibration_ask(const fw_process_flow *flow,
+                                const fw_process_calibration *calibration, const char *file,
+                                fw_diags *diags) {
+    for (int i = 0; i < calibration->count; i++) {
+        const fw_process_calibrated *c = &calibration->item[i];
+        const fw_quantity *old = fw_process_flow_quantity(flow, c->id);
+        char times[32];
+        ask_too_good(calibration, i, file, diags);
+        ask_too_exact(c, file, diags);
+        ask_temperature(flow, c, file, diags);
+        if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
+        double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
+        const fw_process_coupon *kind = fw_process_coupon_kind(c->coupon);
+        if (!(far > 5.0)) continue;
+        fw_diag_warning(diags, 643, (fw_place){.file = file},
+                        "%s lies %s times its uncertainty from what the flow has: before a plan "
+                        "goes by it, look at units, drawn sizes and rows of %s%s%s",
+                        c->id, fw_number_text(times, sizeof times, far, 2), c->coupon,
+                        kind && kind->mistaken ? "; " : "",
+                        kind && kind->mistaken ? kind->mistaken : "");
+    }
 }
 
 /* value and uncertainty in the unit of the flow's own quantity */
@@ -206,6 +377,26 @@ static void attribute(fw_text *out, const char *name, const char *value) {
     fw_text_printf(out, " %s=\"", name);
     fw_text_escaped(out, value);
     fw_text_add(out, "\"");
+}
+
+/* "; etched at 35 Cel, written as at pan.T-reference = 22 Cel (law arrhenius of step S14)"; nothing where it was at that */
+static void put_warmth(const fw_process_flow *flow, const fw_process_calibrated *c, fw_text *out) {
+    static const double same = 1e-3; /* K */
+    const fw_process_step *s = c->warmest_K > 0.0 ? fw_process_flow_warms(flow, c->id) : NULL;
+    const fw_quantity *T0 = s ? fw_process_step_argument(s, "reference_temperature") : NULL;
+    if (!s || (fabs(c->coldest_K - T0->value) < same && fabs(c->warmest_K - T0->value) < same))
+        return;
+    fw_text_add(out, "; etched at ");
+    fw_text_number(out, c->coldest_K - FW_ICE_POINT_K, 4);
+    if (c->warmest_K - c->coldest_K > same) {
+        fw_text_add(out, " to ");
+        fw_text_number(out, c->warmest_K - FW_ICE_POINT_K, 4);
+    }
+    fw_text_add(out, " Cel, corrected to ");
+    fw_text_escaped(out, T0->id ? T0->id : "the reference temperature");
+    fw_text_add(out, " = ");
+    fw_text_number(out, fw_quantity_in_unit(T0), 4);
+    fw_text_printf(out, " %s by the law %s of step %s", T0->unit, s->law, s->id);
 }
 
 static void put_test(fw_text *out, const fw_process_calibrated *c) {
@@ -289,6 +480,7 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         fw_text_escaped(out, c->coupon);
         fw_text_add(out, ": ");
         fw_text_escaped(out, c->note);
+        put_warmth(flow, c, out);
         fw_text_add(out, "; ");
         put_test(out, c);
         fw_text_add(out, "\"/>\n");
@@ -322,8 +514,10 @@ fw_status fw_process_calibration_text(const fw_process_flow *flow,
             put_amount(out, q, q->value, q->uncertainty);
             fw_text_printf(out, " (%s)", fw_quantity_value_status_text(q->status));
         }
-        fw_text_printf(out, "\n  %s, %d row%s: %s; ", c->coupon, c->rows, c->rows > 1 ? "s" : "",
+        fw_text_printf(out, "\n  %s, %d row%s: %s", c->coupon, c->rows, c->rows > 1 ? "s" : "",
                        c->note);
+        put_warmth(flow, c, out);
+        fw_text_add(out, "; ");
         put_test(out, c);
         fw_text_add(out, "\n");
     }

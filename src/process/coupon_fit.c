@@ -163,6 +163,126 @@ fw_status fw_process_coupon_condition(fw_process_coupon_work *w, fw_quantity_dim
     return FW_OK;
 }
 
+/* ---- rates that a step corrects for temperature ---- */
+
+static const char of_rate[] = "rate", of_temperature[] = "temperature",
+                  of_reference[] = "reference_temperature";
+
+/* of what the time is, and what cancels in a ratio of two: neither has a part in what a temperature does */
+static bool cancels(const char *name) {
+    static const char *const none[] = {of_rate, "thickness", "depth"};
+    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
+        if (strcmp(name, none[i]) == 0) return true;
+    return false;
+}
+
+const fw_quantity *fw_process_step_warms(const fw_process_step *s, const char *rate) {
+    const fw_quantity *R = fw_process_step_argument(s, of_rate),
+                      *T = fw_process_step_argument(s, of_temperature);
+    bool known =
+        R && R->id && strcmp(R->id, rate) == 0 && fw_process_step_argument(s, of_reference);
+    for (int i = 0; known && i < s->nargument;
+         i++) /* a correction is made where all of it is known */
+        known = cancels(s->argument[i].name) || s->argument[i].q == T || !s->argument[i].q->unknown;
+    return known ? T : NULL;
+}
+
+const fw_process_step *fw_process_flow_warms(const fw_process_flow *flow, const char *rate) {
+    for (int i = 0; i < flow->nstep; i++)
+        if (fw_process_step_warms(&flow->step[i], rate)) return &flow->step[i];
+    return NULL;
+}
+
+/* s for 1 um at 1 um/s; NaN: the law has no answer there. `moved` is taken with that much more */
+static fw_status time_at(fw_process_coupon_work *w, const fw_process_step *s, double T_K,
+                         const fw_quantity *moved, double by, double *time_s) {
+    fw_process_argument argument[FW_LAW_ARGUMENTS];
+    fw_quantity q[FW_LAW_ARGUMENTS];
+    fw_process_law_answer answer;
+    *time_s = (double)NAN;
+    if (s->nargument > FW_LAW_ARGUMENTS) return FW_OK;
+    for (int i = 0; i < s->nargument; i++) {
+        const char *name = s->argument[i].name;
+        q[i] = *s->argument[i].q;
+        argument[i] = (fw_process_argument){.name = name, .q = &q[i]};
+        if (cancels(name))
+            q[i].value = 1e-6;
+        else if (strcmp(name, of_temperature) == 0)
+            q[i].value = T_K;
+        else if (q[i].id)
+            fw_process_coupon_value(w, q[i].id, &q[i].value, NULL);
+        if (s->argument[i].q == moved) q[i].value += by;
+        q[i].unknown = false, q[i].uncertainty = 0.0;
+    }
+    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
+                                    .shape = s->shape,
+                                    .expression = s->expression,
+                                    .wanted = FW_DIM_TIME,
+                                    .argument = argument,
+                                    .nargument = s->nargument};
+    if (!use.law) return FW_OK;
+    FW_TRY(fw_process_law_evaluate(w->arena, &use, &answer));
+    if (answer.computable && answer.value > 0.0) *time_s = answer.value;
+    return FW_OK;
+}
+
+static fw_status warmth(fw_process_coupon_work *w, const fw_process_step *s, double T_K,
+                        const fw_quantity *moved, double by, double *factor) {
+    const fw_quantity *reference = fw_process_step_argument(s, of_reference);
+    double T0 = reference->value, at, cold;
+    if (reference->id) fw_process_coupon_value(w, reference->id, &T0, NULL);
+    if (reference == moved) T0 += by;
+    FW_TRY(time_at(w, s, T_K, moved, by, &at));
+    FW_TRY(time_at(w, s, T0, moved, by, &cold));
+    *factor = cold / at;
+    return FW_OK;
+}
+
+fw_status fw_process_step_warmth(fw_process_coupon_work *w, const fw_process_step *s, double T_K,
+                                 double *factor) {
+    return warmth(w, s, T_K, NULL, 0.0, factor);
+}
+
+/* relative change of the warmth by one standard uncertainty u of an input of the law, or of T: central over +-0.1 u, as the
+   covariances are (process_calibrate.c), so that what the same input takes back later goes out */
+static fw_status changed(fw_process_coupon_work *w, const fw_process_step *s, double T_K,
+                         const fw_quantity *q, double u, double *change) {
+    static const double part = 0.1;
+    const double of_T = q ? 0.0 : part * u, of_q = q ? part * u : 0.0;
+    double f[2];
+    FW_TRY(warmth(w, s, T_K - of_T, q, -of_q, &f[0]));
+    FW_TRY(warmth(w, s, T_K + of_T, q, of_q, &f[1]));
+    *change = (f[1] - f[0]) / (f[1] + f[0]) / part;
+    return FW_OK;
+}
+
+/* f = t(T0)/t(T) by the step's own law, in which the rate cancels; u(f)/f is the root of the sum of the squares of what each
+   input of the law, and T, changes it by. T K; f 1. Test: test_calibrate.c, of_warm_baths. */
+fw_status fw_process_coupon_warmed(fw_process_coupon_work *w, const char *id,
+                                   const fw_process_measurement *row,
+                                   fw_process_coupon_warmth *out) {
+    const fw_process_step *s = row->temperature_K > 0.0 ? fw_process_flow_warms(w->flow, id) : NULL;
+    double f, change, u;
+    *out = (fw_process_coupon_warmth){.factor = 1.0};
+    if (!s) return FW_OK;
+    FW_TRY(warmth(w, s, row->temperature_K, NULL, 0.0, &f));
+    if (!(f > 0.0))
+        return fw_process_coupon_wrong(w, row, "%s: the law of step %s has no rate at %.4g Cel",
+                                       row->coupon, s->id, row->temperature_K - FW_ICE_POINT_K);
+    FW_TRY(changed(w, s, row->temperature_K, NULL, row->temperature_uncertainty, &change));
+    *out = (fw_process_coupon_warmth){f, fabs(change)};
+    for (int i = 0; i < s->nargument; i++) {
+        const fw_quantity *q = s->argument[i].q;
+        double value;
+        if (cancels(s->argument[i].name) || strcmp(s->argument[i].name, of_temperature) == 0 ||
+            !q->id || !fw_process_coupon_value(w, q->id, &value, &u) || !(u > 0.0))
+            continue;
+        FW_TRY(changed(w, s, row->temperature_K, q, u, &change));
+        out->uncertainty = hypot(out->uncertainty, change);
+    }
+    return FW_OK;
+}
+
 double fw_process_coupon_loss(const fw_process_flow *flow) {
     double loss = 0.0;
     for (int i = 0; i < flow->nstep; i++)
@@ -177,6 +297,21 @@ double fw_process_coupon_loss(const fw_process_flow *flow) {
 
 static const char *number(char text[32], double value, int digits) {
     return fw_number_text(text, 32, value, digits);
+}
+
+/* of the rows that a rate comes of; not where one of them does not say (any one does of those of one run) */
+static void note_temperatures(const fw_process_coupon_work *w, fw_process_calibrated *c) {
+    bool said = fw_process_flow_warms(w->flow, c->id);
+    double low = (double)INFINITY, high = 0.0;
+    for (int i = 0; said && i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
+        if (has(w->flow, r->feature) && strcmp(r->feature, c->id) != 0) continue;
+        said = w->one_run || r->temperature_K > 0.0;
+        if (!(r->temperature_K > 0.0)) continue;
+        low = fmin(low, r->temperature_K);
+        high = fmax(high, r->temperature_K);
+    }
+    if (said && high > 0.0) c->coldest_K = low, c->warmest_K = high;
 }
 
 fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, double value,
@@ -208,6 +343,7 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
                                                 .probability = p,
                                                 .rows = w->n,
                                                 .freedom = fit->freedom};
+    note_temperatures(w, &w->out[w->nout - 1]);
     return FW_OK;
 }
 

@@ -21,10 +21,51 @@ static int collect(const fw_process_coupon_work *w, const char *feature, double 
     return n;
 }
 
+/* The times of these rows as they would have been at the reference temperature, x f. What f may be off by is in proportion
+   in all rows of one temperature, and no scatter; *shared is the least of any row, and what a row has beyond that, which
+   tells it from others, counts as its own: (f x)^2 (u_i^2 - u_least^2). Test: test_calibrate.c, of_warm_baths. */
+static fw_status warm(fw_process_coupon_work *w, const char *feature, double *x, double *sx,
+                      double *shared) {
+    fw_process_coupon_warmth of[FW_COUPON_ROWS];
+    int n = 0;
+    *shared = (double)INFINITY;
+    for (int i = 0; i < w->n; i++) {
+        if (strcmp(w->measurement[i]->feature, feature) != 0) continue;
+        FW_TRY(fw_process_coupon_warmed(w, feature, w->measurement[i], &of[n]));
+        *shared = fmin(*shared, of[n++].uncertainty);
+    }
+    for (int i = 0; i < n; i++) {
+        const double own = sqrt(fmax(of[i].uncertainty * of[i].uncertainty - *shared * *shared, 0));
+        x[i] *= of[i].factor;
+        sx[i] = hypot(sx[i] * of[i].factor, x[i] * own);
+    }
+    return FW_OK;
+}
+
 static bool first_of(const fw_process_coupon_work *w, int i) {
     for (int k = 0; k < i; k++)
         if (strcmp(w->measurement[k]->feature, w->measurement[i]->feature) == 0) return false;
     return true;
+}
+
+/* the time of one run as it would have been at the reference temperature of the rate; any of its rows says which it had */
+static fw_status warm_run(fw_process_coupon_work *w, const char *rate, double *t, double *u_t) {
+    const fw_process_measurement *says = w->measurement[0];
+    fw_process_coupon_warmth of;
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
+        if (!(r->temperature_K > 0.0)) continue;
+        if (says->temperature_K > 0.0 && fabs(r->temperature_K - says->temperature_K) > 1e-6)
+            return fw_process_coupon_wrong(w, r,
+                                           "%s: all rows are of one run, so its temperature is the "
+                                           "same in all",
+                                           r->coupon);
+        says = r;
+    }
+    FW_TRY(fw_process_coupon_warmed(w, rate, says, &of));
+    *u_t = of.factor * hypot(*u_t, *t * of.uncertainty);
+    *t *= of.factor;
+    return FW_OK;
 }
 
 /* Depth or thickness d after a time t, R = d/t through the origin, both with errors. The feature is
@@ -46,8 +87,12 @@ static fw_status rates(fw_process_coupon_work *w) {
                 w, r, "a rate needs its time in the columns at, u_at and at_unit");
         if (!first_of(w, i)) continue;
         double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS];
-        fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, collect(w, r->feature, y, sy, x, sx));
-        FW_TRY(fw_process_coupon_give(w, r->feature, f.value[0], f.uncertainty[0], &f,
+        const int n = collect(w, r->feature, y, sy, x, sx);
+        double shared;
+        FW_TRY(warm(w, r->feature, x, sx, &shared));
+        fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, n);
+        FW_TRY(fw_process_coupon_give(w, r->feature, f.value[0],
+                                      hypot(f.uncertainty[0], f.value[0] * shared), &f,
                                       "depth over time, through the origin"));
     }
     return FW_OK;
@@ -167,6 +212,7 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
             return fw_process_coupon_wrong(w, w->measurement[0],
                                            "the rate of the etch is not known; give the depth in "
                                            "wide openings in the column at");
+        FW_TRY(warm_run(w, etch.rate->id, &E, &u_E));
         u_E = hypot(R * u_E, E * u_R);
         E *= R;
     } else if (!fw_quantity_dimension_equal(w->measurement[0]->at_dimension,
@@ -234,6 +280,7 @@ static fw_status fit_release(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "a plate is held that has a smaller pitch than one that is "
                                        "free; check the rows free and held");
+    FW_TRY(warm_run(w, "release.R", &t, &u_t));
     const double reach = 0.5 * (least + most), u = hypot((most - least) / sqrt(12.0), u_hole);
     const fw_process_fit f = {.value = {reach / t}};
     return fw_process_coupon_give(w, "release.R", reach / t, reach / t * hypot(u / reach, u_t / t),
@@ -312,6 +359,7 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "narrow slots came out deeper than wide ones: that is no "
                                        "lag of this law; check the order of the rows");
+    FW_TRY(warm_run(w, etch.rate->id, &t, &u_t));
     double R = travelled / t, u = hypot(f.uncertainty[0] / t, R * u_t / t);
     const char *note = fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%",
                                        w->n, (int)lround(100.0 * f.correlation));

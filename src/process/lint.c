@@ -415,6 +415,7 @@ static fw_status lint_lasts(fw_arena *arena, fw_process_flow *flow, const fw_pro
 
 static fw_status tell_attended(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
                                int number, double needed_s, fw_diags *diags) {
+    const bool current = fw_process_step_goes_on(s) == FW_GOES_ON_UNDER_CURRENT;
     char is[32], t[32], to[32];
     fw_number_text(is, sizeof is, s->attended_s / 60.0, 4);
     fw_number_text(t, sizeof t, needed_s / 60.0, 4);
@@ -423,9 +424,13 @@ static fw_status tell_attended(fw_arena *arena, fw_process_flow *flow, const fw_
         number == 617
             ? fw_arena_printf(arena,
                               "somebody is at step %s for %s min (attended), but from its first "
-                              "look to its stop time are %s min: nobody sees when it is through. "
-                              "Nearest change: attended=\"%s\", or an etch that is known better",
-                              s->id, is, t, to)
+                              "look to its stop time are %s min: nobody %s. Nearest change: "
+                              "attended=\"%s\", or a time that is known better",
+                              s->id, is, t,
+                              current
+                                  ? "switches the current off when it is through, and it goes on"
+                                  : "sees when it is through",
+                              to)
             : fw_arena_printf(arena,
                               "somebody stands at step %s for %s min (attended), which takes %s "
                               "min at most by its law: more than an hour longer. Nearest change: "
@@ -436,18 +441,20 @@ static fw_status tell_attended(fw_arena *arena, fw_process_flow *flow, const fw_
     return fw_process_flow_add_reason(arena, flow, -1, why);
 }
 
-/* Somebody waits for the end of a wet step that is seen: from the first look to the stop time, if it does not come sooner.
-   Whoever is there for less comes back to what went on alone. A chamber stops by itself, and a solvent takes nothing else,
-   however long. And nobody is there for hours longer than a computed step takes; of stated times that was asked before.
+/* Somebody waits for the end of what goes on until it is ended: of a bath that is seen to be through, of a current that is
+   switched off, from the first look to the stop time. Whoever is there for less comes back to what went on alone. A chamber
+   stops by itself, and a solvent takes nothing else, however long. And nobody is there for hours longer than a computed step takes; of stated times that was asked before.
    Test: test_lint.c, who_is_there. */
 static fw_status lint_watched(fw_arena *arena, fw_process_flow *flow, const fw_process_step *s,
                               fw_diags *diags) {
     const fw_process_law *law = fw_process_law_find(s->law);
     const double window_s = s->time.stop_s - s->time.first_look_s;
     const bool stated = !law || law->stated;
+    const fw_process_goes_on how = fw_process_step_goes_on(s);
     const fw_process_hazard *in = fw_process_step_in_liquid(s) ? fw_process_step_liquid(s) : NULL;
-    const bool seen = in && !fw_process_only_dries(in) && !s->pulse &&
-                      fw_words_hold("develop release strip wet-etch", " ", s->op);
+    const bool acts = how == FW_GOES_ON_UNDER_CURRENT ||
+                      (how == FW_GOES_ON_IN_BATH && in && !fw_process_only_dries(in)),
+               seen = acts && !s->pulse;
     if (!s->time.computable) return FW_OK;
     if (seen && s->attended_s < window_s * (1.0 - 1e-9))
         return tell_attended(arena, flow, s, 617, window_s, diags);

@@ -233,6 +233,13 @@ void fw_process_wafer_pass(const fw_process_flow *flow, int step, fw_process_waf
    replaced */
 fw_status fw_process_flow_waits(fw_arena *arena, fw_process_flow *flow);
 bool fw_process_step_is_op(const fw_process_step *step, const char *op);
+/* what happens to a wafer that is left in the step: step_kinds.def */
+typedef enum fw_process_goes_on {
+    FW_GOES_ON_NOT,
+    FW_GOES_ON_IN_BATH,
+    FW_GOES_ON_UNDER_CURRENT
+} fw_process_goes_on;
+fw_process_goes_on fw_process_step_goes_on(const fw_process_step *step);
 /* the last of its chemicals that wets; NULL: none does */
 const fw_process_hazard *fw_process_step_liquid(const fw_process_step *step);
 /* does the step work in a liquid? */

@@ -249,8 +249,7 @@ typedef struct fw_process_step {
     double attended_s;    /* somebody must be there for this long; 0: unattended */
     double finish_s;      /* of all <finish>es; computed */
     const fw_quantity *pulse, *pause; /* done in parts with pauses between; NULL: at a stretch */
-    const fw_quantity
-        *bears; /* V: it drives the device, with what bears so much; NULL: it does not */
+    const fw_quantity *bears; /* V that it drives the device with; NULL: it does not drive it */
     /* what the machine is taken for: the time of the law with the over-etch, the pauses, the finishes, and what handling
        takes beyond them (attended_s). Nominal, and at the stop time; 0 where the time is not computable */
     double booked_s, booked_stop_s;
@@ -519,14 +518,15 @@ const fw_quantity *fw_process_flow_gap(const fw_process_flow *flow, bool *open, 
    nothing wets them any more; UNKNOWN: the flow frees nothing. tension and angle of a meniscus, which may be NULL.
    Test: test_wafer_state.c */
 fw_process_drying fw_process_flow_drying(const fw_process_flow *flow);
-/* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either
-   way; SI */
+/* the range of a corner: lo to hi where the pack gives that, else two standard uncertainties either way; SI */
 void fw_process_quantity_range(const fw_quantity *q, double *low, double *high);
 const fw_quantity *fw_process_flow_quantity(const fw_process_flow *flow, const char *id);
 /* does it expose the wafer's back? By its <align>, or by what it changes: a first plate has nothing to align to */
 bool fw_process_step_on_back(const fw_process_step *step);
 /* once for all wafers together, whatever the machine takes */
 bool fw_process_step_is_of_lot(const fw_process_step *step);
+/* do several runs of it on one wafer come to one longer run: is its time that of an amount? */
+bool fw_process_step_adds_up(const fw_process_step *step);
 /* does step `index` handle the dies of each wafer, because one before it parted them? */
 bool fw_process_step_is_of_dies(const fw_process_flow *flow, int index);
 /* is it measured on this wafer of the lot (from 0)? The first one, and every so many behind it */

@@ -19,27 +19,36 @@ enum { KINDS = sizeof table / sizeof table[0] };
 
 /* ---- the whole table ---- */
 
-/* of a kind's name, or NULL */
-static const fw_process_coupon *kind_named(const char *name) {
+const fw_process_coupon *fw_process_coupon_kind(const char *name) {
     for (int i = 0; i < KINDS; i++)
         if (strcmp(table[i]->name, name) == 0) return table[i];
     return NULL;
 }
 
 const char *fw_process_coupon_other_side(const fw_process_measurement *row) {
-    const fw_process_coupon *kind = kind_named(row->coupon);
+    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
     for (int i = 0; kind && i < 2 && kind->sides[0]; i++)
         if (strcmp(kind->sides[i], row->feature) == 0) return kind->sides[1 - i];
     return NULL;
 }
 
 bool fw_process_coupon_is_looked_at(const fw_process_measurement *row) {
-    const fw_process_coupon *kind = kind_named(row->coupon);
+    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
     return kind && !kind->sides_measured && fw_process_coupon_other_side(row);
 }
 
+const char *fw_process_coupon_rate(const fw_process_flow *flow, const fw_process_measurement *row) {
+    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
+    const fw_quantity *etched = fw_process_flow_etch(flow).rate;
+    if (kind && kind->rate) return row->feature;
+    if (kind == &fw_process_coupon_release) return "release.R";
+    return (kind == &fw_process_coupon_slots || kind == &fw_process_coupon_ladder) && etched
+               ? etched->id
+               : NULL;
+}
+
 bool fw_process_coupon_of_one_run(const char *coupon) {
-    const fw_process_coupon *kind = kind_named(coupon);
+    const fw_process_coupon *kind = fw_process_coupon_kind(coupon);
     return kind && kind->one_run;
 }
 
@@ -80,7 +89,7 @@ static bool is_word_of(const char *name, const char *word) {
 
 const char *fw_process_coupon_called(const char *name) {
     const char *called = NULL;
-    if (kind_named(name)) return name;
+    if (fw_process_coupon_kind(name)) return name;
     for (int i = 0; i < KINDS; i++) {
         if (!is_word_of(table[i]->name, name)) continue;
         if (called) return name; /* of two */
@@ -150,7 +159,7 @@ static fw_status check_under(const fw_process_coupon *kind, const fw_process_mea
 }
 
 bool fw_process_coupon_on_test_die(const char *coupon) {
-    const fw_process_coupon *kind = kind_named(coupon);
+    const fw_process_coupon *kind = fw_process_coupon_kind(coupon);
     return kind && !kind->plain;
 }
 
@@ -158,7 +167,7 @@ bool fw_process_coupon_on_test_die(const char *coupon) {
 static fw_status check_lost(const fw_process_flow *flow, const fw_process_measurement *r,
                             fw_diags *diags) {
     static const double sure = 3.0;
-    const fw_process_coupon *kind = kind_named(r->coupon);
+    const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
     const fw_quantity *mask = kind && kind->of_mask ? fw_process_flow_etch(flow).mask : NULL;
     char lost[32], there[32];
     if (!mask || mask->unknown) return FW_OK;
@@ -174,7 +183,7 @@ static fw_status check_lost(const fw_process_flow *flow, const fw_process_measur
 
 fw_status fw_process_measurement_of_flow(const fw_process_flow *flow,
                                          const fw_process_measurement *r, fw_diags *diags) {
-    const fw_process_coupon *kind = kind_named(r->coupon);
+    const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
     FW_TRY(check_lost(flow, r, diags));
     if (!kind || !kind->rate) return FW_OK;
     const fw_quantity *q = fw_process_flow_quantity(flow, r->feature);
@@ -207,7 +216,7 @@ static bool makes_sense(const fw_process_measurement *r, fw_diags *diags) {
 }
 
 fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags *diags) {
-    const fw_process_coupon *kind = kind_named(r->coupon);
+    const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
     if (!kind) return unknown_kind(diags, r);
     const char *is = fw_quantity_dimension_text(diags->arena, r->dimension),
                *want = fw_quantity_dimension_text(diags->arena, kind->measured);
@@ -228,6 +237,12 @@ fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags
     return makes_sense(r, diags) ? FW_OK : FW_INPUT;
 }
 
+void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calibrated *b) {
+    const bool both = a->warmest_K > 0.0 && b->warmest_K > 0.0;
+    a->coldest_K = both ? fmin(a->coldest_K, b->coldest_K) : 0.0;
+    a->warmest_K = both ? fmax(a->warmest_K, b->warmest_K) : 0.0;
+}
+
 /* two coupons of one number: their weighted mean, unless they contradict each other */
 static fw_status join(fw_arena *arena, fw_diags *diags, fw_process_calibrated *list, int *n) {
     for (int i = 0; i < *n; i++)
@@ -246,6 +261,7 @@ static fw_status join(fw_arena *arena, fw_diags *diags, fw_process_calibrated *l
             FW_NEED(a->coupon = fw_arena_printf(arena, "%s, %s", a->coupon, b->coupon));
             FW_NEED(a->note = fw_arena_printf(arena, "%s; and %s", a->note, b->note));
             a->value = f.value[0], a->uncertainty = f.uncertainty[0];
+            fw_process_calibrated_join(a, b);
             a->rows += b->rows;
             a->chi_square += b->chi_square + f.chi_square;
             a->freedom += b->freedom + 1;
@@ -275,13 +291,14 @@ static fw_status fit_all(fw_process_coupon_work *w, const fw_process_measurement
     for (int k = 0; k < KINDS; k++) {
         w->n = 0;
         for (int i = 0; i < n; i++) {
-            if (kind_named(measurement[i].coupon) != table[k]) continue;
+            if (fw_process_coupon_kind(measurement[i].coupon) != table[k]) continue;
             if (w->n == FW_COUPON_ROWS)
                 return fw_process_coupon_wrong(w, &measurement[i],
                                                "more than %d rows of one coupon", FW_COUPON_ROWS);
             w->measurement[w->n++] = &measurement[i];
         }
         if (w->n == 0) continue;
+        w->one_run = table[k]->one_run;
         fw_status of_kind = table[k]->fit(w);
         if (of_kind == FW_OK) of_kind = join(w->arena, w->diags, w->out, &w->nout);
         if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
@@ -317,80 +334,11 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* Residuals that agree better than one in a thousand of such tables would, with more than a few of them: the same coupon
-   tells several values, and is named once. Test: test_calibrate.c, too_good */
-static void ask_too_good(const fw_process_calibration *calibration, int i, const char *file,
-                         fw_diags *diags) {
-    static const double most = 0.999;
-    static const int few = 3;
-    const fw_process_calibrated *c = &calibration->item[i];
-    char p[32];
-    if (!(c->probability > most) || c->freedom <= few) return;
-    for (int k = 0; k < i; k++) {
-        const fw_process_calibrated *other = &calibration->item[k];
-        if (strcmp(other->coupon, c->coupon) == 0 && other->chi_square == c->chi_square) return;
-    }
-    fw_diag_warning(diags, 663, (fw_place){.file = file},
-                    "readings of %s agree with their law better than their uncertainties let them: "
-                    "%d degrees of freedom, probability %s of a larger chi square. Readings that "
-                    "were copied, or a u= that is of an error which all of them share, look so",
-                    c->coupon, c->freedom, fw_number_text(p, sizeof p, c->probability, 5));
-}
-
-/* A rate that the law of a step corrects for temperature is of its reference temperature; what the bath was at when the coupon
-   was etched no row says. R(T0 + 1 K)/R(T0) = exp(Ea/(k T0 (T0 + 1))): Ea J, T0 K. Test: test_calibrate.c, rates_of_a_temperature. */
-static void ask_temperature(const fw_process_flow *flow, const fw_process_calibrated *c,
-                            const char *file, fw_diags *diags) {
-    for (int i = 0; i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        const fw_quantity *rate = fw_process_step_argument(s, "rate"),
-                          *Ea = fw_process_step_argument(s, "activation_energy"),
-                          *T0 = fw_process_step_argument(s, "reference_temperature"),
-                          *T = fw_process_step_argument(s, "temperature");
-        if (!rate || strcmp(rate->id, c->id) != 0 || !Ea || Ea->unknown || !T0 || T0->unknown || !T)
-            continue;
-        char at[32], more[32];
-        const double kelvin = exp(Ea->value / FW_BOLTZMANN_J_PER_K / T0->value / (T0->value + 1.0));
-        fw_diag_warning(
-            diags, 668, (fw_place){.file = file},
-            "%s is written as the rate at %s = %s %s, and plans correct it from there to %s: where "
-            "the bath was at another temperature when %s was etched (a kelvin more makes it %s "
-            "times as fast), write that one as %s into the laboratory pack, beside %s",
-            c->id, T0->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(T0), 4), T0->unit,
-            T->id, c->coupon, fw_number_text(more, sizeof more, kelvin, 4), T0->id, c->id);
-        return;
-    }
-}
-
-/* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
-   test_calibrate.c, far_from_the_plan. */
-void fw_process_calibration_ask(const fw_process_flow *flow,
-                                const fw_process_calibration *calibration, const char *file,
-                                fw_diags *diags) {
-    for (int i = 0; i < calibration->count; i++) {
-        const fw_process_calibrated *c = &calibration->item[i];
-        const fw_quantity *old = fw_process_flow_quantity(flow, c->id);
-        char times[32];
-        ask_too_good(calibration, i, file, diags);
-        ask_temperature(flow, c, file, diags);
-        if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
-        double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
-        const fw_process_coupon *kind = kind_named(c->coupon);
-        if (!(far > 5.0)) continue;
-        fw_diag_warning(diags, 643, (fw_place){.file = file},
-                        "%s lies %s times its uncertainty from what the flow has: before a plan "
-                        "goes by it, look at units, drawn sizes and rows of %s%s%s",
-                        c->id, fw_number_text(times, sizeof times, far, 2), c->coupon,
-                        kind && kind->mistaken ? "; " : "",
-                        kind && kind->mistaken ? kind->mistaken : "");
-    }
-}
-
 /* ---- how the results of coupons go together: the same measurement stands behind several of them ---- */
 
 typedef struct source { /* one independent error of the data */
     int row;            /* its measured value, or what it was measured under; -1: of the flow */
-    bool at;
+    bool at, warm;      /* of `at`, or of the temperature, of which one thermometer told all rows */
     const fw_quantity *q;
     double u;
 } source;
@@ -408,14 +356,19 @@ typedef struct problem {
 static const double step = 0.1;
 
 static void shift_row(const problem *p, const source *s, double by, fw_process_measurement *row) {
-    const fw_process_coupon *kind = kind_named(p->row[s->row].coupon);
+    const fw_process_coupon *kind = fw_process_coupon_kind(p->row[s->row].coupon);
     memcpy(row, p->row, (size_t)p->n * sizeof *row);
+    for (int i = 0; s->warm && i < p->n; i++)
+        if (row[i].temperature_K > 0.0)
+            row[i].temperature_K += by / s->u * row[i].temperature_uncertainty;
+    if (s->warm) return;
     if (!s->at) {
         row[s->row].value += by;
         return;
     }
     for (int i = 0; i < p->n; i++)
-        if (i == s->row || (kind->one_run && kind_named(p->row[i].coupon) == kind)) row[i].at += by;
+        if (i == s->row || (kind->one_run && fw_process_coupon_kind(p->row[i].coupon) == kind))
+            row[i].at += by;
 }
 
 /* the results with one error moved; false: they cannot be found there */
@@ -447,14 +400,18 @@ static int sources_of(const problem *p, const fw_process_coupon_work *w, const d
     int n = 0;
     for (int i = 0; i < p->n; i++) {
         const fw_process_measurement *r = &p->row[i];
-        const fw_process_coupon *kind = kind_named(r->coupon);
+        const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
         bool first = true;
         if (u[i] > 0.0) list[n++] = (source){.row = i, .u = u[i]};
         for (int k = 0; k < i; k++)
-            first = first && kind_named(p->row[k].coupon) != kind;
+            first = first && fw_process_coupon_kind(p->row[k].coupon) != kind;
         if (shared && r->at_uncertainty > 0.0 && (first || !kind->one_run))
             list[n++] = (source){.row = i, .at = true, .u = r->at_uncertainty};
     }
+    bool warm = false;
+    for (int i = 0; shared && i < p->n; i++)
+        warm = warm || (p->row[i].temperature_K > 0.0 && p->row[i].temperature_uncertainty > 0.0);
+    if (warm) list[n++] = (source){.warm = true, .u = 1.0};
     for (int i = 0; shared && i < w->nused; i++)
         list[n++] = (source){.row = -1, .q = w->used[i], .u = w->used[i]->uncertainty};
     return n;
@@ -492,7 +449,7 @@ fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *f
     FW_NEED(w);
     FW_NEED(w->out = fw_arena_array(arena, fw_process_calibrated, FW_COUPON_RESULTS));
     fw_process_measurement *row = fw_arena_array(arena, fw_process_measurement, (size_t)n);
-    source *list = fw_arena_array(arena, source, (size_t)(2 * n + FW_COUPON_USED));
+    source *list = fw_arena_array(arena, source, (size_t)(2 * n + 1 + FW_COUPON_USED));
     double value[FW_COUPON_RESULTS];
     fw_status status;
     FW_NEED(row ? list : NULL);

@@ -3,6 +3,8 @@
    rows.
    References may lead into base.xml and are looked up by the reader of packs (process_read.c). */
 #include "process/pack.h"
+#include "process/process_law.h"
+#include <string.h>
 
 #define ROWS(a) .attribute = (a), .nattribute = sizeof(a) / sizeof((a)[0])
 #define TEXT    .kind = FW_KIND_TEXT
@@ -25,10 +27,11 @@ static const char *const source_kinds[] = {"publication", "datasheet", "handbook
                                            "convention",  "assumed",   NULL};
 static const char *const corners[] = {"edge",   "taper", "anisotropy", "thickness",
                                       "youngs", "local", NULL};
-static const char *const operations[] = {"clean",    "anodise", "displace", "coat",    "bake",
-                                         "expose",   "develop", "plate",    "deposit", "wet-etch",
-                                         "dry-etch", "strip",   "release",  "mount",   "bond",
-                                         "hold",     "inspect", "dice",     "package", NULL};
+static const char *const operations[] = {
+#define X(op, adds_up, goes_on) op,
+#include "process/step_kinds.def"
+#undef X
+    NULL};
 static const char *const changes[] = {"add", "remove", "convert", "pattern", NULL};
 static const char *const sides[] = {"front", "back", NULL};
 static const char *const profiles[] = {"isotropic", "anisotropic", NULL};
@@ -477,3 +480,35 @@ const fw_xml_table fw_process_laboratory_table = {FILE_OF("laboratory pack", lab
                                                               .range = 211,
                                                               .whole = 211,
                                                               .decimal = 211}};
+
+/* ---- kinds of steps: step_kinds.def ---- */
+
+typedef enum adds_up { FW_ADDS_UP_NOT, FW_ADDS_UP, FW_ADDS_UP_BY_LAW } adds_up;
+typedef struct step_kind {
+    const char *op;
+    adds_up adds_up;
+    fw_process_goes_on goes_on;
+} step_kind;
+
+static const step_kind *kind_of(const fw_process_step *s) {
+    static const step_kind row[] = {
+#define X(op, adds_up, goes_on) {op, adds_up, goes_on},
+#include "process/step_kinds.def"
+#undef X
+    };
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
+        if (strcmp(s->op, row[i].op) == 0) return &row[i];
+    return NULL;
+}
+
+bool fw_process_step_adds_up(const fw_process_step *s) {
+    const step_kind *of = kind_of(s);
+    const fw_process_law *law = fw_process_law_find(s->law);
+    return of &&
+           (of->adds_up == FW_ADDS_UP || (of->adds_up == FW_ADDS_UP_BY_LAW && law && !law->stated));
+}
+
+fw_process_goes_on fw_process_step_goes_on(const fw_process_step *s) {
+    const step_kind *of = kind_of(s);
+    return of ? of->goes_on : FW_GOES_ON_NOT;
+}

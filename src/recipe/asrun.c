@@ -188,46 +188,6 @@ bool fw_recipe_asrun_is_log(const char *text, size_t n) {
     return n >= sizeof first_words && strncmp(text, first_words, sizeof first_words - 1) == 0;
 }
 
-static bool plain_id(const char *id, size_t n) {
-    for (size_t i = 0; i < n; i++)
-        if (!strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.", id[i]))
-            return false;
-    return n > 0 && n <= 32;
-}
-
-static const char *counted(fw_arena *arena, int n) {
-    fw_text list = fw_text_new(arena);
-    for (int i = 1; i <= n; i++)
-        fw_text_printf(&list, "%s%d", i > 1 ? "," : "", i);
-    return fw_text_end(&list) == FW_OK ? list.data : NULL;
-}
-
-const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong) {
-    double number;
-    int n = 0;
-    static const char needs[] =
-        "needs how many wafers there are, 1 to 50, or up to 50 ids of letters, digits, -, _ and . "
-        "with commas between";
-    *wrong = NULL;
-    if (!strchr(text, ',') && fw_number_parse(text, strlen(text), &number)) {
-        if (!(number >= 1.0 && number <= FW_RECIPE_WAFERS && number == floor(number))) {
-            *wrong = needs;
-            return NULL;
-        }
-        return counted(arena, (int)number);
-    }
-    for (const char *at = text; !*wrong; n++) {
-        size_t length = strcspn(at, ",");
-        if (!plain_id(at, length) || n == FW_RECIPE_WAFERS) *wrong = needs;
-        for (const char *other = text; other < at && !*wrong; other += strcspn(other, ",") + 1)
-            if (strcspn(other, ",") == length && strncmp(other, at, length) == 0)
-                *wrong = "has a wafer twice";
-        if (!at[length]) break;
-        at += length + 1;
-    }
-    return *wrong ? NULL : fw_arena_strdup(arena, text);
-}
-
 fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
                                 const char *plan_sha256, const char *lot, const char *wafers,
                                 const char **line) {
@@ -335,25 +295,6 @@ static bool same_text(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
 }
 
-bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
-        if (later->step == e->step && same_text(later->wafer, e->wafer)) return false;
-    return true;
-}
-
-/* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
-   for them, and (*together) how many share it. */
-double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                             int *together) {
-    *together = 1;
-    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
-    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
-        *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
-                     o->start_s == e->start_s && o->end_s == e->end_s &&
-                     fw_recipe_asrun_is_last(run, o);
-    return (*together + e->step->batch - 1) / e->step->batch;
-}
-
 /* ---- what a wafer waited ---- */
 
 /* of which entry of the step the wafer came to e: the last one, which takes the place of those before; one that was run again
@@ -409,6 +350,19 @@ static void wait_since(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     wait->fine = !(wait->waited_s < wait->min_s) && !(wait->waited_s > wait->max_s);
 }
 
+/* An earlier run of e's step ended the wait already, and is judged by it. From there on the wafer may wait as long again before
+   it goes on; true: it did not wait longer */
+static bool is_over(const fw_recipe_asrun *run, fw_recipe_wait *wait,
+                    const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *before = wait->from ? fw_recipe_asrun_run_before(run, e) : NULL;
+    if (!before || before->start_s < wait->from->end_s) return false;
+    wait->since = e->step->id;
+    wait->from = before;
+    wait->min_s = 0.0, wait->waited_s = e->start_s - before->end_s;
+    wait->fine = !(wait->waited_s > wait->max_s);
+    return wait->fine;
+}
+
 /* A chamber is seasoned for the wafer that comes first: another one was in it before e */
 static bool is_later_one(const fw_recipe_asrun *run, const fw_recipe_wait *wait,
                          const fw_recipe_asrun_entry *e) {
@@ -425,18 +379,31 @@ static bool wait_in_state(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
     if (&run->flow->step[w->to] != e->step) return false;
     *wait = (fw_recipe_wait){.since = run->flow->step[w->from].id, .is = w->is, .max_s = w->max_s};
     wait_since(run, e, wait);
-    return !w->first_only || !is_later_one(run, wait, e);
+    return !is_over(run, wait, e) && (!w->first_only || !is_later_one(run, wait, e));
+}
+
+bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 const fw_recipe_wait *wait) {
+    bool again = false;
+    if (strcmp(wait->since, e->step->id) == 0) return true; /* between two of its runs */
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && fw_recipe_asrun_run_before(run, later) == e) {
+            if (came_from(run, wait->since, later) == wait->from) return true;
+            again = true;
+        }
+    return !again && fw_recipe_asrun_is_last(run, e);
 }
 
 bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
                           fw_recipe_wait *wait) {
-    const int nlag = e->step->nlag, nwait = run->flow->nwait, k = *i;
-    if ((*i)++ < nlag) {
+    const int nlag = e->step->nlag, nwait = run->flow->nwait;
+    int k;
+    while ((k = (*i)++) < nlag) {
         const fw_process_lag *lag = &e->step->lag[k];
         *wait = (fw_recipe_wait){
             .since = lag->from, .min_s = isnan(lag->min_s) ? 0.0 : lag->min_s, .max_s = lag->max_s};
         wait_since(run, e, wait);
-        return true;
+        if (!is_over(run, wait, e)) return true;
     }
     for (int n = k - nlag; n < nwait; n++, (*i)++)
         if (wait_in_state(run, e, &run->flow->wait[n], wait)) return true;

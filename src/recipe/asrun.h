@@ -138,7 +138,7 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
 fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out);
 
-/* asrun_values.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers. FW-D610: a reading that a later
+/* asrun_measured.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers. FW-D610: a reading that a later
    one took the place of; FW-D611: readings of one run under something else; FW-D604: of a wafer that was scrapped or held by then, left out */
 fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
                                    fw_process_readings *readings);

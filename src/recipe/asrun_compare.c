@@ -27,32 +27,85 @@ static double clock_s(const fw_recipe_asrun_entry *e) {
     return to_the_second ? 0.0 : 60.0;
 }
 
+/* what is at the bench or the machine beside the step's own time, in every run of it */
+static double handling_s(const fw_process_step *s) {
+    return s->finish_s + s->booked_stop_s - s->booked_stop_own_s;
+}
+
+/* Runs that add up are to stop when one run is, with handling once more for each; *surely NULL, or where handling may be in
+   every run: so much is too long in any case. One run: its loads together */
+static double stop_by_s(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                        const fw_recipe_runs *runs, double *surely) {
+    const double one = runs->n > 1 ? e->step->booked_stop_s : booked_stop_s(run, e);
+    if (surely) *surely = one + (runs->n - 1) * handling_s(e->step);
+    return one;
+}
+
+/* what the entry took, or all of its runs */
+static double took_s(const fw_recipe_asrun_entry *e, const fw_recipe_runs *runs) {
+    return runs->n > 1 ? runs->time_s : e->end_s - e->start_s;
+}
+
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    const double actual_s = e->end_s - e->start_s, read_s = clock_s(e);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    const double actual_s = took_s(e, &runs), read_s = runs.n * clock_s(e);
+    double surely;
     if (!e->step->time.computable) return "no plan";
     if (actual_s + read_s < e->step->time.first_look_s) return "short";
-    return actual_s - read_s > booked_stop_s(run, e) ? "long" : "in window";
+    stop_by_s(run, e, &runs, &surely);
+    return actual_s - read_s > surely ? "long" : "in window";
 }
 
 static bool is_out_of_time(const char *judged) {
     return strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0;
 }
 
+/* "45 min", "31 min in 2 runs" */
+static void put_took(fw_text *out, const fw_recipe_asrun_entry *e, const fw_recipe_runs *runs) {
+    fw_schedule_put_duration(out, took_s(e, runs));
+    if (runs->n > 1) fw_text_printf(out, " in %d runs", runs->n);
+}
+
 /* "it took 45 min, and is to stop by 26 min"; NULL: in its window, or there is no plan */
 static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
                              const fw_recipe_asrun_entry *e, const char **how) {
     const char *judged = fw_recipe_asrun_in_time(run, e);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     const bool brief = strcmp(judged, "short") == 0;
+    double surely;
+    stop_by_s(run, e, &runs, &surely);
     fw_text text = fw_text_new(arena);
     *how = NULL;
     if (!is_out_of_time(judged)) return FW_OK;
     fw_text_add(&text, "it took ");
-    fw_schedule_put_duration(&text, e->end_s - e->start_s);
+    put_took(&text, e, &runs);
     fw_text_add(&text, brief ? ", before the first look at " : ", and is to stop by ");
-    fw_schedule_put_duration(&text, brief ? e->step->time.first_look_s : booked_stop_s(run, e));
+    fw_schedule_put_duration(&text, brief ? e->step->time.first_look_s : surely);
     FW_TRY(fw_text_end(&text));
     *how = text.data;
     return FW_OK;
+}
+
+/* FW-D680, where runs add up to more than one may take unless each has its handling in it, which the log does not tell */
+static fw_status ask_runs(fw_arena *arena, const fw_recipe_asrun *run,
+                          const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    double surely;
+    const double stop = stop_by_s(run, e, &runs, &surely), read_s = runs.n * clock_s(e);
+    fw_text text = fw_text_new(arena);
+    if (runs.n < 2 || !e->step->time.computable || !(runs.time_s - read_s > stop) ||
+        runs.time_s - read_s > surely)
+        return FW_OK;
+    put_took(&text, e, &runs);
+    fw_text_add(&text, ", and one run is to stop by ");
+    fw_schedule_put_duration(&text, stop);
+    FW_TRY(fw_text_end(&text));
+    fw_diag_warning(diags, 680, place,
+                    "step %s%s%s: what it does adds up, and comes to %s: too long, unless what is "
+                    "finished at the bench is in each of them; look at what that leaves before the "
+                    "next step",
+                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", text.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
 }
 
 /* "19.1 um (17.9 to 20.2), by t = d/R in 45 min"; *does: what was measured goes with it, or nothing was */
@@ -61,7 +114,7 @@ static fw_status amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
                                fw_text *planned, fw_text *actual) {
     int together;
     const double loads = fw_recipe_asrun_loads(run, e, &together);
-    FW_TRY(fw_recipe_asrun_amount_in_time(arena, e, loads, clock_s(e), a));
+    FW_TRY(fw_recipe_asrun_amount_in_time(arena, run, e, loads, clock_s(e), a));
     if (a->fits) return FW_OK;
     const char *unit = fw_recipe_asrun_accept(e->step, a->measured->measure)->unit;
     fw_quantity_unit in;
@@ -74,8 +127,7 @@ static fw_status amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
                    fw_number_text(value[2], sizeof value[2], law * (1.0 + a->off), 3), unit,
                    a->formula);
     fw_schedule_put_duration(planned, a->time_s);
-    if (a->time_s < (e->end_s - e->start_s) / loads)
-        fw_text_add(planned, " (the rest of it may be handling)");
+    if (a->time_s < a->took_s / loads) fw_text_add(planned, " (the rest of it may be handling)");
     fw_recipe_put_value(actual, a->measured->number);
     fw_text_printf(actual, " %s", unit);
     FW_TRY(fw_text_end(planned));
@@ -106,6 +158,7 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
         return FW_OK; /* what became of a wafer is no step that was run */
     FW_TRY(ask_amount(arena, run, e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_waits(run, e, place, diags));
+    FW_TRY(ask_runs(arena, run, e, place, diags));
     FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;
     fw_diag_warning(diags, 283, place,
@@ -155,19 +208,32 @@ static void put_unit(fw_text *out, const char *unit) {
     if (strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
 }
 
+/* a run that another one goes on from is not short: both come to one */
+static bool is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && fw_recipe_asrun_goes_on_from(run, later) == e) return true;
+    return false;
+}
+
 static fw_status durations_of(builder *b, const fw_recipe_asrun *run,
                               const fw_recipe_asrun_entry *e) {
     int together;
-    const double actual = e->end_s - e->start_s, loads = fw_recipe_asrun_loads(run, e, &together);
-    if (!is_out_of_time(fw_recipe_asrun_in_time(run, e))) return FW_OK;
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    const double loads = runs.n > 1 ? 1.0 : fw_recipe_asrun_loads(run, e, &together);
+    const char *judged = fw_recipe_asrun_in_time(run, e);
+    double surely;
+    if (!is_out_of_time(judged) || (strcmp(judged, "short") == 0 && is_gone_on(run, e)))
+        return FW_OK;
+    stop_by_s(run, e, &runs, &surely);
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
     fw_schedule_put_duration(&planned, e->step->booked_s * loads);
     fw_text_add(&planned, " at the machine; from the first look at ");
     fw_schedule_put_duration(&planned, e->step->time.first_look_s);
     fw_text_add(&planned, " to ");
-    fw_schedule_put_duration(&planned, e->step->booked_stop_s * loads);
+    fw_schedule_put_duration(&planned, surely);
     fw_text_add(&planned, ", with the stop time");
-    fw_schedule_put_duration(&is, actual);
+    if (runs.n > 1) fw_text_add(&planned, " and the handling of each run");
+    put_took(&is, e, &runs);
     return add(b, e, "duration", &planned, &is);
 }
 
@@ -227,9 +293,11 @@ static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
 }
 
 static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const bool repeated = b->repeated; /* no other run puts right what the wafer waited before */
     int i = 0;
     for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &i, &wait);) {
         if (wait.fine) continue;
+        b->repeated = repeated && !fw_recipe_asrun_wait_stands(run, e, &wait);
         fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
         fw_recipe_put_wait_limits(&planned, &wait);
         if (wait.waited_s < 0.0)
@@ -325,6 +393,21 @@ static void put_setting(fw_text *out, const fw_recipe_set *s) {
     fw_text_add(out, "\n");
 }
 
+/* before the first run of e's wafer that it came to from there */
+static void put_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
+    for (const fw_recipe_asrun_entry *o = e; o; o = fw_recipe_asrun_run_before(run, o)) {
+        int next = 0;
+        for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, o, &next, &wait);) {
+            if (wait.fine || (o != e && !fw_recipe_asrun_wait_stands(run, o, &wait))) continue;
+            fw_text_add(out, "      ");
+            fw_recipe_put_waited(out, &wait);
+            fw_text_add(out, ": OUT of ");
+            fw_recipe_put_wait_limits(out, &wait);
+            fw_text_add(out, "\n");
+        }
+    }
+}
+
 static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
     for (int i = 0; i < e->nmeasured; i++)
         put_measured(out, e, &e->measured[i]);
@@ -332,16 +415,34 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
         put_setting(out, &e->set[i]);
     for (int i = 0; i < e->ncoupon; i++)
         fw_text_printf(out, "      coupon %s\n", e->coupon[i].text);
-    int next = 0;
-    for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &next, &wait);) {
-        if (wait.fine) continue;
-        fw_text_add(out, "      ");
-        fw_recipe_put_waited(out, &wait);
-        fw_text_add(out, ": OUT of ");
-        fw_recipe_put_wait_limits(out, &wait);
+    put_waits(run, e, out);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    if (runs.n > 1) {
+        const double stop = stop_by_s(run, e, &runs, NULL);
+        fw_text_add(out, "      adds up to ");
+        put_took(out, e, &runs);
+        if (e->step->time.computable && runs.time_s - runs.n * clock_s(e) > stop) {
+            fw_text_add(out, ", and one run is to stop by ");
+            fw_schedule_put_duration(out, stop);
+        }
         fw_text_add(out, "\n");
     }
     if (e->note) fw_text_printf(out, "      note: %s\n", e->note);
+}
+
+/* of the last run of a wafer, and of those before it; planned is one */
+static void sum_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last,
+                     fw_recipe_asrun_total *t) {
+    const bool known = last->step->time.computable;
+    for (const fw_recipe_asrun_entry *e = last; e; e = fw_recipe_asrun_run_before(run, e)) {
+        if (!e->wafer && last->wafer) break; /* of the lot, which counts once */
+        int together;
+        const double loads = fw_recipe_asrun_loads(run, e, &together),
+                     took = (e->end_s - e->start_s) / together;
+        if (e == last && known) t->planned_s += last->step->booked_s * loads / together;
+        *(known ? &t->actual_s : &t->unplanned_s) += took;
+        if (e != last && known) t->earlier_s += took;
+    }
 }
 
 fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
@@ -355,16 +456,13 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
             const fw_recipe_asrun_entry *e = &run->entry[k];
             if (e->step != s) continue;
             any = true;
-            if (!fw_recipe_asrun_is_last(run, e)) {
+            if (fw_recipe_asrun_is_last(run, e))
+                sum_runs(run, e, t);
+            else
                 t->repeated++;
-                continue;
-            }
-            int together;
-            const double loads = fw_recipe_asrun_loads(run, e, &together);
-            t->actual_s += (e->end_s - e->start_s) / together;
-            if (s->time.computable) t->planned_s += s->booked_s * loads / together;
         }
         t->logged += any;
+        t->unplanned += any && !s->time.computable;
     }
     int n;
     FW_TRY(fw_recipe_asrun_deviations(arena, flow, run, &list, &n));
@@ -422,58 +520,6 @@ static void put_fates(const fw_process_flow *flow, const fw_recipe_asrun *run, f
                        fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_HELD));
 }
 
-/* ---- what somebody wrote down as a deviation, of every entry, in the order of the log ---- */
-
-static void put_declared(const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        fw_text_printf(out, "%s%s, %s%s, by %s: %s\n", n++ ? "" : "\ndeviations written down:\n",
-                       e->at->id, e->wafer ? "wafer " : "lot", e->wafer ? e->wafer : "", e->by,
-                       e->deviation);
-    }
-}
-
-void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        if (n++ == 0)
-            fw_text_add(out, "<h3>Written down</h3>\n<table><thead><tr><th>Step</th><th>Wafer</th>"
-                             "<th>When</th><th>What was done otherwise, and why</th><th>Who</th>"
-                             "</tr></thead><tbody>\n");
-        const char *cell[] = {e->at->id, e->wafer ? e->wafer : "lot", e->start, e->deviation,
-                              e->by};
-        fw_text_add(out, "<tr>");
-        for (size_t k = 0; k < sizeof cell / sizeof cell[0]; k++) {
-            fw_text_add(out, "<td>");
-            fw_text_escaped(out, cell[k]);
-            fw_text_add(out, "</td>");
-        }
-        fw_text_add(out, "</tr>\n");
-    }
-    if (n) fw_text_add(out, "</tbody></table>\n");
-}
-
-void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out) {
-    fw_json_list(out, "written_down");
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        fw_json_object(out, NULL);
-        fw_json_text(out, "step", e->at->id);
-        if (e->wafer) fw_json_text(out, "wafer", e->wafer);
-        fw_json_text(out, "at", e->start);
-        fw_json_text(out, "by", e->by);
-        fw_json_text(out, "deviation", e->deviation);
-        fw_json_whole(out, "line", e->line);
-        fw_json_end(out);
-    }
-    fw_json_end(out);
-}
-
 /* what was out in a run that another one put right; of the others the table above has it */
 static fw_status put_repeated(const fw_process_flow *flow, const fw_recipe_asrun *run,
                               fw_text *out) {
@@ -526,12 +572,22 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
                    "at the machine ",
                    t.logged, flow->nstep, t.repeated, t.out);
     fw_schedule_put_duration(out, t.planned_s);
-    fw_text_add(out, " for them, actual ");
+    fw_text_add(out, t.unplanned ? " for those that have a planned time, actual "
+                                 : " for them, actual ");
     fw_schedule_put_duration(out, t.actual_s);
+    if (t.earlier_s > 0.0) {
+        fw_text_add(out, ", of which ");
+        fw_schedule_put_duration(out, t.earlier_s);
+        fw_text_add(out, " in earlier runs");
+    }
+    if (t.unplanned) {
+        fw_text_printf(out, "; %d without a planned time took ", t.unplanned);
+        fw_schedule_put_duration(out, t.unplanned_s);
+    }
     fw_text_add(out, "\n");
     put_fates(flow, run, out);
     FW_TRY(put_repeated(flow, run, out));
-    put_declared(run, out);
+    fw_recipe_asrun_put_declared(run, out);
     put_read_again(run, out);
     return fw_text_end(out);
 }

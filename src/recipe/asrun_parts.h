@@ -43,11 +43,15 @@ char *fw_recipe_asrun_word(char **at, char separator);
 /* FW-D282 with the names (n) that there are, and the one that was probably meant */
 fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *what,
                                   const char *name, const char *const *known, int n);
+/* asrun_values.c: the temperature of a rate that was read in this entry and does not say it: what was set of the run that it
+   is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else it stays not said */
+void fw_recipe_asrun_warm(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          fw_process_measurement *row);
 /* the value of a word coupon= */
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
 
-/* asrun.c, asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
+/* asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
    limit as it is written; does what was measured and set keep its limits? */
 bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure);
@@ -57,7 +61,22 @@ bool fw_recipe_asrun_inside(const char *low, const char *high, double value);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
 
-/* "short", "in window", "long" or "no plan": an entry's duration */
+/* ---- runs of one step on one wafer, one after the other: asrun_values.c ---- */
+
+/* the run of e's step and wafer before that of e, which a later entry did not take the place of; NULL: e is the first */
+const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *run,
+                                                        const fw_recipe_asrun_entry *e);
+/* the same where both come to one longer run: their step adds up (step_kinds.def), and nothing between them renewed or took
+   away what it works on */
+const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun *run,
+                                                          const fw_recipe_asrun_entry *e);
+typedef struct fw_recipe_runs { /* that come to one longer run */
+    int n;
+    double time_s; /* of all; of one load where there are several */
+} fw_recipe_runs;
+fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+
+/* "short", "in window", "long" or "no plan": an entry's duration, with the runs that it goes on from */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 /* loads one after the other that share the time of the entry, and how many entries do (*together) */
 double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
@@ -77,7 +96,10 @@ typedef struct fw_recipe_wait {
    ends, and of the step before it where that is below 0. false: there is none */
 bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
                           fw_recipe_wait *wait);
-/* asrun_entry.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water," or "began 5 min
+/* does it stand, of a run that others follow on: did the wafer come to the next one from the same? */
+bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 const fw_recipe_wait *wait);
+/* asrun_entry.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water" or "began 5 min
    before C20 ended" */
 void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait);
 void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);
@@ -86,24 +108,31 @@ fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_
                                     fw_place place, fw_diags *diags);
 
 /* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set:
-   asrun_values.c. loads: that may share its time, one after the other; read_s: how far a clock may be off */
+   asrun_measured.c. loads: that may share its time, one after the other; read_s: how far a clock may be off */
 typedef struct fw_recipe_amount_in_time {
     bool fits;                          /* or there is nothing to hold against each other */
     const fw_recipe_measured *measured; /* in the unit of what is accepted */
+    double
+        took_s; /* by the log, the runs that it goes on from included, at what is set in this one */
     double time_s, law_m, off; /* what the law makes of that time, and relatively how surely */
     const char *formula;
 } fw_recipe_amount_in_time;
-fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun_entry *e,
-                                         double loads, double read_s,
-                                         fw_recipe_amount_in_time *out);
+fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                         const fw_recipe_asrun_entry *e, double loads,
+                                         double read_s, fw_recipe_amount_in_time *out);
 typedef struct fw_recipe_asrun_total {
     int logged, out, repeated;
-    double planned_s, actual_s; /* what several wafers share counts once */
+    /* of the steps in the log that have a planned time; what several wafers share counts once. earlier_s: what of actual_s
+       went into runs before the last one of a wafer */
+    double planned_s, actual_s, earlier_s;
+    int unplanned; /* steps in the log that have none, and what they took */
+    double unplanned_s;
 } fw_recipe_asrun_total;
 fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                  fw_arena *arena, fw_recipe_asrun_total *total);
 
-/* what somebody wrote down as a deviation, of every entry: asrun_compare.c */
+/* what somebody wrote down as a deviation, of every entry: asrun_entry.c */
+void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out);
 

@@ -366,21 +366,26 @@ static void settings_json(const fw_recipe_asrun_entry *e, fw_json *out) {
     fw_json_end(out);
 }
 
+static void wait_json(const fw_recipe_wait *wait, fw_json *out) {
+    fw_json_object(out, NULL);
+    fw_json_text(out, "from", wait->since);
+    put_text(out, "is", wait->is);
+    put_number(out, "waited_s", wait->waited_s);
+    put_number(out, "min_s", wait->min_s);
+    put_number(out, "max_s", wait->max_s);
+    if (isnan(wait->waited_s))
+        fw_json_null(out, "accepted");
+    else
+        fw_json_truth(out, "accepted", wait->fine);
+    fw_json_end(out);
+}
+
 static void waited_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_json *out) {
     fw_json_list(out, "waited");
-    int i = 0;
-    for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, e, &i, &wait);) {
-        fw_json_object(out, NULL);
-        fw_json_text(out, "from", wait.since);
-        put_text(out, "is", wait.is);
-        put_number(out, "waited_s", wait.waited_s);
-        put_number(out, "min_s", wait.min_s);
-        put_number(out, "max_s", wait.max_s);
-        if (isnan(wait.waited_s))
-            fw_json_null(out, "accepted");
-        else
-            fw_json_truth(out, "accepted", wait.fine);
-        fw_json_end(out);
+    for (const fw_recipe_asrun_entry *o = e; o; o = fw_recipe_asrun_run_before(run, o)) {
+        int i = 0;
+        for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, o, &i, &wait);)
+            if (o == e || fw_recipe_asrun_wait_stands(run, o, &wait)) wait_json(&wait, out);
     }
     fw_json_end(out);
 }
@@ -390,6 +395,9 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_text(out, "start", e->start);
     put_text(out, "end", e->end);
     put_number(out, "actual_s", e->end_s - e->start_s);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    if (runs.n > 1) fw_json_whole(out, "runs", runs.n);
+    if (runs.n > 1) put_number(out, "runs_s", runs.time_s);
     put_text(out, "judged", fw_recipe_asrun_in_time(run, e));
     put_text(out, "by", e->by);
     put_text(out, "second", e->second);
@@ -567,6 +575,9 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
     fw_json_whole(out, "outside", t.out);
     put_number(out, "at_machine_s", t.planned_s);
     put_number(out, "actual_s", t.actual_s);
+    put_number(out, "earlier_runs_s", t.earlier_s);
+    fw_json_whole(out, "unplanned", t.unplanned);
+    put_number(out, "unplanned_s", t.unplanned_s);
     FW_TRY(deviations_json(flow, run, out, text->arena));
     read_again_json(run, out);
     fw_recipe_asrun_declared_json(run, out);

@@ -135,6 +135,48 @@ double fw_recipe_asrun_mean(const double *site) {
     return sum / n;
 }
 
+/* ---- the wafers of a lot ---- */
+
+static bool plain_id(const char *id, size_t n) {
+    for (size_t i = 0; i < n; i++)
+        if (!strchr("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_.", id[i]))
+            return false;
+    return n > 0 && n <= 32;
+}
+
+static const char *counted(fw_arena *arena, int n) {
+    fw_text list = fw_text_new(arena);
+    for (int i = 1; i <= n; i++)
+        fw_text_printf(&list, "%s%d", i > 1 ? "," : "", i);
+    return fw_text_end(&list) == FW_OK ? list.data : NULL;
+}
+
+const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong) {
+    double number;
+    int n = 0;
+    static const char needs[] =
+        "needs how many wafers there are, 1 to 50, or up to 50 ids of letters, digits, -, _ and . "
+        "with commas between";
+    *wrong = NULL;
+    if (!strchr(text, ',') && fw_number_parse(text, strlen(text), &number)) {
+        if (!(number >= 1.0 && number <= FW_RECIPE_WAFERS && number == floor(number))) {
+            *wrong = needs;
+            return NULL;
+        }
+        return counted(arena, (int)number);
+    }
+    for (const char *at = text; !*wrong; n++) {
+        size_t length = strcspn(at, ",");
+        if (!plain_id(at, length) || n == FW_RECIPE_WAFERS) *wrong = needs;
+        for (const char *other = text; other < at && !*wrong; other += strcspn(other, ",") + 1)
+            if (strcspn(other, ",") == length && strncmp(other, at, length) == 0)
+                *wrong = "has a wafer twice";
+        if (!at[length]) break;
+        at += length + 1;
+    }
+    return *wrong ? NULL : fw_arena_strdup(arena, text);
+}
+
 /* ---- coupons: what calibrate reads ---- */
 
 /* a number with its unit, SI */
@@ -178,8 +220,27 @@ static fw_status read_sites(const fw_recipe_asrun_reader *r, const char *text,
 }
 
 typedef struct given { /* texts as they are written, NULL: not */
-    const char *drawn, *value, *u, *at, *u_at;
+    const char *drawn, *value, *u, *at, *u_at, *warm, *u_warm;
 } given;
+
+/* of the bath; how far off it may be is taken from how it is written, where nothing is said */
+static fw_status read_warmth(const fw_recipe_asrun_reader *r, const given *g,
+                             fw_process_measurement *m) {
+    fw_quantity_dimension d = {0}, of_u = FW_DIM_TEMPERATURE;
+    m->temperature_uncertainty = fw_process_written_uncertainty(g->warm);
+    FW_TRY(amount(r, "temperature", g->warm, &m->temperature_K, &d, false));
+    if (g->u_warm)
+        FW_TRY(amount(r, "u-temperature", g->u_warm, &m->temperature_uncertainty, &of_u, true));
+    const fw_quantity_dimension want = FW_DIM_TEMPERATURE;
+    if (fw_quantity_dimension_equal(d, want) && fw_quantity_dimension_equal(of_u, want) &&
+        m->temperature_K > 0.0 && m->temperature_uncertainty >= 0.0)
+        return FW_OK;
+    return fw_diag_error(
+        r->diags, 282, r->place,
+        "temperature=%s: a temperature is needed, such as 35 Cel, and u-temperature "
+        "in K, not below 0",
+        g->warm);
+}
 
 static fw_status read_amounts(const fw_recipe_asrun_reader *r, const given *g,
                               fw_recipe_coupon *c) {
@@ -203,14 +264,15 @@ static fw_status read_amounts(const fw_recipe_asrun_reader *r, const given *g,
     }
     if (!(m->uncertainty >= 0.0) || m->at_uncertainty < 0.0)
         return fw_diag_error(r->diags, 282, r->place, "u and u-at are not below 0");
-    return FW_OK;
+    return g->warm ? read_warmth(r, g, m) : FW_OK;
 }
 
 static fw_status read_word(const fw_recipe_asrun_reader *r, char *word, fw_recipe_coupon *c,
                            given *g) {
-    enum { FIELDS = 5 };
-    static const char *const known[FIELDS + 1] = {"drawn", "value", "u", "at", "u-at", "feature"};
-    const char **of[] = {&g->drawn, &g->value, &g->u, &g->at, &g->u_at};
+    enum { FIELDS = 7 };
+    static const char *const known[FIELDS + 1] = {
+        "drawn", "value", "u", "at", "u-at", "temperature", "u-temperature", "feature"};
+    const char **of[] = {&g->drawn, &g->value, &g->u, &g->at, &g->u_at, &g->warm, &g->u_warm};
     char *equal = strchr(word, '=');
     if (strncmp(word, "feature=", 8) == 0) { /* as the column of a table is called */
         word += 8;
@@ -272,6 +334,61 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
     return fw_process_measurement_check(&c->row, r->diags);
 }
 
+/* ---- the bath of a coupon ---- */
+
+static bool of_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
+}
+
+void fw_recipe_asrun_warm(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          fw_process_measurement *row) {
+    const char *rate = fw_process_coupon_rate(run->flow, row);
+    const fw_recipe_asrun_entry *of =
+        NULL; /* the run; what is read later of it has its start, too */
+    fw_quantity_unit unit;
+    for (int i = 0; rate && i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[i];
+        if (o->step && fw_process_step_warms(o->step, rate) && of_wafer(o, e) &&
+            o->start_s <= e->start_s && (!of || o->start_s > of->start_s))
+            of = o;
+    }
+    for (int i = 0; of && i < run->nentry && !(row->temperature_K > 0.0); i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
+        if (o->step != of->step || !of_wafer(o, of) || o->start_s != of->start_s) continue;
+        for (int k = 0; k < o->nset; k++) {
+            const fw_recipe_set *s = &o->set[k];
+            if (!s->q || isnan(s->value) || s->q != fw_process_step_warms(o->step, rate) ||
+                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
+                continue;
+            row->temperature_K = fw_quantity_unit_to_si(&unit, s->value);
+            row->temperature_uncertainty =
+                s->q->unknown ? fw_process_written_uncertainty(s->text) : s->q->uncertainty;
+        }
+    }
+}
+
+/* ---- limits ---- */
+
+double fw_recipe_asrun_limit(const char *text, double absent) {
+    double value;
+    return text[0] && fw_number_parse(text, strlen(text), &value) ? value : absent;
+}
+
+bool fw_recipe_asrun_inside(const char *low, const char *high, double value) {
+    return value >= fw_recipe_asrun_limit(low, -(double)INFINITY) &&
+           value <= fw_recipe_asrun_limit(high, (double)INFINITY);
+}
+
+bool fw_recipe_asrun_allowed(const fw_recipe_set *set) {
+    return isnan(set->value) || fw_recipe_asrun_inside(set->low, set->high, set->value);
+}
+
+const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
+    for (int i = 0; i < step->naccept; i++)
+        if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
+    return NULL;
+}
+
 /* ---- what became of wafers ---- */
 
 const char *fw_recipe_fate_word(fw_recipe_fate fate) {
@@ -306,283 +423,84 @@ int fw_recipe_asrun_count(const fw_process_flow *flow, const fw_recipe_asrun *ru
     return n;
 }
 
-/* ---- the coupons of a log, as calibrate takes them ---- */
+/* ---- runs of one step on one wafer ---- */
 
-/* Is b, which comes later, in the place of a? It reads the same feature of the same drawn size again. A rate is read off
-   several times of one wafer, which are readings of their own; where all readings of a coupon are of one run, another `at` is
-   that of the run that counts, or corrects what was mistyped. Other drawn sizes are other readings, and stay. */
-static bool same_reading(const fw_recipe_asrun_entry *a, const fw_recipe_coupon *ca,
-                         const fw_recipe_asrun_entry *b, const fw_recipe_coupon *cb) {
-    const char *wa = a->wafer ? a->wafer : "", *wb = b->wafer ? b->wafer : "";
-    bool drawn = isnan(ca->row.drawn_m) ? isnan(cb->row.drawn_m)
-                                        : fabs(ca->row.drawn_m - cb->row.drawn_m) < 1e-12;
-    bool under = isnan(ca->row.at) ? isnan(cb->row.at) : ca->row.at == cb->row.at;
-    if (a->step != b->step || strcmp(wa, wb) != 0 || !drawn ||
-        strcmp(ca->row.coupon, cb->row.coupon) != 0 ||
-        strcmp(ca->row.feature, cb->row.feature) != 0)
-        return false;
-    return under || (a != b && fw_process_coupon_of_one_run(ca->row.coupon));
-}
-
-/* in a later entry or further on in this one; the last such reading counts */
-static bool read_again(const fw_recipe_asrun *run, int entry, int coupon,
-                       fw_recipe_read_again *again) {
-    const fw_recipe_asrun_entry *e = &run->entry[entry];
-    *again = (fw_recipe_read_again){.entry = e, .coupon = &e->coupon[coupon]};
-    for (int i = entry; i < run->nentry; i++)
-        for (int k = i == entry ? coupon + 1 : 0; k < run->entry[i].ncoupon; k++)
-            if (same_reading(e, again->coupon, &run->entry[i], &run->entry[i].coupon[k])) {
-                again->by = &run->entry[i];
-                again->by_coupon = &run->entry[i].coupon[k];
-            }
-    return again->by;
-}
-
-bool fw_recipe_asrun_read_again(const fw_recipe_asrun *run, int *entry, int *coupon,
-                                fw_recipe_read_again *again) {
-    for (; *entry < run->nentry; ++*entry, *coupon = 0)
-        while (*coupon < run->entry[*entry].ncoupon)
-            if (read_again(run, *entry, (*coupon)++, again)) return true;
+/* by an entry of the same run, or by one that was made later and begins earlier, which takes its place (decision 159) */
+static bool is_replaced(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o) {
+    for (const fw_recipe_asrun_entry *by = o + 1; by < run->entry + run->nentry; by++)
+        if (by->step == o->step && fw_text_same(by->wafer, o->wafer) &&
+            (by->start_s <= o->start_s || by->start_s < o->end_s))
+            return true;
     return false;
 }
 
-static void warn_again(const fw_recipe_read_again *again, fw_diags *diags) {
-    const char *wafer = again->entry->wafer;
-    fw_diag_warning(diags, 610, again->coupon->row.place,
-                    "'%s' of step %s%s%s does not count: line %d reads it again ('%s'). %s",
-                    again->coupon->text, again->entry->step->id, wafer ? ", wafer " : "",
-                    wafer ? wafer : "", again->by->line, again->by_coupon->text,
-                    FW_RECIPE_KEEP_BOTH);
-}
-
-/* All readings of the coupon are of one run, but what stands under `at` is not the same: both count, and one may be
-   mistyped. Told once of a coupon, wafer and step. */
-static void warn_apart(const fw_process_readings *r, fw_diags *diags) {
-    const fw_process_reading *last = &r->item[r->n - 1];
-    const fw_process_measurement *b = &last->row;
-    if (isnan(b->at) || !fw_process_coupon_of_one_run(b->coupon)) return;
-    for (int i = 0; i < r->n - 1; i++) {
-        const fw_process_measurement *a = &r->item[i].row;
-        if (strcmp(r->item[i].step, last->step) != 0 ||
-            strcmp(r->item[i].wafer, last->wafer) != 0 || strcmp(a->coupon, b->coupon) != 0)
-            continue;
-        const double u = hypot(fmax(a->at_uncertainty, 0.0), fmax(b->at_uncertainty, 0.0));
-        if (fabs(a->at - b->at) <= 2.0 * u + 1e-12 * fabs(a->at)) continue;
-        fw_diag_warning(diags, 611, b->place,
-                        "coupon %s of step %s%s%s is of one run, but lines %d and %d say that it "
-                        "was under something else (at=); each reading counts with its own. Where "
-                        "one is mistyped, log its readings again; where both were measured, say "
-                        "by u-at= how exactly",
-                        b->coupon, last->step, last->wafer[0] ? ", wafer " : "", last->wafer,
-                        (int)a->place.line, (int)b->place.line);
-        return;
-    }
-}
-
-/* of a wafer that was scrapped or held by then: what was read is of another state than the flow's */
-static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                   const fw_recipe_coupon *c, fw_diags *diags) {
-    const fw_recipe_asrun_entry *out =
-        e->wafer ? fw_recipe_asrun_out(run, e->wafer, e->end_s) : NULL;
-    if (!out) return false;
-    fw_diag_warning(diags, 604, c->row.place,
-                    "'%s' of step %s does not count: wafer %s was %s at %s before (line %d)",
-                    c->text, e->step->id, e->wafer, fw_recipe_fate_word(out->fate), out->at->id,
-                    out->line);
+bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && fw_text_same(later->wafer, e->wafer)) return false;
     return true;
 }
 
-double fw_recipe_asrun_limit(const char *text, double absent) {
-    double value;
-    return text[0] && fw_number_parse(text, strlen(text), &value) ? value : absent;
+/* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
+   for them, and (*together) how many share it. */
+double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             int *together) {
+    *together = 1;
+    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
+                     o->start_s == e->start_s && o->end_s == e->end_s && !is_replaced(run, o);
+    return (*together + e->step->batch - 1) / e->step->batch;
 }
 
-bool fw_recipe_asrun_inside(const char *low, const char *high, double value) {
-    return value >= fw_recipe_asrun_limit(low, -(double)INFINITY) &&
-           value <= fw_recipe_asrun_limit(high, (double)INFINITY);
+/* what e's wafer has been through, too: an entry of the same wafer, or one of the whole lot */
+static bool of_its_wafer(const fw_recipe_asrun_entry *o, const fw_recipe_asrun_entry *e) {
+    return !o->wafer || (e->wafer && strcmp(o->wafer, e->wafer) == 0);
 }
 
-bool fw_recipe_asrun_allowed(const fw_recipe_set *set) {
-    return isnan(set->value) || fw_recipe_asrun_inside(set->low, set->high, set->value);
+const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *run,
+                                                        const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *before = NULL;
+    for (const fw_recipe_asrun_entry *o = e; e->step && o-- > run->entry;) /* the last ones first */
+        if (o->step == e->step && of_its_wafer(o, e) && o->end_s <= e->start_s &&
+            (!before || o->start_s > before->start_s) && !is_replaced(run, o))
+            before = o;
+    return before;
 }
 
-/* Readings of a step that was not run as it is meant to be speak of that run. They count, since nobody else knows whether
-   what they tell depends on it. Times are not looked at: they are planned for a device, and this is of its log alone */
-static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e, fw_diags *diags) {
-    fw_text text = fw_text_new(arena);
-    if (e->ncoupon == 0 || !e->step) return FW_OK;
-    for (int i = 0; i < e->nset; i++)
-        if (!fw_recipe_asrun_allowed(&e->set[i])) {
-            fw_text_printf(&text, "; %s was ", e->set[i].name);
-            fw_recipe_put_value(&text, e->set[i].value);
-            if (strcmp(e->set[i].q->unit, "1") != 0)
-                fw_text_printf(&text, " %s", e->set[i].q->unit);
+/* Does step x make or take away what step s works on, so that s begins anew? What s removes or prints is put there, or what
+   it adds is removed. What changes nothing itself, as a bake, begins anew after whatever changes the wafer. */
+static bool renews(const fw_process_step *x, const fw_process_step *s) {
+    bool anew = s->nchange == 0 && x->nchange > 0 && x < s;
+    for (int i = 0; i < s->nchange; i++)
+        for (int k = 0; k < x->nchange; k++) {
+            const bool adds = strcmp(s->change[i].kind, "add") == 0,
+                       takes = strcmp(x->change[k].kind, "remove") == 0,
+                       puts = strcmp(x->change[k].kind, "add") == 0;
+            anew = anew || (strcmp(s->change[i].material, x->change[k].material) == 0 &&
+                            (adds ? takes : puts));
         }
-    if (e->deviation) fw_text_printf(&text, "; written down: %s", e->deviation);
-    if (text.length == 0) return FW_OK;
-    FW_TRY(fw_text_end(&text));
-    fw_diag_warning(diags, 652, (fw_place){0},
-                    "what was read of step %s (line %d of the log) is of a run that went otherwise "
-                    "than planned%s; it counts like any other: leave it out where what it tells "
-                    "depends on that",
-                    e->step->id, e->line, text.data);
-    return diags->failed ? FW_NOMEM : FW_OK;
+    return anew;
 }
 
-fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
-                                   fw_process_readings *readings) {
-    int most = 0;
-    for (int i = 0; i < run->nentry; i++)
-        most += run->entry[i].ncoupon;
-    *readings = (fw_process_readings){.lot = run->lot};
-    FW_NEED(readings->item = fw_arena_array(arena, fw_process_reading, (size_t)most + 1));
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        FW_TRY(tell_otherwise(arena, e, diags));
-        for (int k = 0; k < e->ncoupon; k++) {
-            const fw_recipe_coupon *c = &e->coupon[k];
-            fw_recipe_read_again again;
-            if (is_out(run, e, c, diags)) continue;
-            if (read_again(run, i, k, &again)) {
-                warn_again(&again, diags);
-                continue;
-            }
-            fw_process_reading *r = &readings->item[readings->n++];
-            *r = (fw_process_reading){.row = c->row,
-                                      .wafer = e->wafer ? e->wafer : "",
-                                      .step = e->step->id,
-                                      .nsite = c->nsite};
-            FW_NEED(r->date = fw_arena_strndup(arena, e->end, 10));
-            for (int s = 0; s < FW_RECIPE_SITES; s++) {
-                double off = c->site[s] - c->row.value;
-                if (!isnan(c->site[s])) r->squares += off * off;
-            }
-            warn_apart(readings, diags);
-        }
+const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun *run,
+                                                          const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *from =
+        e->step && fw_process_step_adds_up(e->step) ? fw_recipe_asrun_run_before(run, e) : NULL;
+    for (int i = 0; from && i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *x = &run->entry[i];
+        if (x->step && x->step != e->step && of_its_wafer(x, e) && x->start_s >= from->start_s &&
+            x->start_s < e->start_s && renews(x->step, e->step))
+            return NULL;
     }
-    return FW_OK;
+    return from;
 }
 
-const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
-    for (int i = 0; i < step->naccept; i++)
-        if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
-    return NULL;
-}
-
-/* ---- does what was measured go with the time that it took? ----
-   Where the step's own law has the time of a thickness that the step adds or takes away, and what is accepted holds that
-   thickness from both sides, time and reading say one thing twice. */
-
-/* the amount that the law takes; NULL: its time is not that of an outcome (a bake, a spin) */
-static const fw_process_argument *amount_of_law(const fw_process_step *s) {
-    for (int i = 0; i < s->nargument; i++) {
-        const fw_process_argument *a = &s->argument[i];
-        if (strcmp(a->name, "thickness") != 0 && strcmp(a->name, "depth") != 0) continue;
-        for (int k = 0; k < s->nchange; k++)
-            if (s->change[k].thickness == a->q) return a;
+fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    fw_recipe_runs all = {0};
+    for (; e; e = fw_recipe_asrun_goes_on_from(run, e)) {
+        int together;
+        all.n++;
+        all.time_s += (e->end_s - e->start_s) / fw_recipe_asrun_loads(run, e, &together);
     }
-    return NULL;
-}
-
-/* what was measured of it, SI; NaN: nothing */
-static double amount_measured(const fw_recipe_asrun_entry *e, const fw_quantity *planned,
-                              const fw_recipe_measured **as) {
-    for (int i = 0; i < e->nmeasured; i++) {
-        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, e->measured[i].measure);
-        fw_quantity_unit unit;
-        if (!a || isnan(e->measured[i].number) || !a->low[0] || !a->high[0] ||
-            !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
-            !fw_quantity_dimension_equal(unit.dimension, planned->dimension) ||
-            !fw_recipe_asrun_inside(a->low, a->high,
-                                    fw_quantity_unit_from_si(&unit, planned->value)))
-            continue;
-        *as = &e->measured[i];
-        return fw_quantity_unit_to_si(&unit, e->measured[i].number);
-    }
-    return (double)NAN;
-}
-
-typedef struct timing { /* the law of a step as it was run */
-    fw_arena *arena;
-    const fw_process_step *step;
-    fw_process_argument argument[FW_LAW_ARGUMENTS];
-    fw_quantity
-        q[FW_LAW_ARGUMENTS]; /* those that were set otherwise; of the amount, what is asked of */
-    int amount;
-} timing;
-
-static bool as_run(fw_arena *arena, const fw_recipe_asrun_entry *e,
-                   const fw_process_argument *amount, timing *t) {
-    const fw_process_step *s = e->step;
-    if (s->nargument > FW_LAW_ARGUMENTS) return false;
-    *t = (timing){.arena = arena, .step = s, .amount = (int)(amount - s->argument)};
-    for (int i = 0; i < s->nargument; i++) {
-        fw_quantity_unit unit;
-        t->argument[i] = s->argument[i];
-        if (!s->argument[i].q) continue;
-        t->q[i] = *s->argument[i].q;
-        t->argument[i].q = &t->q[i];
-        for (int k = 0; k < e->nset; k++) {
-            const fw_quantity *set = e->set[k].q;
-            if (set != s->argument[i].q || isnan(e->set[k].value)) continue;
-            if (!fw_quantity_unit_parse(set->unit, strlen(set->unit), &unit, NULL, NULL))
-                return false;
-            t->q[i].value = fw_quantity_unit_to_si(&unit, e->set[k].value);
-            t->q[i].unknown = false;
-        }
-    }
-    t->q[t->amount].uncertainty = 0.0; /* it is what is asked */
-    t->q[t->amount].unknown = false;
-    return true;
-}
-
-static fw_status time_for(timing *t, double amount_m, fw_process_law_answer *answer) {
-    const fw_process_step *s = t->step;
-    t->q[t->amount].value = amount_m;
-    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
-                                    .shape = s->shape,
-                                    .expression = s->expression,
-                                    .wanted = FW_DIM_TIME,
-                                    .argument = t->argument,
-                                    .nargument = s->nargument};
-    return fw_process_law_evaluate(t->arena, &use, answer);
-}
-
-/* the amount of so much time, from one nearby: times rise with it, not far from in proportion */
-static fw_status amount_in(timing *t, double time_s, double *amount_m) {
-    enum { ROUNDS = 12 };
-    for (int i = 0; i < ROUNDS; i++) {
-        fw_process_law_answer answer;
-        FW_TRY(time_for(t, *amount_m, &answer));
-        if (!answer.computable || !(answer.value > 0)) break;
-        *amount_m *= time_s / answer.value;
-    }
-    return FW_OK;
-}
-
-fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun_entry *e,
-                                         double loads, double read_s,
-                                         fw_recipe_amount_in_time *out) {
-    const fw_process_step *s = e->step;
-    timing t;
-    fw_process_law_answer answer;
-    *out = (fw_recipe_amount_in_time){.fits = true};
-    const fw_process_argument *amount = s && e->fate == FW_FATE_RUN ? amount_of_law(s) : NULL;
-    if (!amount || amount->q->unknown || !s->time.computable) return FW_OK;
-    const double measured = amount_measured(e, amount->q, &out->measured);
-    if (!(measured > 0) || !as_run(arena, e, amount, &t)) return FW_OK;
-    FW_TRY(time_for(&t, measured, &answer));
-    if (!answer.computable || !(answer.value > 0)) return FW_OK;
-    /* handling, pauses and what is finished at the machine may be in it or not */
-    const double more = s->booked_stop_s - s->time.stop_s,
-                 off = s->k * answer.uncertainty / answer.value, actual_s = e->end_s - e->start_s;
-    const bool brief = actual_s + read_s < answer.value * (1.0 - off);
-    const double longest = answer.value * (1.0 + off) * (1.0 + s->overrun) + more;
-    if (!brief && actual_s - read_s <= loads * longest) return FW_OK;
-    out->fits = false;
-    out->law_m = measured;
-    out->time_s = brief ? actual_s : actual_s / loads - more;
-    out->off = off;
-    out->formula = fw_process_law_find(s->law)->formula;
-    return amount_in(&t, out->time_s, &out->law_m);
+    return all;
 }

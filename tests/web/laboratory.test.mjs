@@ -81,6 +81,8 @@ describe("numbers of the laboratory", () => {
         assert.match(await page.textContent(".log-deviations"), /S01: duration is 50 min, planned 16 min/);
         // the terminal goes on with it, and the page after it
         execFileSync(program, ["log", server.file, "--flow", FLOW, "--run", log, "-q", "--entry", "S02; start=2026-11-20T11:00; end=2026-11-20T11:35; by=CD; particles in bright light=0"], { cwd: source, stdio: "ignore" });
+        for (const times of ["start=2026-11-20T12:00; end=2026-11-20T13:00", "start=2026-11-20T13:10; end=2026-11-20T13:50"]) // an etch that was interrupted
+            execFileSync(program, ["log", server.file, "--flow", FLOW, "--run", log, "-q", "--entry", `S18; ${times}; by=CD; second=AB`, "--wafer", "1"], { cwd: source, stdio: "ignore" });
         await page.selectOption('.log-form select[aria-label="Step"]', "S18");
         await page.selectOption('.log-form select[aria-label="Wafer"]', "2");
         await fill("begun", "2026-11-21T10:00");
@@ -96,7 +98,8 @@ describe("numbers of the laboratory", () => {
         await page.fill('.log-form [data-kind="set"][data-name="power"]', "251");
         await page.fill(".log-form textarea", [16, 20].map((w) => `undercut-ladder, feature=width, drawn=${w} um, value=${w - 2.9} um, u=0.08 um, at=50.5 um`).join("\n"));
         await page.click("#log-add");
-        await read(3);
+        await read(5);
+        assert.match(await page.textContent(".as-run"), /40 min; 2 runs, 1(00 min| h 40 min)/);
         // a wafer that is lost is an entry of its own, and the page and the command say so
         await page.selectOption('.log-form select[aria-label="Step"]', "S18");
         await page.selectOption('.log-form select[aria-label="What became of the wafer"]', "scrapped", { force: true });
@@ -108,7 +111,7 @@ describe("numbers of the laboratory", () => {
         await fill("why", "cracked in the chuck");
         await fill("by", "AB");
         await page.click("#log-add");
-        await read(4);
+        await read(6);
         assert.match(await page.textContent(".log-fates"), /wafer 2: scrapped at S18, 2026-11-21T12:10: cracked in the chuck/);
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.recipe.asRun.told), told());
         assert.match(readFileSync(log, "utf8"), /step=S18.*by=AB.*wafer=2.*set power=251 W/);
@@ -117,7 +120,7 @@ describe("numbers of the laboratory", () => {
         execFileSync(program, ["calibrate", log, "--flow", FLOW, "-o", `${server.directory}/of-log.xml`, "-q"], { cwd: source });
         assert.equal(await page.evaluate((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW), readFileSync(`${server.directory}/of-log.xml`, "utf8"));
         await page.waitForFunction(() => /its plan is the one without them/.test(document.querySelector(".as-run").textContent), null, { timeout: 60000 });
-        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.recipe.asRun.told.entries), 4);
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.recipe.asRun.told.entries), 6);
         await page.evaluate(() => (document.querySelector("details.as-run").open = false));
         await page.click("#lab-clear");
     });

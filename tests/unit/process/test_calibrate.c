@@ -47,7 +47,7 @@ static int nrow;
 static void put(const char *coupon, const char *feature, double drawn_um, fw_quantity_dimension d,
                 double value, double u, fw_quantity_dimension at_d, double at, double u_at) {
     rows[nrow++] = (fw_process_measurement){coupon, feature, drawn_um * 1e-6, value, u, at, u_at, d,
-                                            at_d,   {0}};
+                                            at_d,   {0}, 0.0, 0.0, false};
 }
 
 #define LENGTH (fw_quantity_dimension) FW_DIM_LENGTH
@@ -308,6 +308,65 @@ static void rates_of_a_temperature(void **state) {
     }
 }
 
+static const fw_process_calibrated *calibrated_at(const double *T_Cel, const double *rate, int n, double u_T, fw_process_calibration *c) {
+    nrow = 0;
+    for (int i = 0; i < n; i++) {
+        put("etch-rate", "pan.R", 0, LENGTH, rate[i] * 300.0, 0.01 * rate[i] * 300.0, TIME, 300.0, 0.0);
+        if (!isnan(T_Cel[i])) rows[i].temperature_K = T_Cel[i] + 273.15, rows[i].temperature_uncertainty = u_T;
+    }
+    quiet = fw_diags_new(arena);
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &quiet, c), FW_OK);
+    assert_int_equal(fw_process_calibration_correlate(arena, silicon, rows, nrow, c), FW_OK);
+    fw_process_calibration_ask(silicon, c, "coupons.csv", &quiet);
+    return found(c, "pan.R");
+}
+
+/* A rate that was read at 35 Cel is written as that at 22 Cel, by the law of its step; a plan at 35 Cel has what was read there,
+   as exactly as it was read, since the activation energy that took it down takes it up again. At 22 Cel it is as it was read and
+   nothing is asked; where one of two does not say, it is asked. */
+static void of_warm_baths(void **state) {
+    (void)state;
+    fw_process_calibration c;
+    const double Ea = 0.5 * 1.602176634e-19, k = 1.380649e-23, times = exp(Ea / k * (1 / 295.15 - 1 / 308.15));
+    const double warm[] = {35, 35}, cold[] = {22}, both[] = {22, 35}, some[] = {35, (double)NAN};
+    const double hot_rates[] = {20e-10, 20e-10}, mixed[] = {10e-10, 1.07 * 10e-10 * times};
+    const fw_process_calibrated *R = calibrated_at(warm, hot_rates, 1, 0.2, &c);
+    assert_relative(R->value, 20e-10 / times, 1e-9);
+    assert_relative(R->uncertainty / R->value, hypot(0.01, hypot(0.09 * 1.602176634e-19 / k * (1 / 295.15 - 1 / 308.15), Ea / k / 308.15 / 308.15 * 0.2)), 0.1);
+    assert_int_equal(quiet.count, 0);
+    fw_text pack = fw_text_new(arena), text = fw_text_new(arena);
+    assert_int_equal(fw_process_calibration_pack(silicon, &c, "coupons.csv", "0123456789abcdef", &pack), FW_OK);
+    assert_non_null(strstr(pack.data, "etched at 35 Cel, corrected to pan.T-reference = 22 Cel by the law arrhenius of step S14"));
+    fw_process_flow *after = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", pack.data, pack.length, after, &diags), FW_OK);
+    measured(after, "pan.T", 308.15, 0.0);
+    assert_int_equal(fw_process_flow_compute(arena, after, &plain_facts, &diags), FW_OK);
+    assert_relative(step_of(after, "S14")->time.nominal_s, 1e-6 / 20e-10, 1e-6);
+    assert_relative(step_of(after, "S14")->time.relative_uncertainty, hypot(hypot(0.01, Ea / k / 308.15 / 308.15 * 0.2), 0.025), 0.02);
+    /* at the reference */
+    R = calibrated_at(cold, hot_rates, 1, 0.0, &c);
+    assert_relative(R->value, 20e-10, 1e-12);
+    assert_relative(R->uncertainty, 0.01 * 20e-10, 1e-6);
+    assert_int_equal(quiet.count, 1);
+    assert_int_equal(quiet.item[0].number, 643); /* and that is all */
+    assert_int_equal(fw_process_calibration_text(silicon, &c, &text), FW_OK);
+    assert_null(strstr(text.data, "etched at"));
+    /* at two: the one at the reference decides, since the other has the activation energy in it, which is no contradiction */
+    R = calibrated_at(both, mixed, 2, 0.0, &c);
+    assert_relative(R->value, 10e-10, 1e-3);
+    assert_relative(R->uncertainty, 0.01 * 10e-10, 0.01);
+    assert_int_equal(quiet.count, 0);
+    calibrated_at(some, hot_rates, 1, 0.2, &c);
+    assert_int_equal(quiet.count, 0);
+    const double near[] = {20e-10 / times * times, 20e-10 / times};
+    R = calibrated_at(some, near, 2, 0.2, &c);
+    assert_int_equal(quiet.item[0].number, 668);
+    assert_true(R->warmest_K == 0.0);
+    assert_near(fw_process_written_uncertainty("35 Cel"), 1.0 / sqrt(12.0), 1e-12);
+    assert_near(fw_process_written_uncertainty("35.25"), 0.01 / sqrt(12.0), 1e-12);
+    assert_near(fw_process_written_uncertainty("3.5e1"), 1.0 / sqrt(12.0), 1e-12);
+}
+
 /* six lines that all lost the very same, within 0.05 um each: said, once; where they scatter nothing is */
 static void too_good(void **state) {
     (void)state;
@@ -473,6 +532,64 @@ static void round_trip(void **state) {
     assert_int_equal(other->noverride, 0);
 }
 
+/* five rows that read the very same are known as one of them is, however few; where they scatter each counts, and so do rows of
+   other sizes or times. What would be known to one part in a million is asked after. */
+static void rows_that_read_the_same(void **state) {
+    (void)state;
+    static const char head[] = "coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit\n";
+    static const struct {
+        const char *rows;
+        int n, told;
+    } of[] = {{"etch-rate,rie.R,,45,0.1,um,90,0,min\netch-rate,rie.R,,45.0,0.1,um,90,0,min\netch-rate,rie.R,,45,0.1,um,90,0,min\n", 1, 1},
+              {"etch-rate,rie.R,,45,0.1,um,90,0,min\netch-rate,rie.R,,45.1,0.1,um,90,0,min\netch-rate,rie.R,,45,0.1,um,90,0,min\n", 3, 0},
+              {"etch-rate,rie.R,,45,0.1,um,90,0,min\netch-rate,rie.R,,45,0.1,um,80,0,min\n", 2, 0},
+              {"cd-lines,line,10,7.8,0.05,um,,,\ncd-lines,line,10,7.8,0.05,um,,,\ncd-lines,line,12,9.8,0.05,um,,,\n", 2, 1},
+              {"undercut-ladder,gone,7,,,,50,0,um\nundercut-ladder,gone,7,,,,50,0,um\nundercut-ladder,stands,7.5,,,,50,0,um\n", 3, 0}};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_process_measurement *row;
+        fw_process_calibration c;
+        int n;
+        const char *text = fw_arena_printf(arena, "%s%s", head, of[i].rows);
+        quiet = fw_diags_new(arena);
+        assert_int_equal(fw_process_measurements_read(arena, "t.csv", text, strlen(text), &quiet, &row, &n), FW_OK);
+        assert_int_equal(n, of[i].n);
+        assert_int_equal(quiet.count, of[i].told);
+        if (of[i].told) assert_int_equal(quiet.item[0].number, 681);
+        if (i > 0) continue;
+        assert_int_equal(fw_process_calibrate(arena, silicon, row, n, &quiet, &c), FW_OK);
+        assert_relative(found(&c, "rie.R")->uncertainty, 0.1e-6 / 5400.0, 1e-9); /* and not that over the root of three */
+    }
+    for (int exact = 0; exact < 2; exact++) {
+        fw_process_calibration c;
+        nrow = 0;
+        put("etch-rate", "rie.R", 0, LENGTH, 50e-6, exact ? 1e-18 : 1e-9, TIME, 5400.0, 0.0);
+        quiet = fw_diags_new(arena);
+        assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &quiet, &c), FW_OK);
+        fw_process_calibration_ask(silicon, &c, "t.csv", &quiet);
+        assert_int_equal(quiet.count > 0 && quiet.item[0].number == 682, exact);
+    }
+}
+
+/* the temperature that a row was etched at stands in columns of its own */
+static void tables_with_temperatures(void **state) {
+    (void)state;
+    static const char head[] = "coupon,feature,measured,u,unit,at,u_at,at_unit,temperature_Cel,u_temperature_K\netch-rate,pan.R,0.62,0.01,um,5,0.1,min,";
+    static const struct {
+        const char *cells;
+        double T, u;
+    } of[] = {{"35,0.2", 308.15, 0.2}, {"35.5", 308.65, 0.1 / 3.4641016151377544}, {"", 0, 0}, {"-300,0.1", -1, 0}, {"35,-1", -1, 0}, {"warm,", -1, 0}};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_process_measurement *row;
+        int n;
+        const char *text = fw_arena_printf(arena, "%s%s\n", head, of[i].cells);
+        quiet = fw_diags_new(arena);
+        assert_int_equal(fw_process_measurements_read(arena, "t.csv", text, strlen(text), &quiet, &row, &n), of[i].T < 0 ? FW_INPUT : FW_OK);
+        if (of[i].T < 0) continue;
+        assert_near(row[0].temperature_K, of[i].T, 1e-9);
+        assert_near(row[0].temperature_uncertainty, of[i].u, 1e-9);
+    }
+}
+
 static void wrong_tables(void **state) {
     (void)state;
     static const char *const bad[] = {
@@ -610,8 +727,8 @@ int main(void) {
         cmocka_unit_test(coverage),        cmocka_unit_test(two_slots),
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
-        cmocka_unit_test(wrong_tables),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
-        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(rates_of_a_temperature), cmocka_unit_test(too_good),
+        cmocka_unit_test(wrong_tables), cmocka_unit_test(tables_with_temperatures), cmocka_unit_test(rows_that_read_the_same),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
+        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(rates_of_a_temperature), cmocka_unit_test(of_warm_baths), cmocka_unit_test(too_good),
         cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -797,6 +797,34 @@ static void who_is_there(void **state) {
     computed_pack(SILICON, NULL, NULL);
     assert_null(said_of(617, ""));
     assert_null(said_of(609, ""));
+    /* what goes on under current is switched off by somebody, and what a bath displaces goes on in it; an ash ends by itself */
+    static const char plated[] = "equipment=\"plater\" in-source=\"yes\" batch=\"1\" attended=\"%d\"";
+    for (int minutes = 2; minutes <= 6; minutes += 4) {
+        fw_process_flow *f = computed_pack(COPPER, fw_arena_printf(arena, plated, 6), fw_arena_printf(arena, plated, minutes));
+        const char *says = "somebody is at step C22 for 2 min";
+        assert_true(!said_of(617, says) == (minutes == 6));
+        assert_true(!said_of(617, "switches the current off") == (minutes == 6));
+        assert_true(reasons(f, says) == (minutes == 2));
+    }
+    static const char left[] = "\"displace\" \"anodise\" \"develop\" \"plate\" \"strip\" \"clean\" \"deposit\"";
+    fw_process_step s = {.law = "const"};
+    const fw_process_goes_on is[] = {FW_GOES_ON_IN_BATH, FW_GOES_ON_UNDER_CURRENT, FW_GOES_ON_IN_BATH, FW_GOES_ON_UNDER_CURRENT,
+                                     FW_GOES_ON_IN_BATH, FW_GOES_ON_NOT,           FW_GOES_ON_NOT};
+    const char *at_kind = left;
+    fw_word kind;
+    for (size_t i = 0; fw_word_next(&at_kind, " \"", &kind); i++) {
+        assert_non_null(s.op = fw_arena_strndup(arena, kind.at, kind.length));
+        assert_int_equal(fw_process_step_goes_on(&s), is[i]);
+    }
+    /* runs add up where the time is that of an amount */
+    const struct {
+        const char *op, *law;
+        bool adds;
+    } run[] = {{"wet-etch", "rate", true}, {"bake", "rate", true}, {"bake", "const", false}, {"strip", "const", false}, {"strip", "arrhenius", true}, {"develop", "const", true}, {"coat", "spin", false}, {"hold", "diffusion", false}, {"of a laboratory", "rate", false}};
+    for (size_t i = 0; i < sizeof run / sizeof run[0]; i++) {
+        s.op = run[i].op, s.law = run[i].law;
+        assert_int_equal(fw_process_step_adds_up(&s), run[i].adds);
+    }
 }
 
 /* one die in the middle of the pack's own wafer, where the description lays out none; currents against the supply */

@@ -104,27 +104,33 @@ static void what_was_put_right_stands(void **state) {
 static void a_thickness_goes_with_its_time(void **state) {
     (void)state;
     static const struct {
-        const char *words, *told;
+        const char *words, *told, *before;
     } entry[] = {
         {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1",
          "step C22: thickness = 9.1 um does not go with the time that it took: that makes 18 um (16.6 to 19.3 um), by t = d rho P n "
-         "F/(eta J M) in 42 min"},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1", NULL},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; thickness=9.1", "that makes 2.14 um"},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1; set current density=10 mA/cm2", NULL},
+         "F/(eta J M) in 42 min", NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1", NULL, NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; thickness=9.1", "that makes 2.14 um", NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1; set current density=10 mA/cm2", NULL, NULL},
         {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1; set current density=10 mA/cm2",
-         "that makes 4.71 um"},
-        {"C13; start=2026-11-20T10:00; end=2026-11-20T10:01; by=AB; resist height=20 um", NULL},
+         "that makes 4.71 um", NULL},
+        {"C13; start=2026-11-20T10:00; end=2026-11-20T10:01; by=AB; resist height=20 um", NULL, NULL},
+        /* the missing charge: both runs make it, each at its own current; resist that was stripped in between begins anew */
+        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", NULL, "C22; start=2026-11-20T10:00; end=2026-11-20T10:11; by=AB"},
+        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", NULL,
+         "C22; start=2026-11-20T09:50; end=2026-11-20T10:12; by=AB; set current density=10 mA/cm2"},
+        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", "that makes ", "C22; start=2026-11-20T09:28; end=2026-11-20T09:50; by=AB"},
     };
     for (size_t i = 0; i < sizeof entry / sizeof entry[0]; i++) {
         fw_recipe_asrun run;
         fw_recipe_deviation *list;
         bool told = false, listed = false;
         int n;
-        const char *log = with(begun(), entry[i].words, 0);
+        const char *log = entry[i].before ? with(begun(), entry[i].before, 0) : begun();
+        log = with(log, entry[i].words, 0);
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         assert_int_equal(
-            fw_recipe_asrun_ask_time(arena, &run, &run.entry[0], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+            fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
         for (size_t k = 0; k < diags.count; k++) {
             if (diags.item[k].number != 654) continue;
             told = true;
@@ -497,6 +503,42 @@ static void readings(void **state) {
     assert_near(r.item[2].row.value, 9.55e-6, 1e-18);
 }
 
+/* The bath of a rate: what the coupon says, else what was set of the run that it is of, wherever it was read; not that of
+   another wafer, nor of a run before the last one */
+static void readings_of_warm_baths(void **state) {
+    (void)state;
+    static const char rate[] = "coupon=etch-rate, pan.R, value=0.62 0.61 0.63 um, u=0.01 um, at=5 min";
+    static const char *const etch = "S14; start=2026-11-20T10:00; end=2026-11-20T10:17; by=AB; second=CD; wafer=1";
+    static const char *const later = "S15; start=2026-11-20T11:00; end=2026-11-20T11:07; by=AB; wafer=%d; %s%s";
+    static const struct {
+        const char *etched, *again; /* NULL: not */
+        int wafer;
+        const char *more;
+        double T, u;
+    } of[] = {{"; set temperature=35 Cel", NULL, 1, "", 308.15, 0.288675}, {"; set temperature=35.0 Cel", NULL, 1, "", 308.15, 0.0288675},
+              {"; set temperature=35 Cel", NULL, 2, "", 0, 0},             {"", NULL, 1, "", 0, 0},
+              {"", NULL, 1, ", temperature=30 Cel, u-temperature=0.5 K", 303.15, 0.5},
+              {"; set temperature=35 Cel", "", 1, "", 0, 0},               {"; set temperature=35 Cel", "; set temperature=31 Cel", 1, "", 304.15, 0.288675}};
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_recipe_asrun run;
+        fw_process_readings r;
+        const char *log = with(begun(), fw_arena_printf(arena, "%s%s", etch, of[i].etched), 0);
+        if (of[i].again)
+            log = with(log, fw_arena_printf(arena, "S14; start=2026-11-20T10:30; end=2026-11-20T10:32; by=AB; second=CD; wafer=1%s", of[i].again), 0);
+        log = with(log, fw_arena_printf(arena, later, of[i].wafer, rate, of[i].more), 0);
+        assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+        assert_int_equal(r.n, 1);
+        assert_near(r.item[0].row.temperature_K, of[i].T, 1e-9);
+        assert_near(r.item[0].row.temperature_uncertainty, of[i].u, 1e-6);
+    }
+    with(begun(), fw_arena_printf(arena, "%s; %s, temperature=35 um", etch, rate), 282);
+    with(begun(), fw_arena_printf(arena, "%s; %s, temperature=35 Cel, u-temperature=-1 K", etch, rate), 282);
+}
+
 /* what the plan does not know is refused with what there is */
 static void refused_values(void **state) {
     (void)state;
@@ -822,6 +864,14 @@ static void waits_are_not_below_nothing(void **state) {
         {{C("C20", "10:00", "10:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "12:00", "12:09", "1")}, 3, 0, "", NULL},
         {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1")}, 2, 0, "", NULL},
         {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1"), C("C09", "10:20", "10:25", "1")}, 3, 0, "", NULL},
+        /* an interrupted step goes on from its first run: what it waited for was over then, and what that waited for stands */
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C22", "10:35", "10:47", "1")}, 3, 0, "", NULL},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:30", "10:40", "1"), C("C22", "10:45", "10:57", "1")}, 3, 1,
+         "step C22 of wafer 1 waited 21 min since C20, and allowed", "waited 21 min since C20: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C20", "10:40", "10:49", "1"), C("C22", "11:10", "11:22", "1")}, 4, 1,
+         "step C22 of wafer 1 waited 21 min since C20, and allowed", "waited 21 min since C20: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C22", "10:45", "10:50", "1"), C("C22", "10:55", "11:01", "1")}, 4, 1,
+         "step C22 of wafer 1 waited 23 min since C22, and allowed is 0 s to 15 min", "waited 23 min since C22: OUT"},
         /* the wrong time was put right */
         {{C("C20", "18:00", "18:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "10:00", "10:09", "1")}, 3, 1, "before C20 ended", NULL},
     };
@@ -840,7 +890,16 @@ static void waits_are_not_below_nothing(void **state) {
     fw_recipe_deviation *list;
     fw_text json = fw_text_new(arena), page = fw_text_new(arena);
     int n, waits = 0;
-    const char *early = begun();
+    const char *late = begun(), *early = begun();
+    static const char *const once[] = {"C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; wafer=1",
+                                       "C22; start=2026-11-20T10:30; end=2026-11-20T10:40; by=AB; second=CD; wafer=1",
+                                       "C22; start=2026-11-20T10:45; end=2026-11-20T10:57; by=AB; second=CD; wafer=1"};
+    for (int i = 0; i < 3; i++)
+        late = with(late, once[i], 0);
+    assert_int_equal(read_log(late, strlen(late), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+    assert_int_equal(n, 1); /* which no second run puts right */
+    assert_false(list[0].repeated);
     for (int i = 0; i < 2; i++)
         early = with(early, log[0].entry[i], 0);
     assert_int_equal(read_log(early, strlen(early), &run), FW_OK);
@@ -867,6 +926,82 @@ static void an_entry_is_made_once(void **state) {
             told = told || strstr(diags.item[k].message, "is in the log already, with the same values (line 2)");
         assert_int_equal(told, i == 0);
     }
+}
+
+/* An etch of two runs is one longer etch: judged by the sum, with the rinse of each where that is in question; what was made anew
+   in between begins anew, a run put right by a later line is one, a bake whose time is stated does not add up, and another
+   wafer's has no part in it. A run that is gone on with is not short. */
+static void runs_add_up(void **state) {
+    (void)state;
+#define E(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
+    static const struct {
+        const char *entry[4];
+        int n, asked; /* FW-D680 */
+        const char *judged, *table; /* of the last */
+        int out;
+    } log[] = {
+        {{E("S14", "10:00", "10:10", "1"), E("S14", "10:20", "10:27", "1")}, 2, 0, "in window", "adds up to 17 min in 2 runs\n", 0},
+        {{E("S14", "10:00", "10:05", "1"), E("S14", "10:20", "10:24", "1")}, 2, 0, "short", "adds up to 9 min in 2 runs", 1},
+        {{E("S14", "10:00", "10:16", "1"), E("S14", "10:20", "10:35", "1")}, 2, 1, "in window", "adds up to 31 min in 2 runs, and one run is to stop by 27 min 7 s", 0},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:30", "10:43", "1")}, 2, 0, "long", "adds up to 33 min in 2 runs", 1},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:30", "10:50", "2")}, 2, 0, "in window", NULL, 0},
+        {{E("S03", "08:00", "08:25", "1"), E("S14", "10:00", "10:20", "1"), E("S03", "12:00", "12:25", "1"), E("S14", "13:00", "13:20", "1")}, 4, 0, "in window", NULL, 0},
+        {{E("S07", "08:00", "08:03", "1"), E("S14", "10:00", "10:20", "1"), E("S07", "12:00", "12:03", "1"), E("S14", "13:00", "13:20", "1")}, 4, 0, "long", "adds up to 40 min in 2 runs", 1},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:00", "10:19", "1")}, 2, 0, "in window", NULL, 0},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "09:00", "09:20", "1")}, 2, 0, "in window", NULL, 0},
+        {{E("S06", "10:00", "10:20", "1"), E("S06", "10:30", "10:50", "1")}, 2, 0, "in window", NULL, 0},
+        {{E("S08", "10:00", "10:02", "1"), E("S08", "10:30", "10:32", "1")}, 2, 0, "long", "adds up to 4 min in 2 runs", 1},
+        {{E("S07", "09:50", "09:52", "1"), E("S08", "10:00", "10:02", "1"), E("S07", "10:10", "10:12", "1"), E("S08", "10:30", "10:32", "1")}, 4, 0, "in window", NULL, 0},
+        {{E("S18", "10:00", "10:40", "1"), E("S18", "10:50", "11:30", "1"), E("S18", "11:40", "12:10", "1")}, 3, 0, "in window", "adds up to 110 min in 3 runs", 0},
+    };
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
+        fw_recipe_asrun run;
+        fw_recipe_asrun_total total;
+        fw_text table = fw_text_new(arena), json = fw_text_new(arena);
+        const char *text = begun();
+        int asked = 0;
+        for (int k = 0; k < log[i].n; k++)
+            text = with(text, log[i].entry[k], 0);
+        assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+        const fw_recipe_asrun_entry *last = &run.entry[run.nentry - 1];
+        if (strcmp(fw_recipe_asrun_in_time(&run, last), log[i].judged) != 0) print_message("log %zu\n", i);
+        assert_string_equal(fw_recipe_asrun_in_time(&run, last), log[i].judged);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, last, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            asked += diags.item[k].number == 680;
+        assert_int_equal(asked, log[i].asked);
+        assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
+        assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+        if (log[i].table && !holds(&table, log[i].table)) print_message("log %zu\n%s\n", i, table.data);
+        assert_true(log[i].table ? holds(&table, log[i].table) : !holds(&table, "adds up"));
+        assert_true(holds(&json, "\"runs\":") == (log[i].table != NULL));
+        assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+        if (total.out != log[i].out) print_message("log %zu\n%s\n", i, table.data);
+        assert_int_equal(total.out, log[i].out);
+        if (holds(&table, "out of limits in runs that were repeated")) print_message("log %zu\n%s\n", i, strstr(table.data, "steps run"));
+        assert_false(holds(&table, "out of limits in runs that were repeated"));
+    }
+    /* planned and actual are of the same steps: those with a planned time; the others are told beside them */
+    static const char *const both[] = {E("S01", "08:00", "08:08", "1"), E("S03", "09:00", "09:30", "1"), E("S14", "10:00", "10:10", "1"), E("S14", "10:20", "10:27", "1")};
+    fw_recipe_asrun run;
+    fw_recipe_asrun_total total;
+    fw_text table = fw_text_new(arena);
+    const char *text = begun();
+    for (int k = 0; k < 4; k++)
+        text = with(text, both[k], 0);
+    assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+    assert_near(total.actual_s, 60.0 * (8 + 10 + 7), 1e-9);
+    assert_near(total.earlier_s, 600.0, 1e-9);
+    assert_near(total.unplanned_s, 1800.0, 1e-9);
+    assert_int_equal(total.unplanned, 1);
+    assert_near(total.planned_s, step_of(flow, "S01")->booked_s + step_of(flow, "S14")->booked_s, 1e-9);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
+    assert_true(holds(&table, "for those that have a planned time, actual 25 min, of which 10 min in earlier runs; 1 without a planned time took 30 min"));
+#undef E
 }
 
 /* what calibrate could make nothing of is not written */
@@ -1028,6 +1163,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(heads, setup, teardown),
         cmocka_unit_test_setup_teardown(what_is_written_is_read, setup, teardown),
         cmocka_unit_test_setup_teardown(a_wafer_is_in_one_place, setup, teardown),
+        cmocka_unit_test_setup_teardown(runs_add_up, setup, teardown),
         cmocka_unit_test_setup_teardown(what_was_put_right_stands, setup, teardown),
         cmocka_unit_test_setup_teardown(dates, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_entries, setup, teardown),
@@ -1042,6 +1178,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(sites_and_settings, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_values, setup, teardown),
         cmocka_unit_test_setup_teardown(readings, setup, teardown),
+        cmocka_unit_test_setup_teardown(readings_of_warm_baths, setup, teardown),
         cmocka_unit_test_setup_teardown(wafer_lists, setup, teardown),
         cmocka_unit_test_setup_teardown(anything_typed, setup, teardown),
         cmocka_unit_test_setup_teardown(wafers_are_no_repetitions, setup, teardown),

@@ -1,0 +1,588 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the measurements of a log say: control charts, with limits by the ranges within subgroups, and their picture; the
+   coupons as calibrate takes them; a thickness against the time that it took. */
+#include "base/svg.h"
+#include "process/process_law.h"
+#include "recipe/asrun_parts.h"
+#include "recipe/recipe_words.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- limits, and what breaks the rules ---- */
+
+bool fw_recipe_chart_factors(int n, double *A2, double *D3, double *D4) {
+    static const double factor[][3] = {
+        {1.880, 0.0, 3.267},   {1.023, 0.0, 2.574},   {0.729, 0.0, 2.282},
+        {0.577, 0.0, 2.114},   {0.483, 0.0, 2.004},   {0.419, 0.076, 1.924},
+        {0.373, 0.136, 1.864}, {0.337, 0.184, 1.816}, {0.308, 0.223, 1.777}};
+    if (n < 2 || n > 10) return false;
+    *A2 = factor[n - 2][0], *D3 = factor[n - 2][1], *D4 = factor[n - 2][2];
+    return true;
+}
+
+/* the most frequent number of sites, of two the larger */
+static int frequent(const fw_recipe_chart *c, int *times) {
+    int best = 1;
+    *times = 0;
+    for (int i = 0; i < c->npoint; i++) {
+        int n = 0;
+        for (int k = 0; k < c->npoint; k++)
+            n += c->point[k].n == c->point[i].n;
+        if (n > *times || (n == *times && c->point[i].n > best)) best = c->point[i].n, *times = n;
+    }
+    return best;
+}
+
+/* |x_i - x_(i-1)| of individual values, none at the first */
+static void moving_ranges(fw_recipe_chart *c) {
+    const fw_recipe_chart_point *before = NULL;
+    for (int i = 0; i < c->npoint; i++) {
+        fw_recipe_chart_point *p = &c->point[i];
+        if (p->n != 1) continue;
+        p->range = before ? fabs(p->mean - before->mean) : (double)NAN;
+        before = p;
+    }
+}
+
+static void averages(fw_recipe_chart *c) {
+    int ranges = 0;
+    c->centre = c->range_centre = 0.0;
+    for (int i = 0; i < c->npoint; i++) {
+        const fw_recipe_chart_point *p = &c->point[i];
+        if (p->n != c->size) continue;
+        c->centre += p->mean / c->counted;
+        if (!isnan(p->range)) c->range_centre += p->range, ranges++;
+    }
+    c->range_centre = ranges ? c->range_centre / ranges : (double)NAN;
+}
+
+static void mark(fw_recipe_chart *c) {
+    int same = 0, side = 0;
+    for (int i = 0; i < c->npoint; i++) {
+        fw_recipe_chart_point *p = &c->point[i];
+        if (p->n != c->size) continue;
+        int is = (p->mean > c->centre) - (p->mean < c->centre);
+        same = is != 0 && is == side ? same + 1 : is != 0;
+        side = is;
+        p->run = same >= FW_CHART_RUN;
+        p->beyond = p->mean < c->lower || p->mean > c->upper;
+        p->range_beyond = p->range < c->range_lower || p->range > c->range_upper;
+    }
+}
+
+/* Subgroups of n = 2 to 10 sites: xbar-bar +- A2 R-bar, ranges D3 R-bar to D4 R-bar. Individual values: x-bar +- 2.66
+   MR-bar, moving ranges of two 0 to 3.267 MR-bar (2.66 = 3/d2(2), 3.267 = D4(2)). Limits of their own from 8 subgroups of
+   one size on (trial limits until 20); with fewer there are none. Out of control: beyond a limit, or the eighth and every
+   further of a run on one side of the centre. Input and output in the unit of what was measured. A false alarm of the
+   limits is one in 370 points of a normal distribution, of the runs one in 128 starts.
+   Source: D. C. Montgomery, Introduction to Statistical Quality Control, 6.2, 6.4 and appendix VI; NIST/SEMATECH e-Handbook
+   of Statistical Methods, 6.3.2. Test: test_asrun_measured.c. */
+void fw_recipe_chart_judge(fw_recipe_chart *c) {
+    double A2 = 2.66, D3 = 0.0, D4 = 3.267;
+    c->size = frequent(c, &c->counted);
+    moving_ranges(c);
+    averages(c);
+    c->limits = c->counted >= FW_CHART_LEAST &&
+                (c->size == 1 || fw_recipe_chart_factors(c->size, &A2, &D3, &D4));
+    if (!c->limits) return;
+    c->lower = c->centre - A2 * c->range_centre;
+    c->upper = c->centre + A2 * c->range_centre;
+    c->range_lower = D3 * c->range_centre;
+    c->range_upper = D4 * c->range_centre;
+    mark(c);
+}
+
+/* ---- the picture ----
+   Means above, ranges below. What is accepted is a band, limits are dashed lines, points that break a rule are red and
+   filled. */
+
+enum {
+    WIDTH = 720,
+    LEFT = 78,
+    RIGHT = 120,
+    TOP = 26,
+    MEANS = 170,
+    BETWEEN = 26,
+    RANGES = 84,
+    BELOW = 40
+};
+
+typedef struct named { /* a level and where its value is written */
+    const char *name;
+    double value, y;
+} named;
+
+typedef struct panel {
+    double low, high; /* of the values */
+    double top, height;
+    const fw_recipe_chart *chart;
+    fw_text *out;
+    named named[6];
+    int nnamed;
+} panel;
+
+static double y_of(const panel *p, double value) {
+    return p->top + p->height * (p->high - value) / (p->high - p->low);
+}
+
+static double x_of(const fw_recipe_chart *c, int i) {
+    return LEFT + (WIDTH - LEFT - RIGHT) * (i + 0.5) / c->npoint;
+}
+
+static void take(panel *p, double value) {
+    if (!isfinite(value)) return;
+    p->low = fmin(p->low, value);
+    p->high = fmax(p->high, value);
+}
+
+/* room above and below, and some where all values are one */
+static void widen(panel *p) {
+    double span = p->high - p->low;
+    if (!(span > 1e-9 * fmax(fabs(p->high), fabs(p->low))))
+        span = p->high != 0.0 || p->low != 0.0 ? 0.1 * fmax(fabs(p->high), fabs(p->low)) : 1.0;
+    p->low -= 0.08 * span;
+    p->high += 0.08 * span;
+}
+
+static void put_label(fw_text *out, double x, double y, const char *name, double value) {
+    fw_svg_open(out, "text x='{c}' y='{c}'", x, y);
+    fw_text_printf(out, "%s ", name);
+    fw_recipe_put_value(out, value);
+    fw_svg_close(out, "text\n");
+}
+
+static void frame(const panel *p, const char *name) {
+    fw_text *out = p->out;
+    const double right = WIDTH - RIGHT;
+    double step = fw_svg_nice((p->high - p->low) * MEANS / p->height / 5.0);
+    for (double v = ceil(p->low / step) * step; v <= p->high; v += step) {
+        fw_svg_put(out, "path stroke='#ddd' d='M{c} {c}H{c}'\n", (double)LEFT, y_of(p, v), right);
+        fw_svg_open(out, "text x='{c}' y='{c}' text-anchor='end'", LEFT - 6.0, y_of(p, v) + 4.0);
+        fw_svg_tick(out, v, step);
+        fw_svg_close(out, "text\n");
+    }
+    fw_svg_put(out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='none' stroke='#999'\n",
+               (double)LEFT, p->top, right - LEFT, p->height);
+    fw_svg_put(out, "text transform='translate(14 {c}) rotate(-90)' text-anchor='middle'>{s}\n",
+               p->top + 0.5 * p->height, name);
+}
+
+/* a line across the panel; its value is written at the right edge by names() */
+static void level(panel *p, double value, const char *style, const char *name) {
+    if (!isfinite(value)) return;
+    double y = y_of(p, value);
+    fw_svg_put(p->out, "path {r} d='M{c} {c}H{c}'\n", style, (double)LEFT, y,
+               (double)(WIDTH - RIGHT));
+    int at = p->nnamed++;
+    for (; at > 0 && p->named[at - 1].y > y; at--) /* from above to below */
+        p->named[at] = p->named[at - 1];
+    p->named[at] = (named){name, value, y};
+}
+
+/* one below the other where they would meet, and none below the panel */
+static void names(panel *p) {
+    const double line = 12.0;
+    double below = p->top + p->height + 4.0;
+    for (int i = 1; i < p->nnamed; i++)
+        p->named[i].y = fmax(p->named[i].y, p->named[i - 1].y + line);
+    for (int i = p->nnamed - 1; i >= 0; i--) {
+        p->named[i].y = fmin(p->named[i].y, below);
+        below = p->named[i].y - line;
+    }
+    for (int i = 0; i < p->nnamed; i++)
+        put_label(p->out, WIDTH - RIGHT + 5.0, p->named[i].y + 4.0, p->named[i].name,
+                  p->named[i].value);
+}
+
+static const char dashed[] = "stroke='#b00' stroke-dasharray='6 3'";
+static const char solid[] = "stroke='#555'";
+static const char dotted[] = "stroke='#2a7' stroke-dasharray='2 3'";
+static const char green[] = "stroke='#2a7'";
+
+static void points(const panel *p, bool ranges) {
+    const fw_recipe_chart *c = p->chart;
+    char command = 'M';
+    fw_svg_path(p->out, "fill='none' stroke='#357'");
+    for (int i = 0; i < c->npoint; i++) {
+        double value = ranges ? c->point[i].range : c->point[i].mean;
+        if (isnan(value)) continue;
+        fw_svg_point(p->out, command, x_of(c, i), y_of(p, value), 2);
+        command = 'L';
+    }
+    fw_svg_path_end(p->out);
+    for (int i = 0; i < c->npoint; i++) {
+        const fw_recipe_chart_point *q = &c->point[i];
+        double value = ranges ? q->range : q->mean;
+        bool bad = ranges ? q->range_beyond : q->beyond || q->run || q->outside;
+        const char *fill = q->n == c->size ? "#357" : "#fff";
+        if (!isnan(value))
+            fw_svg_put(p->out, "circle cx='{c}' cy='{c}' r='{c}' fill='{r}' stroke='{r}'\n",
+                       x_of(c, i), y_of(p, value), bad ? 5.0 : 3.5, bad ? "#d22" : fill,
+                       bad ? "#800" : "#357");
+    }
+}
+
+static void labels(const fw_recipe_chart *c, double y, fw_text *out) {
+    int every = c->npoint / 16 + 1;
+    for (int i = 0; i < c->npoint; i += every)
+        fw_svg_put(out, "text x='{c}' y='{c}' text-anchor='middle'>{s}\n", x_of(c, i), y,
+                   c->point[i].label);
+    fw_svg_put(out, "text x='{c}' y='{c}'>wafer\n", WIDTH - RIGHT + 5.0, y);
+}
+
+static void means(const fw_recipe_chart *c, fw_text *out) {
+    panel p = {.low = (double)INFINITY,
+               .high = -(double)INFINITY,
+               .top = TOP,
+               .height = MEANS,
+               .chart = c,
+               .out = out};
+    for (int i = 0; i < c->npoint; i++)
+        take(&p, c->point[i].mean);
+    take(&p, c->low), take(&p, c->high);
+    if (c->limits) take(&p, c->lower), take(&p, c->upper);
+    widen(&p);
+    double top = isnan(c->high) ? p.high : c->high, bottom = isnan(c->low) ? p.low : c->low;
+    if (!isnan(c->high) || !isnan(c->low))
+        fw_svg_put(out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='#e3f4ea'\n",
+                   (double)LEFT, y_of(&p, top), (double)(WIDTH - LEFT - RIGHT),
+                   fmax(y_of(&p, bottom) - y_of(&p, top), 0.0));
+    frame(&p, c->size > 1 ? "mean of the sites" : "value");
+    if (!c->limits) level(&p, 0.5 * (c->low + c->high), dotted, "planned");
+    level(&p, c->high, green, "accept");
+    level(&p, c->low, green, "accept");
+    if (c->limits) {
+        level(&p, c->upper, dashed, "UCL");
+        level(&p, c->centre, solid, "centre");
+        level(&p, c->lower, dashed, "LCL");
+    }
+    names(&p);
+    points(&p, false);
+}
+
+static void ranges(const fw_recipe_chart *c, fw_text *out) {
+    panel p = {.top = TOP + MEANS + BETWEEN, .height = RANGES, .chart = c, .out = out};
+    for (int i = 0; i < c->npoint; i++)
+        take(&p, c->point[i].range);
+    if (c->limits) take(&p, c->range_upper);
+    p.high = p.high > 0.0 ? 1.12 * p.high : 1.0;
+    frame(&p, c->size > 1 ? "range" : "moving range");
+    if (c->limits) {
+        level(&p, c->range_upper, dashed, "UCL");
+        level(&p, c->range_centre, solid, "mean");
+        if (c->range_lower > 0.0) level(&p, c->range_lower, dashed, "LCL");
+    }
+    names(&p);
+    points(&p, true);
+    labels(c, p.top + p.height + 16, out);
+}
+
+void fw_recipe_chart_svg(const fw_recipe_chart *c, fw_text *out) {
+    fw_svg_begin(out, &(fw_svg_frame){.width = WIDTH,
+                                      .height = TOP + MEANS + BETWEEN + RANGES + BELOW,
+                                      .size = FW_SVG_SIZE_NONE,
+                                      .font = fw_svg_font_page,
+                                      .font_size = 11});
+    fw_svg_title(out, "{s}", c->title);
+    fw_svg_open(out, "text x='{c}' y='16' font-size='13'", (double)LEFT);
+    fw_text_escaped(out, c->title);
+    if (c->unit[0]) {
+        fw_text_add(out, ", ");
+        fw_recipe_put_unit(out, c->unit);
+    }
+    fw_svg_close(out, "text\n");
+    means(c, out);
+    ranges(c, out);
+    fw_svg_end(out);
+}
+
+/* ---- the coupons of a log, as calibrate takes them ---- */
+
+/* Is b, which comes later, in the place of a? It reads the same feature of the same drawn size again. A rate is read off
+   several times of one wafer, which are readings of their own; where all readings of a coupon are of one run, another `at` is
+   that of the run that counts, or corrects what was mistyped. Other drawn sizes are other readings, and stay. */
+static bool same_reading(const fw_recipe_asrun_entry *a, const fw_recipe_coupon *ca,
+                         const fw_recipe_asrun_entry *b, const fw_recipe_coupon *cb) {
+    const char *wa = a->wafer ? a->wafer : "", *wb = b->wafer ? b->wafer : "";
+    bool drawn = isnan(ca->row.drawn_m) ? isnan(cb->row.drawn_m)
+                                        : fabs(ca->row.drawn_m - cb->row.drawn_m) < 1e-12;
+    bool under = isnan(ca->row.at) ? isnan(cb->row.at) : ca->row.at == cb->row.at;
+    if (a->step != b->step || strcmp(wa, wb) != 0 || !drawn ||
+        strcmp(ca->row.coupon, cb->row.coupon) != 0 ||
+        strcmp(ca->row.feature, cb->row.feature) != 0)
+        return false;
+    return under || (a != b && fw_process_coupon_of_one_run(ca->row.coupon));
+}
+
+/* in a later entry or further on in this one; the last such reading counts */
+static bool read_again(const fw_recipe_asrun *run, int entry, int coupon,
+                       fw_recipe_read_again *again) {
+    const fw_recipe_asrun_entry *e = &run->entry[entry];
+    *again = (fw_recipe_read_again){.entry = e, .coupon = &e->coupon[coupon]};
+    for (int i = entry; i < run->nentry; i++)
+        for (int k = i == entry ? coupon + 1 : 0; k < run->entry[i].ncoupon; k++)
+            if (same_reading(e, again->coupon, &run->entry[i], &run->entry[i].coupon[k])) {
+                again->by = &run->entry[i];
+                again->by_coupon = &run->entry[i].coupon[k];
+            }
+    return again->by;
+}
+
+bool fw_recipe_asrun_read_again(const fw_recipe_asrun *run, int *entry, int *coupon,
+                                fw_recipe_read_again *again) {
+    for (; *entry < run->nentry; ++*entry, *coupon = 0)
+        while (*coupon < run->entry[*entry].ncoupon)
+            if (read_again(run, *entry, (*coupon)++, again)) return true;
+    return false;
+}
+
+static void warn_again(const fw_recipe_read_again *again, fw_diags *diags) {
+    const char *wafer = again->entry->wafer;
+    fw_diag_warning(diags, 610, again->coupon->row.place,
+                    "'%s' of step %s%s%s does not count: line %d reads it again ('%s'). %s",
+                    again->coupon->text, again->entry->step->id, wafer ? ", wafer " : "",
+                    wafer ? wafer : "", again->by->line, again->by_coupon->text,
+                    FW_RECIPE_KEEP_BOTH);
+}
+
+/* All readings of the coupon are of one run, but what stands under `at` is not the same: both count, and one may be
+   mistyped. Told once of a coupon, wafer and step. */
+static void warn_apart(const fw_process_readings *r, fw_diags *diags) {
+    const fw_process_reading *last = &r->item[r->n - 1];
+    const fw_process_measurement *b = &last->row;
+    if (isnan(b->at) || !fw_process_coupon_of_one_run(b->coupon)) return;
+    for (int i = 0; i < r->n - 1; i++) {
+        const fw_process_measurement *a = &r->item[i].row;
+        if (strcmp(r->item[i].step, last->step) != 0 ||
+            strcmp(r->item[i].wafer, last->wafer) != 0 || strcmp(a->coupon, b->coupon) != 0)
+            continue;
+        const double u = hypot(fmax(a->at_uncertainty, 0.0), fmax(b->at_uncertainty, 0.0));
+        if (fabs(a->at - b->at) <= 2.0 * u + 1e-12 * fabs(a->at)) continue;
+        fw_diag_warning(diags, 611, b->place,
+                        "coupon %s of step %s%s%s is of one run, but lines %d and %d say that it "
+                        "was under something else (at=); each reading counts with its own. Where "
+                        "one is mistyped, log its readings again; where both were measured, say "
+                        "by u-at= how exactly",
+                        b->coupon, last->step, last->wafer[0] ? ", wafer " : "", last->wafer,
+                        (int)a->place.line, (int)b->place.line);
+        return;
+    }
+}
+
+/* of a wafer that was scrapped or held by then: what was read is of another state than the flow's */
+static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                   const fw_recipe_coupon *c, fw_diags *diags) {
+    const fw_recipe_asrun_entry *out =
+        e->wafer ? fw_recipe_asrun_out(run, e->wafer, e->end_s) : NULL;
+    if (!out) return false;
+    fw_diag_warning(diags, 604, c->row.place,
+                    "'%s' of step %s does not count: wafer %s was %s at %s before (line %d)",
+                    c->text, e->step->id, e->wafer, fw_recipe_fate_word(out->fate), out->at->id,
+                    out->line);
+    return true;
+}
+
+/* Readings of a step that was not run as it is meant to be speak of that run. They count, since nobody else knows whether
+   what they tell depends on it. Times are not looked at: they are planned for a device, and this is of its log alone */
+static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e, fw_diags *diags) {
+    fw_text text = fw_text_new(arena);
+    if (e->ncoupon == 0 || !e->step) return FW_OK;
+    for (int i = 0; i < e->nset; i++)
+        if (!fw_recipe_asrun_allowed(&e->set[i])) {
+            fw_text_printf(&text, "; %s was ", e->set[i].name);
+            fw_recipe_put_value(&text, e->set[i].value);
+            if (strcmp(e->set[i].q->unit, "1") != 0)
+                fw_text_printf(&text, " %s", e->set[i].q->unit);
+        }
+    if (e->deviation) fw_text_printf(&text, "; written down: %s", e->deviation);
+    if (text.length == 0) return FW_OK;
+    FW_TRY(fw_text_end(&text));
+    fw_diag_warning(diags, 652, (fw_place){0},
+                    "what was read of step %s (line %d of the log) is of a run that went otherwise "
+                    "than planned%s; it counts like any other: leave it out where what it tells "
+                    "depends on that",
+                    e->step->id, e->line, text.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
+                                   fw_process_readings *readings) {
+    int most = 0;
+    for (int i = 0; i < run->nentry; i++)
+        most += run->entry[i].ncoupon;
+    *readings = (fw_process_readings){.lot = run->lot};
+    FW_NEED(readings->item = fw_arena_array(arena, fw_process_reading, (size_t)most + 1));
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        FW_TRY(tell_otherwise(arena, e, diags));
+        for (int k = 0; k < e->ncoupon; k++) {
+            const fw_recipe_coupon *c = &e->coupon[k];
+            fw_recipe_read_again again;
+            if (is_out(run, e, c, diags)) continue;
+            if (read_again(run, i, k, &again)) {
+                warn_again(&again, diags);
+                continue;
+            }
+            fw_process_reading *r = &readings->item[readings->n++];
+            *r = (fw_process_reading){.row = c->row,
+                                      .wafer = e->wafer ? e->wafer : "",
+                                      .step = e->step->id,
+                                      .nsite = c->nsite};
+            fw_recipe_asrun_warm(run, e, &r->row);
+            FW_NEED(r->date = fw_arena_strndup(arena, e->end, 10));
+            for (int s = 0; s < FW_RECIPE_SITES; s++) {
+                double off = c->site[s] - c->row.value;
+                if (!isnan(c->site[s])) r->squares += off * off;
+            }
+            warn_apart(readings, diags);
+        }
+    }
+    return FW_OK;
+}
+
+/* ---- does what was measured go with the time that it took? ----
+   Where the step's own law has the time of a thickness that the step adds or takes away, and what is accepted holds that
+   thickness from both sides, time and reading say one thing twice. */
+
+/* the amount that the law takes; NULL: its time is not that of an outcome (a bake, a spin) */
+static const fw_process_argument *amount_of_law(const fw_process_step *s) {
+    for (int i = 0; i < s->nargument; i++) {
+        const fw_process_argument *a = &s->argument[i];
+        if (strcmp(a->name, "thickness") != 0 && strcmp(a->name, "depth") != 0) continue;
+        for (int k = 0; k < s->nchange; k++)
+            if (s->change[k].thickness == a->q) return a;
+    }
+    return NULL;
+}
+
+/* what was measured of it, SI; NaN: nothing */
+static double amount_measured(const fw_recipe_asrun_entry *e, const fw_quantity *planned,
+                              const fw_recipe_measured **as) {
+    for (int i = 0; i < e->nmeasured; i++) {
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, e->measured[i].measure);
+        fw_quantity_unit unit;
+        if (!a || isnan(e->measured[i].number) || !a->low[0] || !a->high[0] ||
+            !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
+            !fw_quantity_dimension_equal(unit.dimension, planned->dimension) ||
+            !fw_recipe_asrun_inside(a->low, a->high,
+                                    fw_quantity_unit_from_si(&unit, planned->value)))
+            continue;
+        *as = &e->measured[i];
+        return fw_quantity_unit_to_si(&unit, e->measured[i].number);
+    }
+    return (double)NAN;
+}
+
+typedef struct timing { /* the law of a step as it was run */
+    fw_arena *arena;
+    const fw_process_step *step;
+    fw_process_argument argument[FW_LAW_ARGUMENTS];
+    fw_quantity
+        q[FW_LAW_ARGUMENTS]; /* those that were set otherwise; of the amount, what is asked of */
+    int amount;
+} timing;
+
+static bool as_run(fw_arena *arena, const fw_recipe_asrun_entry *e,
+                   const fw_process_argument *amount, timing *t) {
+    const fw_process_step *s = e->step;
+    if (s->nargument > FW_LAW_ARGUMENTS) return false;
+    *t = (timing){.arena = arena, .step = s, .amount = (int)(amount - s->argument)};
+    for (int i = 0; i < s->nargument; i++) {
+        fw_quantity_unit unit;
+        t->argument[i] = s->argument[i];
+        if (!s->argument[i].q) continue;
+        t->q[i] = *s->argument[i].q;
+        t->argument[i].q = &t->q[i];
+        for (int k = 0; k < e->nset; k++) {
+            const fw_quantity *set = e->set[k].q;
+            if (set != s->argument[i].q || isnan(e->set[k].value)) continue;
+            if (!fw_quantity_unit_parse(set->unit, strlen(set->unit), &unit, NULL, NULL))
+                return false;
+            t->q[i].value = fw_quantity_unit_to_si(&unit, e->set[k].value);
+            t->q[i].unknown = false;
+        }
+    }
+    t->q[t->amount].uncertainty = 0.0; /* it is what is asked */
+    t->q[t->amount].unknown = false;
+    return true;
+}
+
+static fw_status time_for(timing *t, double amount_m, fw_process_law_answer *answer) {
+    const fw_process_step *s = t->step;
+    t->q[t->amount].value = amount_m;
+    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
+                                    .shape = s->shape,
+                                    .expression = s->expression,
+                                    .wanted = FW_DIM_TIME,
+                                    .argument = t->argument,
+                                    .nargument = s->nargument};
+    return fw_process_law_evaluate(t->arena, &use, answer);
+}
+
+/* the amount of so much time, from one nearby: times rise with it, not far from in proportion */
+static fw_status amount_in(timing *t, double time_s, double *amount_m) {
+    enum { ROUNDS = 12 };
+    for (int i = 0; i < ROUNDS; i++) {
+        fw_process_law_answer answer;
+        FW_TRY(time_for(t, *amount_m, &answer));
+        if (!answer.computable || !(answer.value > 0)) break;
+        *amount_m *= time_s / answer.value;
+    }
+    return FW_OK;
+}
+
+/* The runs that e goes on from, in the time that they would have taken at what is set in e: t_o T_e/T_o, T the time of the
+   law for the amount that was measured; *n how many. NaN: one of them had no such time */
+static fw_status earlier(fw_arena *arena, const fw_recipe_asrun *run,
+                         const fw_recipe_asrun_entry *e, const fw_process_argument *amount,
+                         double measured, double time_s, int *n, double *earlier_s) {
+    *n = 0, *earlier_s = 0.0;
+    for (const fw_recipe_asrun_entry *o = fw_recipe_asrun_goes_on_from(run, e); o;
+         o = fw_recipe_asrun_goes_on_from(run, o), ++*n) {
+        timing t;
+        fw_process_law_answer answer = {0};
+        int together;
+        const bool known = as_run(arena, o, amount, &t);
+        if (known) FW_TRY(time_for(&t, measured, &answer));
+        *earlier_s += answer.computable && answer.value > 0
+                          ? (o->end_s - o->start_s) / fw_recipe_asrun_loads(run, o, &together) *
+                                time_s / answer.value
+                          : (double)NAN;
+    }
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                         const fw_recipe_asrun_entry *e, double loads,
+                                         double read_s, fw_recipe_amount_in_time *out) {
+    const fw_process_step *s = e->step;
+    timing t;
+    fw_process_law_answer answer;
+    *out = (fw_recipe_amount_in_time){.fits = true};
+    const fw_process_argument *amount = s && e->fate == FW_FATE_RUN ? amount_of_law(s) : NULL;
+    if (!amount || amount->q->unknown || !s->time.computable) return FW_OK;
+    const double measured = amount_measured(e, amount->q, &out->measured);
+    if (!(measured > 0) || !as_run(arena, e, amount, &t)) return FW_OK;
+    FW_TRY(time_for(&t, measured, &answer));
+    if (!answer.computable || !(answer.value > 0)) return FW_OK;
+    /* handling, pauses and what is finished at the machine may be in it or not */
+    int before;
+    double earlier_s;
+    FW_TRY(earlier(arena, run, e, amount, measured, answer.value, &before, &earlier_s));
+    if (isnan(earlier_s)) return FW_OK;
+    const double handling = s->finish_s + s->booked_stop_s - s->booked_stop_own_s,
+                 more = s->booked_stop_s - s->time.stop_s + before * handling,
+                 off = s->k * answer.uncertainty / answer.value,
+                 actual_s = e->end_s - e->start_s + loads * earlier_s;
+    read_s *= before + 1;
+    out->took_s = actual_s;
+    const bool brief = actual_s + read_s < answer.value * (1.0 - off);
+    const double longest = answer.value * (1.0 + off) * (1.0 + s->overrun) + more;
+    if (!brief && actual_s - read_s <= loads * longest) return FW_OK;
+    out->fits = false;
+    out->law_m = measured;
+    out->time_s = brief ? actual_s : actual_s / loads - more;
+    out->off = off;
+    out->formula = fw_process_law_find(s->law)->formula;
+    return amount_in(&t, out->time_s, &out->law_m);
+}
