@@ -334,7 +334,7 @@ typedef struct fw_statics_level_step {
 
 /* Of a motion at the row of `sample` nearest the largest peak of a hinge: both levels under the
    loads of that time and the same inertia forces. `relative` is the largest of that and, where exact beams are next, of a
-   quarter and half of the way, 1 where they have no equilibrium there. */
+   quarter and half of the way, 1 where they have an equilibrium at neither. */
 fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *mechanism,
                                      const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                      const fw_statics_level_step **step);

@@ -326,11 +326,15 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     FW_TRY(climb_at(&low, &high, x, row, gravity, least, step));
     if (step->why_not || step->next != FW_HINGE_ELASTICA) return FW_OK;
     FW_TRY(rows_on_the_way(arena, m, x, low.q0, low.model->scale.length_m, way));
+    bool found = false;
     for (int k = 0; k < FW_ON_THE_WAY; k++) {
         fw_statics_level_step there = *step;
         FW_TRY(climb_at(&low, &high, x, way[k], gravity, least, &there));
-        step->relative = fmax(step->relative, there.why_not ? 1 : there.relative);
+        if (there.why_not) continue; /* of one instant that is no sign: what falls has passed it */
+        found = true;
+        step->relative = fmax(step->relative, there.relative);
     }
+    if (!found) step->relative = fmax(step->relative, 1);
     return FW_OK;
 }
 
