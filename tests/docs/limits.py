@@ -39,6 +39,7 @@ CASES = {
                                      "check --corners none --advice none --set flexure[leaf]/@length=1900um", r"1500 um apart, but their surfaces .*FW-D125"),
     "Paths with long straight pieces": ("tests/bad/path-ends-meet.xml", None, "check", "FW-D264"),
     "Corners and holes in": ("tests/bad/path-width-steps.xml", None, "check", "FW-D263"),
+    "Bistables of curved beams": ("tests/data/snaps-late.xml", None, "statics --path --set push=1.6mN", "FW-D690"),
     "Drift along the axis of a path": (FREE, None, "hinge", r"FW-D265"),
     "Comparison with finite elements": (f"{THEORY}/flexures.xml", None, "hinge --json", '"outside": true'),
     "Contact of what has no": (f"{THEORY}/flexures.xml", None,
