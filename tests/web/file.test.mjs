@@ -59,6 +59,8 @@ describe("text and file", () => {
         await page.waitForSelector("#editor .cm-lintRange-error");
         await page.waitForSelector("#banner.old");
         assert.ok(await page.isVisible("#old-note > div"), "the old verdict is not told to be old");
+        const [note, decision] = await Promise.all(["#old-note > div", "#banner .decision"].map((q) => page.locator(q).boundingBox()));
+        assert.ok(note.y + note.height <= decision.y, "the note lies over the decision");
         await page.click(".problems button.jump");
         const chosen = await page.evaluate(() => {
             const { state } = globalThis.flexwright.parts.editor.view;

@@ -5,6 +5,7 @@ import { adding, idsOf, mayAdd } from "./adding.js";
 import { edit, hold, isPresent, letGo } from "./design.js";
 import { become, button, h, put, say, setOptions } from "./dom.js";
 import { DRAWN, enter, leave, rebuild, show } from "./entering.js";
+import { endOf, unitSizes } from "./exploring.js";
 import { number, splitQuantity } from "./format.js";
 import { parse, walk } from "./model.js";
 import { emit, on, state } from "./store.js";
@@ -97,8 +98,9 @@ export class Form {
         const shown = () => `${Number(Number(range.value).toPrecision(12))}${unit ? ` ${unit}` : ""}`;
         const wrong = h("div", { class: "slider-wrong", role: "status", hidden: true });
         const now = () => {
-            const q = splitQuantity(state.set[name()] ?? text("value") ?? "");
-            return q && !range.hidden && wrong.isConnected ? { name: name(), path, value: q.value, unit: q.unit, min: Number(range.min), max: Number(range.max), box: wrong } : null;
+            const written = state.set[name()] ?? text("value") ?? "";
+            const v = endOf(written, unit, unitSizes(state.table)); // somebody may have written it in another unit than its ends
+            return Number.isFinite(v) && !range.hidden && wrong.isConnected ? { name: name(), path, text: written, value: v, unit, min: Number(range.min), max: Number(range.max), box: wrong } : null;
         };
         // A browser tells of no change where the value comes back to what it was, and of nothing where the slider is gone
         // meanwhile: what is held ends with the pointer or the key, too.
