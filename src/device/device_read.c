@@ -110,7 +110,8 @@ static void add_units(fw_text *out) {
     fw_text_add(
         out, "\n## Units\n\nSymbols are joined by a space, `.`, `*` or `/` and may carry a whole "
              "exponent: `N m/rad`, `mA/cm2`, `um^2`, `s^-1`. `Ao` is the Angstrom, `Cel` the "
-             "degree Celsius, `{sccm}` gas flow (1 cm3 per minute at 273.15 K and 101325 Pa)."
+             "degree Celsius, `{sccm}` gas flow (1 cm3 per minute at 273.15 K and 101325 Pa). "
+             "For the prefix `u` the sign of micro may stand (U+00B5, or the Greek letter U+03BC)."
              "\n\n");
     for (size_t i = 0; i < count; i++)
         fw_text_printf(out, "%s`%s`", i ? ", " : "", names[i]);

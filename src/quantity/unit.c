@@ -197,8 +197,22 @@ const char *const *fw_quantity_unit_names(size_t *count) {
     return names;
 }
 
-/* most are told apart by their first byte */
+/* bytes of the sign of micro at symbol, as UTF-8: U+00B5, or the Greek letter U+03BC; else 0 */
+static size_t micro(const char *symbol, size_t n) {
+    enum { BYTES = 2 };
+    return n > BYTES && (memcmp(symbol, "\xc2\xb5", BYTES) == 0 ||
+                         memcmp(symbol, "\xce\xbc", BYTES) == 0)
+               ? BYTES
+               : 0;
+}
+
+/* most are told apart by their first byte; the sign of micro stands for u */
 static const fw_quantity_unit *find(const char *symbol, size_t n) {
+    size_t sign = micro(symbol, n), rest = n - sign;
+    for (size_t i = 0; sign > 0 && i < UNIT_COUNT; i++)
+        if (names[i][0] == 'u' && strlen(names[i]) == rest + 1 &&
+            memcmp(names[i] + 1, symbol + sign, rest) == 0)
+            return &rows[i];
     for (size_t i = 0; n > 0 && i < UNIT_COUNT; i++)
         if (names[i][0] == symbol[0] && strlen(names[i]) == n && memcmp(names[i], symbol, n) == 0)
             return &rows[i];

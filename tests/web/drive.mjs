@@ -64,6 +64,12 @@ export function watcher() {
         for (const e of document.querySelectorAll("#right > .card[data-of='present'], #panel-motion [data-of='present']"))
             if (!is.preview && !e.matches(".problems, .notes")) say(`${e.className} ${e.textContent.slice(0, 40)}`);
         if (parts.verdict.full.content.dataset.of === "present" && !is.full) say("as fabricated");
+        if (banner.dataset.of === "present") // what a field says is what the verdict is of
+            for (const f of document.querySelectorAll("#panel-form .slider input.value")) {
+                const e = parts.form.places.get(f.dataset.path.replace(/\/@value$/, ""));
+                const says = [e?.attributes.get("value")?.value, state.set[e?.attributes.get("name")?.value]];
+                if (!says.includes(f.value.trim())) say(`a field says ${f.value}, beside a verdict of ${says[0]}`);
+            }
         driven.frames++;
     };
     const frame = () => {
@@ -349,6 +355,20 @@ export const actions = {
         if (!m) return;
         await input.fill(`${(Number(m[1]) * (0.93 + 0.14 * d.next())).toPrecision(4)}${m[2]}`);
         await input.press("Enter");
+    },
+    /** Typed, and in no text: what is shown is of another input, until it is taken or left. */
+    async typed(page, d, settle) {
+        const inputs = page.locator("#panel-form .slider input.value:visible");
+        const n = await inputs.count();
+        if (!n) return;
+        const input = inputs.nth(d.below(n));
+        const m = /^(-?\d+(?:\.\d+)?)(.*)$/.exec(await input.inputValue());
+        if (!m) return;
+        await input.fill(`${(Number(m[1]) * (1.01 + 0.06 * d.next())).toPrecision(4)}${m[2]}`);
+        await settle();
+        const present = await page.evaluate(() => [...document.querySelectorAll("#banner, #right > .card:not(.problems, .notes), #panel-motion [data-of]")].filter((e) => e.dataset.of === "present").map((e) => e.className));
+        assert.deepEqual(present, [], "present, and of a text without what is typed");
+        await input.press(d.of(["Escape", "Enter", "Tab"]));
     },
     async keys(page, d) {
         const sliders = page.locator("#panel-form input[type=range]:visible");

@@ -59,6 +59,8 @@ describe("text and file", () => {
         await page.waitForSelector("#editor .cm-lintRange-error");
         await page.waitForSelector("#banner.old");
         assert.ok(await page.isVisible("#old-note > div"), "the old verdict is not told to be old");
+        const [note, decision] = await Promise.all(["#old-note > div", "#banner .decision"].map((q) => page.locator(q).boundingBox()));
+        assert.ok(note.y + note.height <= decision.y, "the note lies over the decision");
         await page.click(".problems button.jump");
         const chosen = await page.evaluate(() => {
             const { state } = globalThis.flexwright.parts.editor.view;
@@ -120,13 +122,98 @@ describe("text and file", () => {
         assert.equal(await text(page), theirs);
     });
 
+    describe("what is typed in a field belongs to the input before it is in the text", () => {
+        const field = () => page.locator('.slider[data-name="push"] input.value');
+        const banner = (of) => page.waitForSelector(`#banner[data-of="${of}"]`);
+        const onDisk = () => /name="push" value="([^"]*)"/.exec(readFileSync(server.file, "utf8"))[1];
+        const asks = () => page.evaluate(() => !globalThis.dispatchEvent(new Event("beforeunload", { cancelable: true })));
+
+        test("typed, it makes what is shown former at once, and leaving the page asks; Escape takes it back", async () => {
+            await banner("present");
+            assert.equal(await asks(), false);
+            await field().fill("14 uN");
+            assert.equal(await page.getAttribute("#banner", "data-of"), "former");
+            await page.waitForSelector('#old-note > div:has-text("typed in a field")');
+            assert.equal(await asks(), true);
+            assert.match(await page.textContent("#file-state"), /changed/);
+            await field().press("Escape");
+            assert.equal(await page.getAttribute("#banner", "data-of"), "present");
+            assert.equal(await asks(), false);
+            await field().fill("14 uN"); // typed back to what the text says it is nothing
+            await field().fill(onDisk());
+            assert.equal(await page.getAttribute("#banner", "data-of"), "present");
+        });
+
+        test("Ctrl S and Save take it first, also while its edit is under way", async () => {
+            await field().fill("14 uN");
+            await page.keyboard.press("Control+s");
+            await page.waitForSelector('.notice:has-text("Saved device.xml")');
+            assert.equal(onDisk(), "14 uN");
+            let release;
+            const gate = new Promise((resolve) => (release = resolve));
+            await page.route("**/api/edit", async (r) => (await gate, r.continue()));
+            await field().fill("13 uN");
+            await field().press("Enter");
+            await page.keyboard.press("Control+s");
+            await page.waitForSelector("#banner.old"); // for as long as the edit takes
+            assert.equal(await field().inputValue(), "13 uN");
+            assert.equal(onDisk(), "14 uN");
+            release();
+            await page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
+            assert.equal(onDisk(), "13 uN");
+            await page.unroute("**/api/edit");
+            await field().fill("12 uN");
+            await page.click("#save");
+            await page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
+            assert.equal(onDisk(), "12 uN");
+        });
+
+        test("a plan that is begun from the field is of it", async () => {
+            await field().fill("13 uN");
+            const [request] = await Promise.all([page.waitForRequest((r) => r.url().endsWith("/api/jobs") && r.postDataJSON().kind === "plan"), page.click("#download")]);
+            assert.match(request.postDataJSON().text, /name="push" value="13 uN"/);
+            await page.click("dialog .cancel");
+            await page.waitForSelector("dialog", { state: "detached" });
+        });
+
+        test("what the program cannot write is said, and nothing is saved; then the field says what the text says", async () => {
+            await field().evaluate((f) => {
+                f.focus();
+                f.value = "1\u00012 uN";
+                f.dispatchEvent(new Event("input"));
+            });
+            await page.keyboard.press("Control+s");
+            await page.waitForSelector('.notice.bad:has-text("Not saved: what was entered is not taken")');
+            assert.equal(onDisk(), "12 uN");
+            assert.equal(await field().inputValue(), "13 uN");
+            await page.keyboard.press("Control+s");
+            await page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
+            assert.equal(onDisk(), "13 uN");
+        });
+    });
+
     test("the server ends and is started anew: the text survives, the page goes on", async () => {
         page.expected = [/Failed to load resource/, /ERR_|EventSource/];
-        await answered(page, () => setText(page, ['value="9 uN"', 'value="8 uN"']));
+        await answered(page, () => setText(page, ['value="13 uN"', 'value="8 uN"']));
         const mine = await text(page);
         await server.halt();
-        await setText(page, ['value="8 uN"', 'value="7 uN"']);
+        const field = page.locator('.slider[data-name="push"] input.value');
+        await field.fill("7 uN"); // written into the text by the page itself
+        await field.press("Enter");
         await page.waitForSelector('.notice.bad:has-text("does not answer")');
+        await page.waitForSelector("#banner.old");
+        assert.equal(await text(page), mine.replace("8 uN", "7 uN"));
+        await page.focus('[data-parameter="push"]');
+        await page.keyboard.press("ArrowRight");
+        await page.waitForFunction(() => Object.keys(globalThis.flexwright.state.set).length === 0 && globalThis.flexwright.state.edits.length === 0);
+        const slid = await field.inputValue();
+        assert.notEqual(slid, "7 uN");
+        assert.equal(await text(page), mine.replace("8 uN", slid));
+        await field.fill("7 uN");
+        const [kept] = await Promise.all([page.waitForEvent("download"), page.click('button:has-text("Save the text as a file")')]);
+        assert.equal(readFileSync(await kept.path(), "utf8"), mine.replace("8 uN", "7 uN"));
+        await page.locator("details.element > .element-body > .element-tools select.add").first().selectOption("scene");
+        await page.waitForSelector('.notice:has-text("Not changed: the server does not answer")');
         assert.equal(await text(page), mine.replace("8 uN", "7 uN"));
         await server.restart();
         await page.waitForSelector('.notice.bad:has-text("session is over"), .notice.bad:has-text("open the address")');

@@ -30,6 +30,7 @@ describe("numbers of the laboratory", () => {
         await server.stop();
     });
     const row = (id) => page.locator(`.lab-table tr[data-id="${id}"]`);
+    const said = () => page.textContent(".laboratory > .doc[role=status]");
     const anew = async (act) => {
         const before = await page.evaluate(() => globalThis.flexwright.parts.recipe.done?.id);
         await act();
@@ -54,6 +55,8 @@ describe("numbers of the laboratory", () => {
         await page.click("#lab-use");
         assert.match(await page.textContent(".laboratory .messages"), /al\.R: its standard uncertainty is needed, too/);
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.lab), {});
+        assert.match(await said(), /^None are in use\. Entered and not used yet: al\.R\./);
+        assert.equal(await row("al.R").locator(".lab-used").textContent(), "nothing of yours; what is entered is not used yet");
     });
 
     test("the as-run log is the command's, from its first entry on, and its coupons become a pack", async () => {
@@ -145,6 +148,21 @@ describe("numbers of the laboratory", () => {
         await page.waitForFunction(() => /with your laboratory's numbers/.test(document.querySelector(".as-drawn").textContent));
     });
 
+    test("beside the table stands what is in use, and what is entered and not used yet", async () => {
+        const used = () => row("al.R").locator(".lab-used").textContent();
+        assert.match(await row("al.R").textContent(), /^sputter rate.*al\.R/); // as before it was used
+        assert.equal(await said(), `In use: entered-${FLOW}.xml (4 numbers).`);
+        assert.equal(await used(), "38.5 ± 1.5");
+        await row("al.R").locator("input").first().fill("60");
+        assert.equal(await used(), "38.5 ± 1.5; what is entered is not used yet");
+        assert.match(await said(), /\(4 numbers\)\. Entered and not used yet: al\.R\./);
+        await row("al.R").locator("input").first().fill("6o");
+        await page.click("#lab-use");
+        assert.match(await said(), /^In use: .*\(4 numbers\)\. Entered and not used yet: al\.R\./); // the former ones
+        await row("al.R").locator("input").first().fill("38.5");
+        assert.equal(await used(), "38.5 ± 1.5");
+    });
+
     test("the live verdict and what is explored are of the pack, too", async () => {
         const text = readFileSync(pack, "utf8").replace("</process>", '  <q id="si.d" value="44" u="0.2" unit="um" status="measured" src="laboratory"/>\n</process>');
         // a device that takes the thickness from its flow
@@ -178,10 +196,11 @@ describe("numbers of the laboratory", () => {
         await page.click("#lab-clear");
         await page.locator('.laboratory input[type="file"]').first().setInputFiles(wrong);
         await page.waitForFunction(() => /wrong\.xml:\d+: .*al\.nobody.* \[FW-D\d+\]/.test(document.querySelector(".laboratory .messages").textContent), null, { timeout: 60000 });
-        const said = spawnSync(program, ["check", server.file, "--lab", wrong], { cwd: source, encoding: "utf8" });
-        assert.equal(said.status, 3);
+        const told = spawnSync(program, ["check", server.file, "--lab", wrong], { cwd: source, encoding: "utf8" });
+        assert.equal(told.status, 3);
         const message = await page.evaluate(() => globalThis.flexwright.state.diagnostics.find((d) => d.severity === "error").message);
-        assert.ok(said.stderr.includes(message), message);
+        assert.ok(told.stderr.includes(message), message);
+        assert.match(await said(), /^Nothing is computed with wrong\.xml \(4 numbers\): wrong\.xml is refused\./);
         await anew(() => page.click("#lab-clear"));
         await verdict(page, "accept");
         assert.ok((await missing()).length >= 3);
@@ -194,6 +213,7 @@ describe("numbers of the laboratory", () => {
         assert.match(await page.evaluate(() => Object.values(globalThis.flexwright.state.lab)[0]), /al\.R" value="38.5" u="1.5" unit="nm\/min"/);
         await view(page, "recipe");
         await page.waitForFunction(() => globalThis.flexwright.parts.recipe.body.dataset.of === "present", null, { timeout: 60000 });
+        assert.match(await row("al.R").textContent(), /^sputter rate.*al\.R/);
         assert.equal((await recipe()).steps.find((s) => s.id === "S03").not_computable.length, 0);
     });
 

@@ -301,6 +301,18 @@ test("a slider below what can be made says why at its place, and from which valu
     assert.notEqual(decision(from - 0.1), 0);
     await slide("10");
     await box.waitFor({ state: "hidden" });
+    // in another unit than its ends: the value is the only mistake, all of its sentence is told, and what works is found
+    const typed = page.locator('.slider[data-name="width"] input.value');
+    await typed.fill("10 mm");
+    await typed.press("Enter");
+    await box.getByText(/At 10 mm: .*its declaration allows at most/).waitFor();
+    await box.getByText(/accepted/).first().waitFor();
+    await typed.fill("10 \u00b5m");
+    await typed.press("Enter");
+    await box.waitFor({ state: "hidden" });
+    await page.waitForSelector('#banner[data-of="present"]');
+    await typed.fill("10 um");
+    await answered(page, () => typed.press("Enter"));
     // what cannot be drawn at all says so at the same place, and the button goes to the value
     await answered(page, () => setText(page, ['min="1 um"', 'min="-4 um"']));
     await slide("-2");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Download of everything: the directory of `flexwright plan` as one archive.
-import { inputKey } from "./belong.js";
+import { inputKey, requestKey } from "./belong.js";
+import { taken } from "./design.js";
 import { announce, button, h } from "./dom.js";
 import { bytes, duration } from "./format.js";
 import { forget, giveWay, run } from "./jobs.js";
@@ -11,7 +12,7 @@ const PLANNED = ["accuracy", "effects", "hinge_model"]; // of the options above 
 
 export async function download() {
     const control = new AbortController();
-    const of = inputKey();
+    let of = null;
     const options = Object.entries(state.options).filter(([name]) => PLANNED.includes(name));
     const stage = h("p", { role: "status" }, "starting");
     const dialog = openDialog("Plan and download", [
@@ -24,6 +25,8 @@ export async function download() {
     let name = null;
     const clock = setInterval(() => (stage.textContent = `${name ?? "working"} · ${((performance.now() - begun) / 1e3).toFixed(1)} s`), 200);
     try {
+        await taken();
+        of = requestKey();
         const job = await run("plan", { options: Object.fromEntries(options), signal: control.signal, onprogress: (j) => (name = j.stage) });
         clearInterval(clock);
         if (job.state === "cancelled") return dialog.close();

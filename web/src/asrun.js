@@ -3,7 +3,7 @@
 // command `flexwright log` alone. Steps are entered here; what was measured and set is asked for as the plan has it; the
 // log's page has the control charts, and the numbers of the process can be fitted to its coupons.
 import { get } from "./api.js";
-import { begin, inputKey, mayChange, Shown } from "./belong.js";
+import { begin, inputKey, mayChange, requestKey, Shown } from "./belong.js";
 import { isPresent } from "./design.js";
 import { announce, button, h, icon, select, setOptions } from "./dom.js";
 import { duration, number } from "./format.js";
@@ -67,8 +67,8 @@ export class AsRun {
         if (this.box.open && flow) this.#look();
     }
 
-    #key() {
-        return inputKey({ flow: this.flow, run: this.name });
+    #key(make = inputKey) {
+        return make({ flow: this.flow, run: this.name });
     }
 
     #later() {
@@ -109,8 +109,8 @@ export class AsRun {
     async #read() {
         this.control?.abort();
         const control = (this.control = new AbortController());
-        const key = (this.tried = this.#key());
-        const ask = (packs) => run("log", { options: { flow: this.flow, ...(this.name ? { run: this.name } : {}) }, packs, signal: control.signal });
+        const key = (this.tried = this.#key(requestKey));
+        const ask = (packs) => run("log", { options: { flow: this.flow, ...(this.name ? { run: this.name } : {}) }, packs, byItself: true, signal: control.signal });
         const end = begin({ words: "Log", cancel: () => control.abort() });
         try {
             let job = await ask(true);

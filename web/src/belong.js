@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is shown and which input it belongs to. The input is the whole of it: the text, values that are held by a
-// slider, and the options. Every part of the page that shows a result says of which input it is (`take`); whatever
+// slider, what is typed in a field or changed and in no text yet, and the options. Every part of the page that shows a result says of which input it is (`take`); whatever
 // is not of the present input is marked, by this file alone: `data-of` is "present", "former" or "nothing" at once,
 // and what has been former for OLD_MS is visibly old (class "old": grey, with words). While somebody moves a slider
 // answers come faster than that, and nothing flickers.
@@ -24,8 +24,14 @@ function numberOf(text) {
     return n;
 }
 
-/** The present input, or of which parts of the state a result depends: with other options, of a job. */
-export const inputKey = (options = state.options) => JSON.stringify([numberOf(state.text), ordered(state.set), ordered(options), ...Object.entries(state.lab).map(([name, text]) => [name, numberOf(text)])]);
+/** What a request of now is of, or of which parts of the state a result depends: with other options, of a job. */
+export const requestKey = (options = state.options) => JSON.stringify([numberOf(state.text), ordered(state.set), ordered(options), ...Object.entries(state.lab).map(([name, text]) => [name, numberOf(text)])]);
+
+/** The present input: that, and what is in no text yet. While there is such a thing, no answer is of the present input. */
+export function inputKey(options = state.options) {
+    const key = requestKey(options);
+    return state.entered.size || state.edits.length ? `${key} ${JSON.stringify([[...state.entered], state.edits])}` : key;
+}
 
 const left = new Map(); // key -> when it stopped being the present one
 const all = new Set();
@@ -104,7 +110,7 @@ function mark(element, time) {
     return former.length && !old ? OLD_MS - age + 1 : Infinity;
 }
 
-for (const event of ["text", "change", "options"]) on(event, look);
+for (const event of ["text", "change", "options", "entered"]) on(event, look);
 export { look };
 
 // ---- what is on its way, with a sign and a way to end it ----

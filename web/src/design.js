@@ -1,49 +1,77 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The design: text of the editor, changes to it by way of the server, previews of it.
 import { alike } from "./alike.js";
-import { newest, post } from "./api.js";
-import { begin, inputKey, look, mayChange, together } from "./belong.js";
+import { newest, onConnection, post } from "./api.js";
+import { begin, inputKey, look, mayChange, requestKey, together } from "./belong.js";
 import { announce } from "./dom.js";
+import { takeEntered } from "./entering.js";
+import { withValues } from "./model.js";
 import { emit, on, onFirst, state } from "./store.js";
 
 const TYPING_MS = 90; // that nothing is typed before an answer is asked for
 
 let editor = null;
-let editing = 0; // changes that are on their way
-let changes = Promise.resolve(); // one after the other: each needs the text that the last one made
+let changes = Promise.resolve(null); // one after the other: each needs the text that the last one made
 
 export function useEditor(e) {
     editor = e;
 }
 
-/** changes: [{path, value}] as /api/edit takes them; one step of the history. */
+/** list: [{path, value}] as /api/edit takes them; one step of the history. Until they are in the text they are part of the
+ *  input. Returns the promise of why they were refused, or of null. */
 export function edit(list, words) {
-    editing++;
-    changes = changes.then(async () => {
-        const end = begin({ words: "Changing the text" });
-        try {
-            let before, answer;
-            do { // again, where somebody has typed meanwhile
-                before = state.text;
-                answer = await post("/api/edit", { text: before, changes: list });
-            } while (state.text !== before);
-            if (answer.text !== undefined && answer.text !== null && !(answer.status && answer.status !== "ok")) {
-                editor.replace(answer.text);
-                if (words) announce(words);
-            } else refuse(answer.diagnostics?.[0]?.message ?? "the change cannot be made");
-        } catch (error) {
-            if (!error.lost) refuse(error.message);
-        } finally {
-            editing--;
-            end();
-        }
+    state.edits.push(list);
+    emit("entered");
+    const end = begin({ words: "Changing the text" });
+    const done = changes.then(async () => {
+        let before, made;
+        do { // again, where somebody has typed meanwhile
+            before = state.text;
+            made = await changed(before, list);
+        } while (state.text !== before);
+        state.edits.splice(state.edits.indexOf(list), 1);
+        if (made.text !== undefined) {
+            editor.replace(made.text);
+            if (words) announce(words);
+        } else refuse(made.why);
+        emit("entered");
+        end();
+        return made.why ?? null;
     });
-    return changes;
+    changes = done.catch(() => null);
+    return done;
 }
 
-function refuse(message) {
-    emit("notice", { kind: "warn", text: `Not changed: ${message}` });
+/** {text} with these changes, or {why} there is none. Without the server values that stand in the text are changed here. */
+async function changed(text, list) {
+    try {
+        const answer = await post("/api/edit", { text, changes: list });
+        const good = typeof answer.text === "string" && (!answer.status || answer.status === "ok");
+        return good ? { text: answer.text } : { why: answer.diagnostics?.[0]?.message ?? "the change cannot be made" };
+    } catch (error) {
+        if (!error.lost) return { why: error.message };
+        const here = withValues(text, (name) => keyOf(name), list);
+        return here !== null ? { text: here } : { why: `${error.status === 0 ? "the server does not answer" : "this session is over"}, and this page alone changes only values that stand in the text` };
+    }
+}
+
+/** The attribute that names an element. */
+const keyOf = (name) => state.table?.elements.find((e) => e.name === name)?.key ?? null;
+
+/** Says that the text is not changed, and why. */
+export function refuse(message) {
+    emit("notice", { kind: "warn", text: `Not changed: ${message}.`.replace(/\.\.$/, ".") });
     emit("text", state.text); // fields show again what the text says
+    return message;
+}
+
+/** What is typed in a field is taken, as when it is left, and all changes are in the text. Whoever makes something of the
+ *  text that stays (a file, a job, a version) waits for it. Throws where something that is entered was refused. */
+export async function taken() {
+    const asked = takeEntered();
+    while (state.edits.length) await changes;
+    const wrong = (await Promise.all(asked)).find((why) => why !== null);
+    if (wrong) throw new Error(`what was entered is not taken: ${wrong}`);
 }
 
 /** A slider that is held: the value counts at once, the text gets it when it is let go. */
@@ -53,10 +81,11 @@ export function hold(name, value) {
 }
 
 export async function letGo(name, value) {
-    await edit([{ path: name, value }]);
+    const why = await edit([{ path: name, value }]);
     if (state.set[name] !== value) return; // it is held again
     delete state.set[name];
     emit("change");
+    if (why) emit("text", state.text); // the slider goes back, too
 }
 
 /** Values that are held by hand in the picture, Map of path -> text, in place of those that were (keys). */
@@ -66,11 +95,12 @@ export function holdTogether(changes, before = []) {
     emit("change");
 }
 
-/** They become text, as one step of the history; with no changes they are as they were. */
+/** They become text, as one step of the history; with no changes they are as they were. Returns why not, or null. */
 export async function letGoTogether(changes, words) {
-    if (changes.size) await edit([...changes].map(([path, value]) => ({ path, value })), words);
+    const why = changes.size ? await edit([...changes].map(([path, value]) => ({ path, value })), words) : null;
     for (const [path, value] of changes) if (state.set[path] === value) delete state.set[path]; // else it is held again
     emit("change");
+    return why;
 }
 
 /** How it is computed: {method, integrator, rtol, scene ...}; "" leaves the choice to the program. */
@@ -112,7 +142,7 @@ const preview = newest(
     {
         words: "Computing the motion and the verdict",
         given: (input, why) => {
-            if (why !== "cancelled" || input.key !== inputKey()) return;
+            if (why !== "cancelled" || input.key !== requestKey()) return;
             rest?.();
             state.cancelled = input.key;
             emit("answer");
@@ -152,7 +182,7 @@ function take(answer, input) {
             told(answer, input, diagnostics);
         });
     });
-    if (first || state.same || inputKey() === toldOf) rest(); // of the same device the picture stays, and its rest can come with it
+    if (first || state.same || requestKey() === toldOf) rest(); // of the same device the picture stays, and its rest can come with it
     afterFrame(() => {
         state.latency.push(performance.now() - input.since);
         if (state.latency.length > 400) state.latency.shift();
@@ -166,7 +196,7 @@ let toldOf = null; // input of the answer that all of the page showed last
 
 /** Where the input is what the lists are of, the picture and they come together before anything is painted: all of the page is of one answer. */
 function back() {
-    if (rest && inputKey() === toldOf) rest();
+    if (rest && requestKey() === toldOf) rest();
 }
 
 const FRAME_MOST_MS = 100; // a window that nobody sees draws no frames
@@ -196,16 +226,22 @@ export const askAgain = () => emit("change");
 
 export function startPreviews() {
     let timer = 0;
+    onConnection((error) => {
+        const lost = error?.status ?? null;
+        if (lost === state.lost) return;
+        state.lost = lost;
+        look();
+    });
     for (const event of ["text", "change", "options"]) on(event, back);
     onFirst("change", () => {
         clearTimeout(timer);
         timer = 0;
         state.cancelled = null;
-        preview.ask({ body: previewRequest(), key: inputKey(), since: performance.now() });
+        preview.ask({ body: previewRequest(), key: requestKey(), since: performance.now() });
     });
     on("text", () => {
         clearTimeout(timer); // somebody may be typing
         timer = setTimeout(() => emit("change"), TYPING_MS);
     });
-    mayChange(() => timer !== 0 || editing > 0 || preview.busy || rest !== null);
+    mayChange(() => timer !== 0 || state.edits.length > 0 || preview.busy || rest !== null);
 }

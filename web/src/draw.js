@@ -3,8 +3,9 @@
 // is a change of the text, one step of its history; while something is dragged its values are held, as by a slider, so
 // that picture and verdict follow before the text does.
 import { Shown } from "./belong.js";
-import { edit, holdTogether, isPresent, letGoTogether } from "./design.js";
+import { edit, holdTogether, isPresent, letGoTogether, refuse } from "./design.js";
 import { announce, button, h, s, select, setOptions } from "./dom.js";
+import { DRAWN, enter, show } from "./entering.js";
 import { number } from "./format.js";
 import { Mechanism, restOf } from "./mechanism.js";
 import { parse, walk } from "./model.js";
@@ -13,7 +14,7 @@ import { makeMirrored, removing, sidesOf } from "./making.js";
 import { heldBy, plan } from "./moving.js";
 import { arcOver, elementAt, far, handlesOf, Places } from "./places.js";
 import { gridStep, snap } from "./snapping.js";
-import { inputKey } from "./belong.js";
+import { inputKey, requestKey } from "./belong.js";
 import { emit, lookAt, on, state } from "./store.js";
 import { TOOLS } from "./tools.js";
 
@@ -195,7 +196,7 @@ export class Draw {
     /** Elements that a mistake or a warning of the present text is about: element -> {words, bad}. */
     #faulty() {
         const out = new Map();
-        if (state.answered !== inputKey() || !this.root) return out;
+        if (state.answered !== requestKey() || !this.root) return out;
         const lines = state.text.split("\n");
         for (const d of state.diagnostics) {
             if (d.severity === "note" || d.in_text === false || !d.line || d.line > lines.length) continue;
@@ -454,10 +455,10 @@ export class Draw {
     }
 
     async #commit(handle, now, wanted, places) {
-        await letGoTogether(now.changes, `${handle.label} moved`);
+        const why = await letGoTogether(now.changes, `${handle.label} moved`);
         this.#refresh();
         const short = Math.max(Math.abs(wanted[0] - now.target[0]), Math.abs(wanted[1] - now.target[1]));
-        if (!now.locked.length || short * this.view.k < CLICK_PIXELS) return;
+        if (!now.locked.length || short * this.view.k < CLICK_PIXELS) return why;
         const names = [...new Set(now.locked.map((w) => `${w.attribute} of ${w.element.name}${w.element.id ? ` ${w.element.id}` : ""}`))];
         emit("notice", {
             kind: "warn", stay: true, text: `${handle.label} is held by what is written: ${heldBy(now.locked)}. Change what the formula uses, or let numbers take its place.`,
@@ -469,6 +470,7 @@ export class Draw {
                 await letGoTogether(loose.changes, `${handle.label} moved`);
             }]],
         });
+        return why;
     }
 
     // ---- what is seen while drawing ----
@@ -582,9 +584,10 @@ export class Draw {
 
     async #goto(handle, target) {
         const now = plan(this.places, handle, target);
-        await this.#commit(handle, now, target, this.places);
+        const why = await this.#commit(handle, now, target, this.places);
         const at = this.list.find((x) => x.id === handle.id)?.at;
         if (at) announce(`${handle.label}: x ${um(at[0])}, y ${um(at[1])}`);
+        return why;
     }
 
     #enough() {
@@ -628,11 +631,14 @@ export class Draw {
         for (const f of this.fields) f();
     }
 
-    #number(label, unit, value, commit) {
+    /** path: where it changes the text, and commit returns the promise of why not, or of null. */
+    #number(label, unit, value, commit, path = null) {
         const input = h("input", { type: "number", step: "any", "aria-label": unit ? `${label}, ${unit}` : label });
-        input.addEventListener("change", () => Number.isFinite(input.valueAsNumber) && commit(input.valueAsNumber));
+        if (path === null) input.addEventListener("change", () => Number.isFinite(input.valueAsNumber) && commit(input.valueAsNumber));
+        else enter(input, path, () => String(value()), async (v) => (v !== "" && Number.isFinite(Number(v)) ? commit(Number(v)) : refuse("a number is needed")));
         this.fields.push(() => {
-            if (document.activeElement !== input) input.value = value();
+            if (path !== null) show(input, path, String(value()));
+            else if (document.activeElement !== input) input.value = value();
         });
         return h("label", { class: "pose-field" }, h("span", {}, unit ? `${label} (${unit})` : label), input);
     }
@@ -709,17 +715,16 @@ export class Draw {
     #handlePanel(handle) {
         const now = () => this.list.find((x) => x.id === handle.id) ?? handle;
         const sized = ["side", "tip"].includes(handle.look) || handle.part === "corner";
-        const places = h("div", { class: "pose-fields" }, sized ? [] : [0, 1].map((k) => this.#number("xy"[k], "µm", () => Number(now().at[k].toFixed(3)), (v) => this.#goto(now(), now().at.map((w, i) => (i === k ? v : w))))));
+        const places = h("div", { class: "pose-fields" }, sized ? [] : [0, 1].map((k) => this.#number("xy"[k], "µm", () => Number(now().at[k].toFixed(3)), (v) => this.#goto(now(), now().at.map((w, i) => (i === k ? v : w))), `${DRAWN}${handle.id} ${"xy"[k]}`)));
         const facts = this.#facts(handle).map(([e, attribute]) => {
             const other = e !== handle.element;
             const input = h("input", { autocomplete: "off", spellcheck: false });
             const label = `${attribute}${other ? ` of ${e.name} ${e.id ?? ""}` : ""}`;
             input.setAttribute("aria-label", label);
-            input.addEventListener("change", () => edit([{ path: `${e.path}/@${attribute}`, value: input.value.trim() }], `${label} is ${input.value}`));
-            this.fields.push(() => {
-                const present = [...walk(this.root)].find((x) => x.path === e.path);
-                if (document.activeElement !== input && present) input.value = this.places.text(present, attribute) ?? "";
-            });
+            const path = `${e.path}/@${attribute}`;
+            const present = () => this.places.text([...walk(this.root)].find((x) => x.path === e.path) ?? e, attribute) ?? "";
+            enter(input, path, present, (value) => edit([{ path, value }], `${label} is ${value}`));
+            this.fields.push(() => show(input, path, present()));
             return h("label", { class: "pose-field" }, h("span", {}, label), input);
         });
         const fault = h("p", { class: "pose-status bad", role: "status", hidden: true });

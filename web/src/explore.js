@@ -3,8 +3,8 @@
 // point by point from the engine of the studies while one looks; every point is what `check` says of that device. What is
 // shown belongs to the exact input, as everything does (belong.js).
 import { post } from "./api.js";
-import { begin, inputKey, mayChange, Shown } from "./belong.js";
-import { edit, isPresent, lab } from "./design.js";
+import { begin, inputKey, mayChange, requestKey, Shown } from "./belong.js";
+import { edit, isPresent, lab, taken } from "./design.js";
 import { announce, button, h, select, setOptions } from "./dom.js";
 import { bendOf, bent, CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, POINTS, rounds, stretches, textOf, unitSizes } from "./exploring.js";
 import { ExplorePlot, legendOf, WORDS } from "./exploreplot.js";
@@ -67,7 +67,7 @@ export class Explore {
         holder.append(box);
         this.showing = new Shown(this.body, () => this.key);
         this.wrong = new Shown(this.errors, () => this.key);
-        for (const event of ["preview", "text", "change", "options"]) on(event, () => this.#moved(event));
+        for (const event of ["preview", "text", "change", "options", "entered"]) on(event, () => this.#moved(event));
         mayChange(() => this.control !== undefined && this.control !== null || this.timer !== 0, { job: true });
         this.timer = 0;
     }
@@ -158,8 +158,12 @@ export class Explore {
     }
 
     get key() {
+        return this.#keyOf(inputKey);
+    }
+
+    #keyOf(make) {
         const spec = this.table ? this.#spec() : { why: "" };
-        return inputKey({ ...this.#options(), explore: spec.why === undefined ? [spec.inputs.map((x) => [x.what, x.from, x.to]), spec.number.id] : spec.why });
+        return make({ ...this.#options(), explore: spec.why === undefined ? [spec.inputs.map((x) => [x.what, x.from, x.to]), spec.number.id] : spec.why });
     }
 
     #asked() {
@@ -194,12 +198,23 @@ export class Explore {
         this.control.abort();
     }
 
+    async #taken() {
+        try {
+            await taken();
+            return true;
+        } catch (error) {
+            this.#failed([`Not begun: ${error.message}`], this.key);
+            return false;
+        }
+    }
+
     async run(byItself = false) {
         this.control?.abort();
+        if (!byItself && !(await this.#taken())) return;
         const spec = this.#spec();
         if (spec.why !== undefined) return this.#say();
         const control = (this.control = new AbortController());
-        const key = this.key;
+        const key = this.#keyOf(requestKey);
         Object.assign(this, { byItself, stopped: null, tried: key, doing: key, whole: false, spec, asked: 0, inAll: 1 });
         this.done = new Map();
         this.points = [];
@@ -233,7 +248,7 @@ export class Explore {
 
     /** Points that were computed for the same text, held values, options, inputs and number, whatever their range was. */
     #keptOf(spec) {
-        const key = inputKey({ ...this.#options(), explore: [spec.inputs.map((x) => x.what), spec.number.id] });
+        const key = requestKey({ ...this.#options(), explore: [spec.inputs.map((x) => x.what), spec.number.id] });
         const points = this.kept.get(key) ?? new Map();
         this.kept.delete(key);
         this.kept.set(key, points); // the last one that was used stands last
@@ -370,7 +385,7 @@ export class Explore {
         this.progress.value = Math.min(this.asked / this.inAll, 1);
         this.button.classList.toggle("primary", this.showing.of === null || this.showing.former);
         this.message.textContent = busy ? `${this.asked} of ${this.inAll} devices · ${((performance.now() - this.begun) / 1e3).toFixed(1)} s`
-            : why !== undefined ? why : this.showing.of === null ? "" : this.showing.former ? "of the former input: something has changed since"
+            : why !== undefined ? `${why}${this.showing.of === null ? "" : " What stands below is of the former input."}` : this.showing.of === null ? "" : this.showing.former ? "of the former input: something has changed since"
                 : `${this.done.size} devices in ${number(this.seconds, 3)} s${!this.whole ? "; not all of it: stopped" : this.spec.inputs.length === 1 ? ", closer where the line bends" : ""}`;
     }
 

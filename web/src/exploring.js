@@ -15,7 +15,8 @@ const ALWAYS = 4; // up to this stride all points are asked for, beyond it where
 const FLAT = 1 / 1000; // of the height of what is shown: less cannot be seen
 const MAP_STRIDES = [8, 4, 2, 1];
 
-export const unitSizes = (table) => Object.fromEntries(table.units.map((u, i) => [u, table.unit_factors[i]]));
+/** Symbols of units, those of micro with each of its signs (U+00B5, U+03BC), too, as the program reads them. */
+export const unitSizes = (table) => Object.fromEntries(table.units.flatMap((u, i) => (u[0] === "u" ? ["u", "\u00b5", "\u03bc"].map((sign) => sign + u.slice(1)) : [u]).map((x) => [x, table.unit_factors[i]])));
 
 /** A number in a unit as a text that the program reads back to the same nine digits. */
 export const textOf = (x, unit) => `${Number(x.toPrecision(9))}${unit ? ` ${unit}` : ""}`;

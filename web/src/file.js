@@ -2,6 +2,7 @@
 // The file on disk: read at the start, followed while another program edits it, saved. Nothing that somebody wrote is
 // lost without a word: what was not saved is kept (drafts.js), and where two have written, both sides are shown.
 import { get, post } from "./api.js";
+import { taken } from "./design.js";
 import { openDialog } from "./dialog.js";
 import { bothSides } from "./diff.js";
 import { announce, button, h } from "./dom.js";
@@ -21,8 +22,11 @@ function read(answer) {
 
 const written = (text) => (state.file?.eol === "\r\n" ? text.replaceAll("\n", "\r\n") : text);
 
-/** There is something here that is nowhere else. */
-export const unsaved = () => state.text !== (state.file === null ? state.base : state.file.text);
+/** The text is another one than the file's. */
+const changed = () => state.text !== (state.file === null ? state.base : state.file.text);
+
+/** There is something here that is nowhere else, be it in the text or still in a field. */
+export const unsaved = () => changed() || state.entered.size > 0 || state.edits.length > 0;
 
 // ---- start ----
 
@@ -41,7 +45,7 @@ export async function startFile(editor) {
     if (state.file?.mixed) mixedEnds();
     if (state.file?.gone) tellGone(state.file.gone);
     await restore(editor);
-    on("text", () => keep(state.text, unsaved() ? state.file?.version ?? "" : null));
+    on("text", () => keep(state.text, changed() ? state.file?.version ?? "" : null));
     emit("file");
 }
 
@@ -91,7 +95,7 @@ export async function follow(editor, event) {
         return emit("file");
     }
     if ((saving !== null && now.text === saving) || now.version === open?.now.version) return; // known already
-    if (!unsaved() || state.text === now.text) {
+    if (!changed() || state.text === now.text) { // what is typed in a field stays there
         state.file = now;
         editor.replace(now.text);
         settle();
@@ -108,7 +112,7 @@ let open = null; // {editor, now, mine, strip} while nobody has answered
 function settle() {
     open?.strip.remove();
     open = null;
-    keep(state.text, unsaved() ? state.file.version : null);
+    keep(state.text, changed() ? state.file.version : null);
 }
 
 /** Until somebody has answered, nothing is written over the file, and the text here stays. */
@@ -188,6 +192,11 @@ export function replaceAll(editor, text, words) {
 let saving = null;
 
 export async function save(editor) {
+    try {
+        await taken();
+    } catch (error) {
+        return void emit("notice", { kind: "bad", stay: true, text: `Not saved: ${error.message}` });
+    }
     if (state.file === null) return download();
     if (open) return showBoth(); // nobody has answered yet
     const text = (saving = state.text);
@@ -203,7 +212,7 @@ export async function save(editor) {
         if (error.status === 409 && error.body?.text !== undefined) {
             conflict(editor, read(error.body), state.text);
             showBoth();
-        } else if (!error.lost) emit("notice", { kind: "bad", stay: true, text: `Not saved: ${error.message}` });
+        } else emit("notice", { kind: "bad", stay: !error.lost, text: `Not saved: ${error.message}` });
     } finally {
         saving = null;
     }

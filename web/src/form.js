@@ -4,6 +4,8 @@
 import { adding, idsOf, mayAdd } from "./adding.js";
 import { edit, hold, isPresent, letGo } from "./design.js";
 import { become, button, h, put, say, setOptions } from "./dom.js";
+import { DRAWN, enter, leave, rebuild, show } from "./entering.js";
+import { endOf, unitSizes } from "./exploring.js";
 import { number, splitQuantity } from "./format.js";
 import { parse, walk } from "./model.js";
 import { emit, on, state } from "./store.js";
@@ -51,8 +53,18 @@ export class Form {
         this.places = new Map([...walk(root)].map((e) => [e.path, e]));
         if (shape !== this.shape) {
             this.shape = shape;
-            this.#build();
+            rebuild(() => this.#build());
+            this.#gone();
         } else for (const field of this.fields.values()) field.refresh();
+    }
+
+    /** What was entered for an element that is there no more. */
+    #gone() {
+        for (const [path, value] of state.entered) {
+            if (path.startsWith(DRAWN) || this.places.has(path.replace(/\/@[^@]*$/, ""))) continue;
+            leave(path);
+            emit("notice", { kind: "warn", text: `What was entered is gone with its element: ${value}.` });
+        }
     }
 
     #build() {
@@ -86,8 +98,9 @@ export class Form {
         const shown = () => `${Number(Number(range.value).toPrecision(12))}${unit ? ` ${unit}` : ""}`;
         const wrong = h("div", { class: "slider-wrong", role: "status", hidden: true });
         const now = () => {
-            const q = splitQuantity(state.set[name()] ?? text("value") ?? "");
-            return q && !range.hidden && wrong.isConnected ? { name: name(), path, value: q.value, unit: q.unit, min: Number(range.min), max: Number(range.max), box: wrong } : null;
+            const written = state.set[name()] ?? text("value") ?? "";
+            const v = endOf(written, unit, unitSizes(state.table)); // somebody may have written it in another unit than its ends
+            return Number.isFinite(v) && !range.hidden && wrong.isConnected ? { name: name(), path, text: written, value: v, unit, min: Number(range.min), max: Number(range.max), box: wrong } : null;
         };
         // A browser tells of no change where the value comes back to what it was, and of nothing where the slider is gone
         // meanwhile: what is held ends with the pointer or the key, too.
@@ -100,6 +113,7 @@ export class Form {
             letGo(of, last);
         };
         range.addEventListener("input", () => {
+            leave(`${path}/@value`);
             value.value = shown();
             range.setAttribute("aria-valuetext", shown());
             if (!held) {
@@ -111,16 +125,16 @@ export class Form {
             hold(held.name, held.value);
         });
         range.addEventListener("change", release);
-        enter(value, () => text("value") ?? "", (v) => {
+        enter(value, `${path}/@value`, () => text("value") ?? "", (v) => {
             this.moved = now;
-            edit([{ path: `${path}/@value`, value: v }], `${name()} is ${v}`);
+            return edit([{ path: `${path}/@value`, value: v }], `${name()} is ${v}`);
         });
         const holder = h("div", { class: "slider", "data-name": name() }, h("div", { class: "slider-head" }, label, value), range, ends, wrong, doc);
         const refresh = () => {
             say(label, name());
             say(doc, text("doc") ?? "");
             const present = state.set[name()] ?? text("value") ?? "";
-            if (document.activeElement !== value) become(value, { value: present });
+            show(value, `${path}/@value`, present);
             const b = bounds(name(), present, text("min"), text("max"));
             for (const element of [range, ends]) become(element, { hidden: !b });
             put(holder, { "data-of": !b?.computed ? "nothing" : isPresent() ? "present" : "former" });
@@ -197,11 +211,12 @@ export class Form {
         const input = attribute.choices?.length ? choice(id, attribute, change) : h("input", {
             id, autocomplete: "off", spellcheck: false, placeholder: attribute.default ?? "", "data-path": full, "aria-describedby": `${id}-help`,
         });
-        if (!attribute.choices?.length) enter(input, () => now() ?? "", change);
+        if (!attribute.choices?.length) enter(input, full, () => now() ?? "", change);
         const names = attribute.refers_to ? this.#suggest(input, `${id}-names`, attribute) : null;
         input.required = attribute.required;
         const refresh = () => {
-            if (document.activeElement !== input || input.tagName === "SELECT") become(input, { value: now() ?? "" });
+            if (input.tagName === "SELECT") become(input, { value: now() ?? "" });
+            else show(input, full, now() ?? "");
         };
         this.fields.set(full, { refresh });
         refresh();
@@ -244,7 +259,7 @@ export class Form {
     reveal(path) {
         const steps = path.split("/");
         steps.forEach((x, i) => this.opened.add(steps.slice(0, i + 1).join("/")));
-        this.#build();
+        rebuild(() => this.#build());
         const field = [...this.tree.querySelectorAll("[data-path]")].find((f) => f.dataset.path.startsWith(`${path}/@`));
         field?.scrollIntoView({ block: "center" });
         field?.focus({ preventScroll: true });
@@ -267,33 +282,6 @@ export class Form {
 }
 
 // ---- helpers ----
-
-function enter(input, present, commit) {
-    input.addEventListener("input", () => (input.dataset.dirty = "yes"));
-    input.addEventListener("blur", () => delete input.dataset.dirty);
-    input.addEventListener("keydown", (e) => {
-        if (e.key === "Enter") input.blur();
-        if (e.key === "Escape") {
-            input.value = present();
-            input.blur();
-            e.preventDefault();
-        }
-        if (e.key === "ArrowUp" || e.key === "ArrowDown") {
-            const q = splitQuantity(input.value);
-            if (!q) return;
-            e.preventDefault();
-            const digits = (/\.(\d*)/.exec(input.value)?.[1] ?? "").length;
-            const step = 10 ** -digits * (e.shiftKey ? 10 : 1) * (e.key === "ArrowUp" ? 1 : -1);
-            input.value = `${(q.value + step).toFixed(digits)}${q.unit ? ` ${q.unit}` : ""}`;
-            commit(input.value);
-        }
-    });
-    input.addEventListener("change", () => {
-        delete input.dataset.dirty;
-        const v = input.value.trim();
-        if (v !== present()) commit(v);
-    });
-}
 
 function choice(id, attribute, change) {
     const box = h("select", { id, "data-path": "", "aria-describedby": `${id}-help`, onchange: () => change(box.value) });

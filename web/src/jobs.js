@@ -3,8 +3,8 @@
 // that is filled by a job: it says what is missing, shows progress, keeps the last good result while
 // the next one is made, and marks it when the text has moved on.
 import { get, onConnection, post, remove } from "./api.js";
-import { inputKey, mayChange, Shown } from "./belong.js";
-import { isPresent } from "./design.js";
+import { inputKey, mayChange, requestKey, Shown } from "./belong.js";
+import { isPresent, taken } from "./design.js";
 import { announce, become, button, h, say } from "./dom.js";
 import { duration } from "./format.js";
 import { emit, on, state } from "./store.js";
@@ -38,8 +38,13 @@ const news = (id) => new Promise((resolve) => {
 
 /** Starts a job and waits for its end; onprogress(job); files: name -> text, that options name; resume: the number of a
  *  study that is gone on with, results: the directory of one beside the file; packs: with the numbers of the laboratory.
- *  Throws when it could not be started. */
-export async function run(kind, { text = state.text, options = {}, files, resume, results, packs: used = kind !== "calibrate", onprogress, signal } = {}) {
+ *  Throws when it could not be started. byItself: nobody has asked for it, and what is typed in a field is left alone. */
+export async function run(kind, { byItself = false, ...asked } = {}) {
+    if (!byItself) await taken();
+    return begun(kind, asked);
+}
+
+async function begun(kind, { text = state.text, options = {}, files, resume, results, packs: used = kind !== "calibrate", onprogress, signal }) {
     const packs = used ? Object.keys(state.lab) : [];
     const all = { ...files, ...(packs.length ? state.lab : {}) };
     const { id } = await post("/api/jobs", {
@@ -132,7 +137,7 @@ export class JobView {
         this.also(this.content);
         this.wrong = new Shown(this.errors, () => this.key);
         this.#look();
-        for (const event of ["text", "options", "change", "preview"]) on(event, () => this.#moved());
+        for (const event of ["text", "options", "change", "preview", "entered"]) on(event, () => this.#moved());
         mayChange(() => this.control !== null || this.timer !== 0, { job: true });
     }
 
@@ -159,7 +164,7 @@ export class JobView {
         this.#look();
         const auto = typeof this.auto === "function" ? this.auto() : this.auto;
         const key = this.key;
-        if (this.control && this.byItself && key !== this.tried) this.control.abort(); // nobody waits for it any more
+        if (this.control && this.byItself && key !== this.tried) this.giveWay(); // nobody waits for it any more
         clearTimeout(this.timer);
         this.timer = 0;
         if (!auto || !this.shown || key === this.of || key === this.tried || !isPresent()) return;
@@ -181,7 +186,7 @@ export class JobView {
         this.byItself = byItself;
         if (!this.humble) giveWay();
         const control = (this.control = new AbortController());
-        const key = (this.tried = this.key);
+        let key = (this.tried = requestKey(this.options()));
         this.errors.replaceChildren();
         this.wrong.take(null);
         this.working = { state: "queued", seconds: 0 };
@@ -189,7 +194,12 @@ export class JobView {
         const begun = performance.now();
         const clock = setInterval(() => this.#look(performance.now() - begun), 200);
         try {
-            const job = await run(this.kind, { options: this.options(), signal: control.signal, onprogress: (j) => (this.working = j) });
+            if (!byItself) {
+                await taken();
+                if (control !== this.control) return;
+                key = this.tried = requestKey(this.options());
+            }
+            const job = await run(this.kind, { byItself: true, options: this.options(), signal: control.signal, onprogress: (j) => (this.working = j) });
             if (control !== this.control) return forget(job);
             await this.#ended(job, key);
         } catch (error) {

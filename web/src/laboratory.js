@@ -2,7 +2,8 @@
 // Numbers of the laboratory: what a recipe cannot compute without is entered here and becomes a laboratory pack, as
 // `--lab` takes it. A pack belongs to the input of everything that is computed (state.lab); it can be saved, and one that
 // somebody has can be opened, or made of what was measured on the coupons (`flexwright calibrate`).
-import { announce, button, h, select } from "./dom.js";
+import { requestKey } from "./belong.js";
+import { announce, button, h, say, select } from "./dom.js";
 import { run } from "./jobs.js";
 import { saveAs } from "./plotfile.js";
 import { emit, on, state } from "./store.js";
@@ -26,6 +27,14 @@ export function packOf(flow, rows, source) {
     const sources = [...used].map(([id, kind]) => `  <source id="${id}" kind="${kind}">${escaped(source || "entered on the page")}</source>`);
     return `<?xml version="1.0" encoding="UTF-8"?>\n<process xmlns="${NAMESPACE}" id="laboratory" version="1" title="numbers of the laboratory" flow="${escaped(flow)}">\n${sources.join("\n")}\n${values.join("\n")}\n</process>\n`;
 }
+
+/** The numbers of a pack: id -> {value, u, status}; of one that cannot be read, none. */
+function numbersOf(pack) {
+    const all = pack === undefined ? [] : new DOMParser().parseFromString(pack, "text/xml").getElementsByTagNameNS(NAMESPACE, "q");
+    return new Map([...all].map((q) => [q.getAttribute("id"), Object.fromEntries(["value", "u", "status"].map((a) => [a, q.getAttribute(a) ?? ""]))]));
+}
+
+const counted = (n) => `${n} ${n === 1 ? "number" : "numbers"}`;
 
 /** Packs of an earlier visit of this tab. */
 export function restorePacks() {
@@ -58,7 +67,7 @@ export class Laboratory {
         this.source = h("input", { "aria-label": "Where these numbers are from", placeholder: "where they are from", class: "lab-source" });
         this.said = h("p", { class: "doc", role: "status" });
         this.wrong = h("ul", { class: "messages warn-text" });
-        this.table = h("table", { class: "plain lab-table" }, h("thead", {}, h("tr", {}, ["number", "value", "± (standard uncertainty)", "unit", "how it is known"].map((x) => h("th", { scope: "col" }, x)))), this.rows);
+        this.table = h("table", { class: "plain lab-table" }, h("thead", {}, h("tr", {}, ["number", "value", "± (standard uncertainty)", "unit", "how it is known", "in use"].map((x) => h("th", { scope: "col" }, x)))), this.rows);
         const file = (label, accept, take) => {
             const input = h("input", { type: "file", accept, hidden: true, "aria-label": label, onchange: async () => {
                 const [f] = input.files;
@@ -101,12 +110,17 @@ export class Laboratory {
 
     #row(id) {
         const row = state.labRows[this.flow][id];
-        const q = this.known.find((x) => x.id === id) ?? { id, name: id, unit: row.unit ?? "1", missing: "" };
-        row.unit = q.unit;
-        const words = `${q.name} (${q.id})`;
-        const field = (name, label, short) => h("input", { value: row[name], placeholder: short, inputmode: "decimal", autocomplete: "off", "aria-label": `${words}: ${label}`, oninput: (e) => (row[name] = e.target.value), onkeydown: (e) => e.key === "Enter" && this.#use() });
-        return h("tr", { "data-id": id }, h("th", { scope: "row" }, q.name, " ", h("span", { class: "code" }, id), q.missing ? h("span", { class: "doc" }, ` needed for ${q.missing}`) : ""),
-            h("td", {}, field("value", "value", "value")), h("td", {}, field("u", "standard uncertainty", "±")), h("td", {}, q.unit === "1" ? "–" : q.unit), h("td", {}, select(`${words}: how it is known`, STATUS, row.status, (v) => (row.status = v))));
+        const known = this.known.find((x) => x.id === id) ?? { id, name: id, unit: row.unit ?? "1", missing: "" };
+        const q = known.name === id ? { ...known, name: row.name ?? id } : known; // once it is in use, the recipe misses it no more, and names it no more
+        Object.assign(row, { unit: q.unit, name: q.name });
+        const words = q.name === id ? id : `${q.name} (${id})`;
+        const take = (name, value) => {
+            row[name] = value;
+            this.#say();
+        };
+        const field = (name, label, short) => h("input", { value: row[name], placeholder: short, inputmode: "decimal", autocomplete: "off", "aria-label": `${words}: ${label}`, oninput: (e) => take(name, e.target.value), onkeydown: (e) => e.key === "Enter" && this.#use() });
+        return h("tr", { "data-id": id }, h("th", { scope: "row" }, q.name === id ? "" : `${q.name} `, h("span", { class: "code" }, id), q.missing ? h("span", { class: "doc" }, ` needed for ${q.missing}`) : ""),
+            h("td", {}, field("value", "value", "value")), h("td", {}, field("u", "standard uncertainty", "±")), h("td", {}, q.unit === "1" ? "–" : q.unit), h("td", {}, select(`${words}: how it is known`, STATUS, row.status, (v) => take("status", v))), h("td", { class: "lab-used" }));
     }
 
     #addRow(id) {
@@ -127,7 +141,7 @@ export class Laboratory {
         if (!rows.length) return this.#refuse(["No value is entered yet."]);
         this.#refuse([]);
         state.lab[nameOf(this.flow)] = packOf(this.flow, rows, this.source.value);
-        changed(`${rows.length} numbers of the laboratory are used`);
+        changed(`${counted(rows.length)} of the laboratory ${rows.length === 1 ? "is" : "are"} used`);
     }
 
     #clear() {
@@ -187,11 +201,34 @@ export class Laboratory {
         if (said.length || this.byProgram) this.wrong.replaceChildren(...said.map((d) => h("li", {}, `${d.file}:${d.line}: ${d.message}${d.code ? ` [${d.code}]` : ""}`)));
         this.byProgram = said.length > 0;
         if (said.length) this.box.open = true;
+        this.#say();
     }
 
+    /** Which of the packs the program refuses, as the last answer says. */
+    #refused() {
+        const errors = state.answered === requestKey() ? state.diagnostics.filter((d) => d.severity === "error") : [];
+        return Object.keys(state.lab).filter((n) => errors.some((d) => (d.file ?? "").endsWith(n)));
+    }
+
+    /** What is in use, number by number and in all, and what is entered and not in use. */
     #say() {
         const names = Object.keys(state.lab);
+        const refused = this.#refused();
+        const own = numbersOf(state.lab[nameOf(this.flow)]);
+        const used = new Map(refused.length ? [] : names.flatMap((n) => [...numbersOf(state.lab[n])]));
+        const waiting = [];
+        for (const tr of this.rows.children) {
+            const { id } = tr.dataset;
+            const row = state.labRows[this.flow]?.[id];
+            const [mine, now] = [own.get(id), used.get(id)];
+            const differs = row && (row.value.trim() || mine) && !(mine && mine.value === row.value.trim() && mine.u === row.u.trim() && mine.status === row.status);
+            if (differs) waiting.push(id);
+            say(tr.querySelector(".lab-used"), `${now ? `${now.value}${now.u ? ` ± ${now.u}` : ""}` : "nothing of yours"}${differs ? "; what is entered is not used yet" : ""}`);
+            tr.classList.toggle("waiting", Boolean(differs));
+        }
         this.clear.disabled = names.length === 0;
-        this.said.textContent = names.length ? `In use: ${names.map((n) => `${n} (${(state.lab[n].match(/<q /g) ?? []).length} numbers)`).join(", ")}.` : "None are in use.";
+        const packs = names.map((n) => `${n} (${counted(numbersOf(state.lab[n]).size)})`).join(", ");
+        say(this.said, `${refused.length ? `Nothing is computed with ${packs}: ${refused.join(", ")} is refused. Correct it and use it again, or go on without.` : names.length ? `In use: ${packs}.` : "None are in use."}${
+            waiting.length ? ` Entered and not used yet: ${waiting.join(", ")}. "Use these numbers" takes what stands in the table.` : ""}`);
     }
 }

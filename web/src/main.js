@@ -6,9 +6,9 @@ import { startAddress } from "./address.js";
 import { get, onConnection, openSession } from "./api.js";
 import { download } from "./archive.js";
 import { Assembly } from "./assembly.js";
-import { inputKey, settled } from "./belong.js";
+import { requestKey, settled } from "./belong.js";
 import { busySign } from "./busy.js";
-import { startPreviews, useEditor } from "./design.js";
+import { startPreviews, taken, useEditor } from "./design.js";
 import { $, become, button, h, s, say } from "./dom.js";
 import { Draw } from "./draw.js";
 import { Editor } from "./editor.js";
@@ -36,21 +36,24 @@ const parts = {};
 
 // ---- the header ----
 
+/** What is typed in a field is in the text before. Where it is refused, that is said, and the field has the text's value again. */
+const afterTaken = (act) => taken().then(act, () => {});
+
 function header() {
     const mark = s("svg", { viewBox: "0 0 32 32", class: "mark", "aria-hidden": "true" },
         s("path", { d: "M5 24h6M21 8h6", class: "mark-body" }), s("path", { d: "M11 24c7 0 9.5-3 9.5-7.5S17 9 13.5 11.5 12.5 19 17 18.5 20 8 22 8", class: "mark-hinge" }));
     parts.device = h("span", { class: "device-name", id: "device-name" });
     parts.file = h("span", { class: "file-state", id: "file-state" });
-    parts.undo = button("Undo", { icon: "undo", hidden: true, id: "undo" }, () => parts.editor.undo());
-    parts.redo = button("Redo", { icon: "redo", hidden: true, id: "redo" }, () => parts.editor.redo());
-    parts.fresh = button("New…", { icon: "plus", id: "new" }, () => newDevice(parts.editor));
-    parts.open = button("Open", { icon: "open", id: "open" }, () => openText(parts.editor));
+    parts.undo = button("Undo", { icon: "undo", hidden: true, id: "undo" }, () => afterTaken(() => parts.editor.undo()));
+    parts.redo = button("Redo", { icon: "redo", hidden: true, id: "redo" }, () => afterTaken(() => parts.editor.redo()));
+    parts.fresh = button("New…", { icon: "plus", id: "new" }, () => afterTaken(() => newDevice(parts.editor)));
+    parts.open = button("Open", { icon: "open", id: "open" }, () => afterTaken(() => openText(parts.editor)));
     parts.open.hidden = true;
     parts.save = button("Save", { icon: "save", id: "save" }, () => save(parts.editor));
     $("top").append(
         h("h1", { class: "brand" }, mark, h("span", {}, "Flexwright")), parts.device, parts.file, h("span", { class: "space" }), busySign(),
         parts.fresh, parts.undo, parts.redo,
-        button("Versions: keep, compare", { icon: "versions", hidden: true, id: "versions" }, () => versionsDialog(parts.editor, () => parts.verdict.judged)), parts.open, parts.save,
+        button("Versions: keep, compare", { icon: "versions", hidden: true, id: "versions" }, () => afterTaken(() => versionsDialog(parts.editor, () => parts.verdict.judged))), parts.open, parts.save,
         button("Plan and download", { icon: "download", id: "download", class: "primary" }, download),
         button("Print", { icon: "print", hidden: true, class: "quiet" }, () => window.print()), themeButton(),
         button("Help", { icon: "question", hidden: true, class: "quiet", id: "help" }, () => helpDialog($(`tab-${parts.tabs.current}`).textContent, $(`panel-${parts.tabs.current}`))),
@@ -97,7 +100,7 @@ function editArea() {
     parts.form = new Form(form);
     parts.editTabs.select("form");
     on("answer", () => { // places in another text are none in this one
-        if (state.answered === inputKey()) parts.editor.mark(state.diagnostics.filter((d) => d.in_text !== false));
+        if (state.answered === requestKey()) parts.editor.mark(state.diagnostics.filter((d) => d.in_text !== false));
     });
 }
 
@@ -181,7 +184,7 @@ async function start() {
     editArea();
     views();
     parts.verdict = new Verdict($("right"));
-    on("file", headerState);
+    for (const event of ["file", "entered"]) on(event, headerState);
     on("notice", notice);
     onConnection(connection);
     startPreviews();

@@ -18,7 +18,7 @@ function attributesOf(tag, text) {
         const name = a.getChild("AttributeName");
         const value = a.getChild("AttributeValue");
         if (!name || !value) continue;
-        attributes.set(text.slice(name.from, name.to), { value: decode(text.slice(value.from + 1, value.to - 1)), from: a.from, to: a.to });
+        attributes.set(text.slice(name.from, name.to), { value: decode(text.slice(value.from + 1, value.to - 1)), from: a.from, to: a.to, valueFrom: value.from, valueTo: value.to });
     }
     return attributes;
 }
@@ -62,4 +62,30 @@ export function parse(text, keyOf) {
 export function* walk(element) {
     yield element;
     for (const child of element.children) yield* walk(child);
+}
+
+/** What an edit's path names: ELEMENT/…/@ATTRIBUTE, with or without the root, or a parameter by its name. */
+function attributeAt(root, path) {
+    const [, of, name] = /^(.*)\/@([^/@]+)$/.exec(path) ?? [];
+    if (of === undefined) return root.children.find((c) => c.name === "parameter" && c.attributes.get("name")?.value === path)?.attributes.get("value");
+    return [...walk(root)].find((e) => e.path === of || e.path === `${root.name}/${of}`)?.attributes.get(name);
+}
+
+const NO_XML = /[\0-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]|\p{Cs}/u;
+const AS_WRITTEN = { "&": "&amp;", "<": "&lt;", "\n": "&#10;", "\r": "&#13;", "\t": "&#9;" };
+const QUOTES = { '"': "&quot;", "'": "&apos;" };
+
+/** The text with other values of attributes that stand in it, as /api/edit would write them; null where that is not all
+ *  that is asked for. list: [{path, value}] */
+export function withValues(text, keyOf, list) {
+    let now = text;
+    for (const { path, value } of list) {
+        const root = typeof path === "string" && typeof value === "string" && !NO_XML.test(value) ? parse(now, keyOf) : null;
+        const at = root && attributeAt(root, path);
+        if (!at) return null;
+        const quote = now[at.valueFrom];
+        const written = value.replace(/[&<\n\r\t"']/g, (c) => AS_WRITTEN[c] ?? (c === quote ? QUOTES[c] : c));
+        now = `${now.slice(0, at.valueFrom + 1)}${written}${now.slice(at.valueTo - 1)}`;
+    }
+    return now;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the user has to know now: a strip below the header.
 import { openSession } from "./api.js";
+import { taken } from "./design.js";
 import { $, button, h } from "./dom.js";
 import { emit, state } from "./store.js";
 
@@ -28,7 +29,8 @@ export function notice({ kind = "info", text, actions = [], stay = false, dismis
     return box;
 }
 
-function keep() {
+async function keep() {
+    await taken().catch(() => {}); // what is refused is told, and the text is saved all the same: there may be no other time
     const link = h("a", { download: state.file?.name ?? "device.xml", href: URL.createObjectURL(new Blob([state.text ?? ""], { type: "application/xml" })) });
     document.body.append(link);
     link.click();

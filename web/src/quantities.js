@@ -9,7 +9,7 @@ const FUNCTIONS = {
 };
 const NUMBER = /(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?/y;
 const NAME = /[A-Za-z_][A-Za-z0-9_]*/y;
-const SYMBOL = /\{[^}]*\}|%|[A-Za-z]+/y;
+const SYMBOL = /\{[^}]*\}|%|[A-Za-z\u00b5\u03bc]+/y;
 const EXPONENT = /\^?-?\d+/y;
 const DEPTH_MOST = 64;
 
@@ -112,7 +112,7 @@ class Reader {
 /** In SI. units: symbol -> factor; value(name): of a parameter. */
 export const evaluate = (text, units, value) => new Reader(String(text), units, (name) => (name === "pi" ? Math.PI : value(name))).all();
 
-const PLAIN = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z%][^\s*()+]*)?\s*$/;
+const PLAIN = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z%\u00b5\u03bc][^\s*()+]*)?\s*$/;
 const ALONE = /^\s*([+-]?)\s*([A-Za-z_][A-Za-z0-9_]*)\s*$/;
 
 /** What stands in an attribute: {kind: "number", unit}, {kind: "parameter", name, sign} or {kind: "formula"}. */
@@ -131,7 +131,7 @@ const FINEST_ANGLE = Math.PI / 180e3;
  *  quantities to six digits. */
 export function written(value, unit, units) {
     const factor = units[unit] ?? 1;
-    const finest = /^[kdcmunp]?m$/.test(unit) ? FINEST : /rad$|deg$/.test(unit) ? FINEST_ANGLE : 0;
+    const finest = /^[kdcmu\u00b5\u03bcnp]?m$/.test(unit) ? FINEST : /rad$|deg$/.test(unit) ? FINEST_ANGLE : 0;
     const x = value / factor;
     const digits = finest ? Math.max(0, Math.min(12, Math.round(-Math.log10(finest / factor)))) : null;
     const rounded = digits === null ? Number(x.toPrecision(6)) : Number(x.toFixed(digits));

@@ -9,6 +9,9 @@ export const state = {
     file: null, // {name, version, text (as on disk, but for line ends), eol, writable, gone: why it cannot be read}
     base: "", // without a file: the text that was opened or downloaded last
     set: {}, // values of sliders that are held: not in the text yet
+    entered: new Map(), // path -> what is typed in its field and not in the text yet (entering.js)
+    edits: [], // changes of the text that are under way, as /api/edit takes them
+    lost: null, // status of the failure since which the server does not answer, or answers this session no more
     lab: {}, // laboratory packs that are in use: name -> text
     labRows: {}, // what is entered of them: flow -> id -> {value, u, status}
     options: {}, // scene, method, integrator, stabilise, rtol, accuracy, effects, hinge_model
@@ -32,7 +35,7 @@ export const on = (name, f) => bus.addEventListener(name, (e) => f(e.detail));
 export const onFirst = (name, f) => bus.addEventListener(name, (e) => f(e.detail), { capture: true });
 export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { detail }));
 
-/** Names of events: "text" (editor's text changed), "change" (ask for a preview), "options" (how it is
+/** Names of events: "text" (editor's text changed), "change" (ask for a preview), "entered" (typed, and in no text yet), "options" (how it is
  *  computed), "picture" (a good answer: of the picture alone), "preview" (the same, a frame later: of the rest), "answer" (any answer), "belong" (what is shown was marked anew), "working"
  *  (what is on its way), "hinge" (looked at), "pinned" (a version, or its answer), "judged" (as made), "jobs" (any job), "view" (a tab was chosen), "time" (of the motion, by hand), "lab" (packs in use), "theme". */
 export function lookAt(hinge) {

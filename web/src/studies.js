@@ -2,9 +2,9 @@
 // The studies of the description: run, stopped, gone on with, looked at; and the best device of one put into the text. A
 // study is a job of the server, the command `flexwright study`; what it has judged stays when it is stopped.
 import { get } from "./api.js";
-import { begin, inputKey, mayChange, Shown } from "./belong.js";
-import { edit, isPresent } from "./design.js";
-import { announce, button, h, icon, select } from "./dom.js";
+import { begin, inputKey, mayChange, requestKey, Shown } from "./belong.js";
+import { edit, taken } from "./design.js";
+import { announce, button, h, icon, say, select } from "./dom.js";
 import { duration, number, percent, si } from "./format.js";
 import { fileOf, forget, hasFile, run } from "./jobs.js";
 import { emit, on, state } from "./store.js";
@@ -54,8 +54,8 @@ export class Studies {
         return { study: name, ...Object.fromEntries(Object.entries({ accuracy, effects, hinge_model }).filter(([, v]) => v !== undefined)) };
     }
 
-    #key(name) {
-        return inputKey(this.#options(name));
+    #key(name, make = inputKey) {
+        return make(this.#options(name));
     }
 
     // ---- a new one ----
@@ -82,7 +82,7 @@ export class Studies {
 
     /** resume: number of a job that is gone on with; results: a directory that is opened */
     async #run(name, { resume, results } = {}) {
-        const key = this.#key(name);
+        const key = this.#key(name, requestKey);
         const before = this.kept.get(name);
         if (!resume && before?.job) forget(before.job);
         const control = new AbortController();
@@ -92,6 +92,8 @@ export class Studies {
         const end = begin({ words: `Study ${name}`, cancel: () => control.abort() });
         const begun = performance.now();
         try {
+            await taken();
+            mine.of = this.#key(name, requestKey);
             const job = await run("study", { options: this.#options(name), resume, results, signal: control.signal, onprogress: (j) => {
                 mine.stage = `${j.stage ?? j.state} · ${((performance.now() - begun) / 1e3).toFixed(1)} s`;
                 mine.job = j;
@@ -143,14 +145,16 @@ export class Studies {
         const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
         const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
         const part = mine?.control && /(\d+) of (?:at most )?(\d+) devices/.exec(mine.stage);
-        const key = JSON.stringify([kind, inputs, said, Boolean(mine?.control), mine?.job?.id, isPresent(), present, this.there]);
-        if (card.dataset.key === key) return;
+        const goOn = Boolean(mine?.stopped && present && mine.job);
+        // buttons stay while a field is left whose edit changes the words: a click is not lost between its two halves
+        const key = JSON.stringify([kind, inputs, mine?.control ? said : "", Boolean(mine), Boolean(mine?.control), mine?.job?.id, mine?.done, Boolean(mine?.why), goOn, this.there]);
+        if (card.dataset.key === key) return say(card.querySelector(".study-said"), said);
         card.dataset.key = key;
         card.head.replaceChildren(
             h("strong", {}, name), h("span", { class: "doc" }, `${kind}${inputs.length ? ` over ${inputs.join(", ")}` : ""}`), h("span", { class: "space" }),
             ...(mine?.control ? [h("progress", { "aria-label": `Study ${name}: progress`, max: part ? Number(part[2]) : null, value: part ? Number(part[1]) : null }), button("Stop", { icon: "close", class: "small", "data-act": "stop" }, () => mine.control?.abort())] : [
-                mine?.stopped && present && mine.job ? button("Go on", { icon: "play", class: "small primary", "data-act": "resume" }, () => this.#run(name, { resume: mine.job.id })) : null,
-                button(mine ? "Run anew" : "Run", { icon: "target", class: `small${mine ? "" : " primary"}`, "data-act": "run", disabled: !isPresent() }, () => this.#run(name)),
+                goOn ? button("Go on", { icon: "play", class: "small primary", "data-act": "resume" }, () => this.#run(name, { resume: mine.job.id })) : null,
+                button(mine ? "Run anew" : "Run", { icon: "target", class: `small${mine ? "" : " primary"}`, "data-act": "run" }, () => this.#run(name)),
                 this.there.length ? select(`Open results of ${name}`, [["", "Open results…"], ...this.there.map((x) => [x, x])], "", (results) => results && this.#run(name, { results })) : null,
             ]).filter(Boolean),
             h("p", { class: mine?.why ? "job-errors study-said" : "job-message study-said", role: "status" }, said));

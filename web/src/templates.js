@@ -58,8 +58,10 @@ export function newDevice(editor) {
 }
 
 function take(editor, name, text) {
-    if (state.file) editor.replace(text);
-    else replaceAll(editor, text, `Begin with ${name}`);
+    if (state.file) {
+        document.body.dataset.another = ""; // what is known of the former device is no former answer to this one
+        editor.replace(text);
+    } else replaceAll(editor, text, `Begin with ${name}`);
     if (text === blank) emit("show-view", "draw");
     announce(`${name}: begun`);
 }

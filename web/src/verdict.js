@@ -124,13 +124,16 @@ export class Verdict {
     /** Why what is shown is old, in words, as soon as it looks old. */
     #staleness() {
         const key = inputKey();
-        const why = state.preview === null || isPresent() ? "" : state.cancelled === key ? "cancelled" : state.answered === key ? "none" : "late";
+        const why = state.preview === null || isPresent() ? "" : state.lost !== null ? "lost" : state.entered.size ? "entered"
+            : state.cancelled === key ? "cancelled" : state.answered === key ? "none" : "late";
         const said = this.banner.classList.contains("old") ? why : "";
         if (said === this.why) return;
         this.why = said;
         this.old.hidden = said === "";
         this.old.replaceChildren(h("div", {}, {
             "": [], late: ["Grey: of the former input. The present one is being computed."],
+            lost: ["Grey: of the former input. Nothing is computed of the present one while the server does not answer."],
+            entered: ["Grey: of the text without what is typed in a field. Enter takes it, Escape leaves it."],
             none: ["Grey: of the last input that had an answer. The present one has none."],
             cancelled: ["Grey: of the former input. Computing the present one was cancelled. ", button("Compute", { class: "small", id: "compute-again" }, askAgain)],
         }[said]));

@@ -37,7 +37,7 @@ function between(a, b, grid) {
 }
 
 export class Works {
-    /** of(): {name, path, value, unit, min, max, box} of the slider that was moved last; null: none was */
+    /** of(): {name, path, text (as it is written), value, unit, min, max (in the unit of the ends), box} of the slider that was moved last; null: none was */
     constructor(of) {
         this.of = of;
         this.timer = 0;
@@ -63,7 +63,7 @@ export class Works {
         if (this.box && this.box !== (why ? slider.box : null)) this.#say(this.box, []);
         this.box = why ? slider.box : null;
         if (!why) return;
-        this.#say(slider.box, [h("p", { title: why }, h("strong", {}, `At ${textOf(slider.value, slider.unit)}: `), why.split("; ", 1)[0]), h("p", { class: "busy-words" }, "Looking for the nearest value that works…")]);
+        this.#say(slider.box, [h("p", { title: why }, h("strong", {}, `At ${slider.text}: `), why), h("p", { class: "busy-words" }, "Looking for the nearest value that works…")]);
         this.timer = setTimeout(() => this.#search(slider), QUIET_MS);
     }
 

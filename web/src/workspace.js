@@ -2,7 +2,7 @@
 // The workspace by hand: the platform is dragged, the server answers with the pose of the whole
 // mechanism and what every hinge then needs of its limit. The certified set is a job.
 import { newest, post } from "./api.js";
-import { inputKey, look, mayChange, Shown } from "./belong.js";
+import { inputKey, look, mayChange, requestKey, Shown } from "./belong.js";
 import { scale } from "./colours.js";
 import { request } from "./design.js";
 import { announce, button, h, s, select, setOptions } from "./dom.js";
@@ -108,8 +108,8 @@ export class Workspace {
     }
 
     /** What a pose depends on. */
-    #input() {
-        return inputKey({ ...state.options, flow: this.flow.value, body: this.body.value, at: this.at });
+    #input(make = inputKey) {
+        return make({ ...state.options, flow: this.flow.value, body: this.body.value, at: this.at });
     }
 
     ask(at) {
@@ -120,7 +120,7 @@ export class Workspace {
         if (this.stage.offsetParent === null) return; // not on the screen
         look();
         const body = { ...request(), flow: this.flow.value || undefined, body: this.body.value || undefined, platform: at, q: this.last };
-        this.send.ask({ body, key: this.#input(), of: inputKey() });
+        this.send.ask({ body, key: this.#input(requestKey), of: requestKey() });
     }
 
     /** No pose: what is shown is of the last one. */

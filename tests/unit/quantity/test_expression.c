@@ -126,7 +126,7 @@ static void errors(void **state) {
         {"300,5 um", length, 20, 3, "the decimal sign is a point, not a comma: write '300.5'"},
         {"2*(1,25 um)", length, 20, 4, "write '1.25'"},
         {"12 um, 3 um", length, 20, 5, "only between the arguments"},
-        {"12 \xc2\xb5m", length, 21, 3, "'um'"},
+        {"12 \xc2\xb5q", length, 21, 3, "unknown unit"},
         {"12 N m/rod", turning, 22, 7, "'rod'"},
         {"12 um foo", length, 21, 6, "'foo'"},
         {"arcs", angle, 22, 0, "'arc'"},

@@ -204,6 +204,22 @@ static void composed_units(void **state) {
     }
 }
 
+/* U+00B5 and U+03BC, as people and the page write them */
+static void the_sign_of_micro_is_u(void **state) {
+    (void)state;
+    static const char *const pair[][2] = {{"\xc2\xb5m", "um"}, {"\xce\xbcm", "um"}, {"\xc2\xb5N m/rad", "uN m/rad"}, {"N/\xce\xbcm^2", "N/um^2"}, {"\xc2\xb5" "Pa", "uPa"}};
+    for (size_t i = 0; i < sizeof pair / sizeof pair[0]; i++) {
+        fw_quantity_unit mine, plain;
+        assert_true(fw_quantity_unit_parse(pair[i][0], strlen(pair[i][0]), &mine, NULL, NULL));
+        assert_true(fw_quantity_unit_parse(pair[i][1], strlen(pair[i][1]), &plain, NULL, NULL));
+        assert_true(mine.factor == plain.factor);
+        assert_memory_equal(&mine.dimension, &plain.dimension, sizeof plain.dimension);
+    }
+    fw_quantity_unit unit;
+    assert_false(fw_quantity_unit_parse("\xc2\xb5", 2, &unit, NULL, NULL));
+    assert_false(fw_quantity_unit_parse("\xc2m", 2, &unit, NULL, NULL));
+}
+
 static void wrong_units_point_at_the_symbol(void **state) {
     (void)state;
     static const struct {
@@ -211,7 +227,7 @@ static void wrong_units_point_at_the_symbol(void **state) {
         size_t at, n;
     } bad[] = {{"", 0, 0},          {"foo", 0, 3},  {"N m/rod", 4, 3}, {"mA/", 3, 0},
                {"um um 1", 6, 1},   {"um+m", 2, 2}, {"{scfm}", 0, 6},  {"5 um", 0, 0},
-               {"\xc2\xb5m", 0, 3}, {"m^", 1, 1},   {"um**2", 3, 0}};
+               {"\xc2\xb5q", 0, 3}, {"m^", 1, 1},   {"um**2", 3, 0}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         fw_quantity_unit unit;
         const char *wrong = NULL;
@@ -263,6 +279,7 @@ int main(void) {
         cmocka_unit_test(every_symbol_has_its_value),
         cmocka_unit_test(composed_units),
         cmocka_unit_test(decimals_stay_exact),
+        cmocka_unit_test(the_sign_of_micro_is_u),
         cmocka_unit_test(wrong_units_point_at_the_symbol),
         cmocka_unit_test(exponents_do_not_overflow),
     };
