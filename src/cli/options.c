@@ -584,9 +584,8 @@ static const fw_cli_option_row table[] = {
      "starts under callgrind to count instructions",
      FW_OPT_TRADEOFF, take_settings},
     {"quiet", 'q', NULL,
-     "neither the text of a result (of check its first lines stay; --json and files are written) "
-     "nor "
-     "messages, but for errors and warnings after which a value is not to be relied on",
+     "no text of a result (of check its first lines), no messages but errors and what is not to be "
+     "relied on; --json and files stay",
      FW_OPT_COMMON, take_quiet},
     {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},
