@@ -312,11 +312,11 @@ static fw_status equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
    closed forms leave out, so that both may have one beyond a snap that only these have gone through. */
 static bool may_rest_elsewhere(const fw_mechanism *m, const fw_statics_level_step *step) {
     const double matters = 0.05;
-    bool doubt = step && step->unknown;
+    bool may = step && step->unknown;
     if (!step || step->used != FW_HINGE_COMPLIANCE || step->next != FW_HINGE_ELASTICA) return false;
     for (int k = 0; k < m->nhinge; k++)
-        doubt = doubt || m->hinge[k].coupling > matters;
-    return doubt;
+        may = may || m->hinge[k].coupling > matters;
+    return may;
 }
 
 /* *choice then asks for them, from the start */

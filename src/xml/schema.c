@@ -41,10 +41,14 @@ static void schema_decimal(fw_text *out, const fw_xml_attribute_row *a) {
 #define SCHEMA_OPEN     "[\\s+\\-(]*(" SCHEMA_NAME "\\s*\\([\\s+\\-(]*)*"
 #define SCHEMA_CLOSE    "[\\s)]*"
 
+#define SCHEMA_MICRO "\xc2\xb5\xce\xbc" /* U+00B5 and U+03BC, which stand for u */
+
 /* a symbol in a pattern; of ours only braces mean something there */
 static void schema_symbol(fw_text *out, const char *symbol) {
     if (symbol[0] == '{')
         fw_text_printf(out, "\\{%.*s\\}", (int)strlen(symbol) - 2, symbol + 1);
+    else if (symbol[0] == 'u' && symbol[1])
+        fw_text_printf(out, "[u" SCHEMA_MICRO "]%s", symbol + 1);
     else
         fw_text_add(out, symbol);
 }
@@ -153,19 +157,20 @@ static void schema_products(fw_text *out) {
 /* An expression: two values and more with operators between them, a name, something in parentheses, or arguments with
    commas. Written so that at most places one way is open, because libxml2 tries all of them: units are words here, and
    their "/", "*" and "^" are operators. */
-#define SCHEMA_WORD "[A-Za-z]*[0-9]{0,3}"
-#define SCHEMA_ANY  "A-Za-z0-9_.%{}\\s+\\-*/^()"
+#define SCHEMA_WORD "[A-Za-z" SCHEMA_MICRO "]*[0-9]{0,3}"
+#define SCHEMA_ANY  "A-Za-z" SCHEMA_MICRO "0-9_.%{}\\s+\\-*/^()"
 
 /* a number with words behind it, or a name; behind a digit an e begins a unit only where there is such a unit */
 static fw_status schema_operand(fw_text *out) {
     size_t n;
     const char *const *symbol = fw_quantity_unit_names(&n);
-    fw_text_add(out, "(" SCHEMA_NUMBER "((\\s+1|\\s+[A-Za-z]" SCHEMA_WORD
-                     "|\\s*%|\\s*\\{[a-z]+\\}|[A-DF-Za-df-z]" SCHEMA_WORD);
+    fw_text_add(out, "(" SCHEMA_NUMBER "((\\s+1|\\s+[A-Za-z" SCHEMA_MICRO "]" SCHEMA_WORD
+                     "|\\s*%|\\s*\\{[a-z]+\\}|[A-DF-Za-df-z" SCHEMA_MICRO "]" SCHEMA_WORD);
     for (size_t i = 0; i < n; i++)
         if (symbol[i][0] == 'e' || symbol[i][0] == 'E')
             fw_text_printf(out, "|%s[0-9]{0,3}", symbol[i]);
-    fw_text_add(out, ")((\\s+|\\s*\\.\\s*)[A-Za-z]" SCHEMA_WORD ")*)?|" SCHEMA_NAME ")");
+    fw_text_add(out,
+                ")((\\s+|\\s*\\.\\s*)[A-Za-z" SCHEMA_MICRO "]" SCHEMA_WORD ")*)?|" SCHEMA_NAME ")");
     return fw_text_end(out);
 }
 
