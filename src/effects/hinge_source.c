@@ -459,8 +459,7 @@ static const char *why_used(const fw_effect_entry *entry, const fw_effect_choice
         return "closed forms were tried, and a flexure came to where its own does not hold";
     if (choice->elsewhere && asked == used)
         return "closed forms were tried, and exact beams may rest elsewhere: they have no "
-               "equilibrium "
-               "there, or forces along and across a flexure are coupled";
+               "equilibrium there, or forces along and across a flexure are coupled";
     if (choice->pins_first && asked == used) return "pins are what stated stiffnesses describe";
     if (asked == used) return "asked for";
     if (!entry || !entry->called_for) return "no flexure has a law of its own";

@@ -288,7 +288,8 @@ bool fw_layout_only_shapes(const fw_device *device, int body); /* neither width 
 fw_status fw_layout_shapes_unite(fw_layout_drawing *d);
 /* cuts the holes of the description out of what is drawn of a body */
 fw_status fw_layout_shapes_pierce(fw_layout_drawing *d, int body, fw_geometry_region *all);
-/* notes of what the round places of hinges take off it, heads and necks apart (FW-D537), and a warning where it is more than a twentieth; its raw outline is drawn */
+/* notes of what the round places of hinges take off it, heads and necks apart (FW-D537), and a warning where
+   it is more than a twentieth; its raw outline is drawn */
 fw_status fw_layout_shapes_say_cut(fw_layout_drawing *drawing, int body);
 /* unit vector from W and where from W the neck, `half_m` wide to either side, may begin to end in
    what is drawn, at least clear_m; false: nowhere within reach */

@@ -214,12 +214,7 @@ static fw_status time_at(fw_process_coupon_work *w, const fw_process_step *s, do
         if (s->argument[i].q == moved) q[i].value += by;
         q[i].unknown = false, q[i].uncertainty = 0.0;
     }
-    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
-                                    .shape = s->shape,
-                                    .expression = s->expression,
-                                    .wanted = FW_DIM_TIME,
-                                    .argument = argument,
-                                    .nargument = s->nargument};
+    const fw_process_law_use use = fw_process_law_of_step(s, argument);
     if (!use.law) return FW_OK;
     FW_TRY(fw_process_law_evaluate(w->arena, &use, &answer));
     if (answer.computable && answer.value > 0.0) *time_s = answer.value;

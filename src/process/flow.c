@@ -289,16 +289,9 @@ static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     s->derived = NULL;
     s->nderived = 0;
     FW_TRY(derive_all(arena, s));
-    fw_process_law_use use = {.law = fw_process_law_find(s->law),
-                              .shape = s->shape,
-                              .expression = s->expression,
-                              .wanted = FW_DIM_TIME,
-                              .argument = without_lag(s, list, &none, true),
-                              .nargument = s->nargument,
-                              .need = s->need,
-                              .nneed = s->nneed,
-                              .setting = s->setting,
-                              .nsetting = s->nsetting};
+    fw_process_law_use use = fw_process_law_of_step(s, without_lag(s, list, &none, true));
+    use.need = s->need, use.nneed = s->nneed;
+    use.setting = s->setting, use.nsetting = s->nsetting;
     fw_process_law_answer answer;
     FW_TRY(fw_process_law_evaluate(arena, &use, &answer));
     fw_process_law_window(&answer, s->k, s->overrun, &s->time);

@@ -230,12 +230,7 @@ static fw_status time_with(fw_process_judge *j, const fw_process_step *s, int la
         list[i] = s->argument[i];
     other.value = value;
     list[lag].q = &other;
-    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
-                                    .shape = s->shape,
-                                    .expression = s->expression,
-                                    .wanted = FW_DIM_TIME,
-                                    .argument = list,
-                                    .nargument = s->nargument};
+    const fw_process_law_use use = fw_process_law_of_step(s, list);
     FW_TRY(fw_process_law_evaluate(j->arena, &use, &answer));
     *time_s = answer.computable ? answer.value : (double)NAN;
     return FW_OK;

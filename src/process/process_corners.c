@@ -158,11 +158,7 @@ void fw_process_pack_corners(fw_process_pack *pack) {
 /* Standard uncertainty of an etch's own rate, relative: that of the step's time at an exact thickness. NaN: its time is
    not computable. */
 static fw_status rate_uncertainty(fw_arena *arena, const fw_process_step *s, double *relative) {
-    fw_process_law_use use = {.law = fw_process_law_find(s->law),
-                              .shape = s->shape,
-                              .expression = s->expression,
-                              .wanted = FW_DIM_TIME,
-                              .nargument = s->nargument};
+    fw_process_law_use use = fw_process_law_of_step(s, NULL);
     fw_process_argument *argument =
         fw_arena_array(arena, fw_process_argument, (size_t)s->nargument);
     FW_NEED(argument);

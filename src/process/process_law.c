@@ -19,6 +19,16 @@ const fw_process_law *fw_process_law_find(const char *name) {
     return NULL;
 }
 
+fw_process_law_use fw_process_law_of_step(const fw_process_step *s,
+                                          const fw_process_argument *argument) {
+    return (fw_process_law_use){.law = fw_process_law_find(s->law),
+                                .shape = s->shape,
+                                .expression = s->expression,
+                                .wanted = FW_DIM_TIME,
+                                .argument = argument,
+                                .nargument = s->nargument};
+}
+
 const fw_process_law *fw_process_law_row(int i) {
     return i >= 0 && i < LAW_COUNT ? table[i] : NULL;
 }

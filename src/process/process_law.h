@@ -116,6 +116,9 @@ static inline bool fw_process_status_firm(fw_quantity_value_status status) {
 /* index of argument `name`, or -1 */
 int fw_process_law_argument_index(const fw_process_law *law, const char *name);
 
+/* the law of a step's time with as many arguments in place of its own; what else it needs is not asked for */
+fw_process_law_use fw_process_law_of_step(const fw_process_step *step,
+                                          const fw_process_argument *argument);
 /* FW_OK also when it is not computable (answer->computable false, missing filled) */
 fw_status fw_process_law_evaluate(fw_arena *arena, const fw_process_law_use *use,
                                   fw_process_law_answer *answer);

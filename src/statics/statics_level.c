@@ -209,49 +209,38 @@ static int row_of_peak(const fw_mechanism *m, const fw_dynamics_motion *x) {
     return across > largest ? moved : best;
 }
 
-/* Largest deflection of a hinge and way of a body in the whole motion: the instant that is looked at
-   may be one where everything is near its rest. Rows that wait are taken as they were integrated. */
-static fw_status sizes(fw_arena *arena, const fw_mechanism *m, const fw_dynamics_motion *x,
-                       const double *rest, double size[2]) {
-    double *q = fw_arena_array(arena, double, 3 * (size_t)m->nbody);
-    FW_NEED(q);
-    size[0] = size[1] = 0;
-    for (int k = 0; k < m->nhinge; k++)
-        size[0] = fmax(size[0], fabs(x->peak[m->hinge[k].pin].angle_rad));
-    const double rounding = 1e-12;
-    for (int i = 0; i < x->nsample; i++) {
-        fw_dynamics_motion_pose(x, i, q);
-        for (int b = 0; b < m->nbody; b++) {
-            const double dx = q[3 * b] - rest[3 * b], dy = q[3 * b + 1] - rest[3 * b + 1];
-            if (!(dx * dx + dy * dy < (1 - rounding) * size[1] * size[1]))
-                size[1] = fmax(size[1], hypot(dx, dy));
-        }
-    }
-    return FW_OK;
-}
-
-/* Rows in which a motion has first come a quarter and half of its largest way, places and turns together. Where it snaps that
-   is on the way over: a level that has not snapped is far from there, while both may agree beyond. */
 enum { FW_ON_THE_WAY = 2 };
 
-static fw_status rows_on_the_way(fw_arena *arena, const fw_mechanism *m,
-                                 const fw_dynamics_motion *x, const double *rest, double length_m,
-                                 int row[FW_ON_THE_WAY]) {
+typedef struct fw_statics_extent {
+    double size[2]; /* largest deflection of a hinge, and way of a body */
+    int row
+        [FW_ON_THE_WAY]; /* in which it has first come a quarter and half of its largest way, places and turns together */
+} fw_statics_extent;
+
+/* Of the whole motion: the instant that is looked at may be one where everything is near its rest. Where it snaps those rows
+   are on the way over: a level that has not snapped is far from there, while both may agree beyond. Rows that wait are taken
+   as they were integrated. */
+static fw_status extent_of(fw_arena *arena, const fw_mechanism *m, const fw_dynamics_motion *x,
+                           const double *rest, double length_m, fw_statics_extent *out) {
     double *q = fw_arena_array(arena, double, 3 * (size_t)m->nbody), *way, most = 0;
+    *out = (fw_statics_extent){0};
     FW_NEED(q);
     FW_NEED(way = fw_arena_array(arena, double, (size_t)x->nsample));
+    for (int k = 0; k < m->nhinge; k++)
+        out->size[0] = fmax(out->size[0], fabs(x->peak[m->hinge[k].pin].angle_rad));
     for (int i = 0; i < x->nsample; i++) {
         fw_dynamics_motion_pose(x, i, q);
         for (int b = 0; b < m->nbody; b++) {
-            const double dx = q[3 * b] - rest[3 * b], dy = q[3 * b + 1] - rest[3 * b + 1],
+            const double far = hypot(q[3 * b] - rest[3 * b], q[3 * b + 1] - rest[3 * b + 1]),
                          turn = fabs(q[3 * b + 2] - rest[3 * b + 2]);
-            way[i] = fmax(way[i], hypot(dx, dy) + length_m * turn);
+            out->size[1] = fmax(out->size[1], far);
+            way[i] = fmax(way[i], far + length_m * turn);
         }
         most = fmax(most, way[i]);
     }
     for (int k = 0; k < FW_ON_THE_WAY; k++)
-        for (row[k] = 0; row[k] + 1 < x->nsample && way[row[k]] < 0.25 * (k + 1) * most;)
-            row[k]++;
+        while (out->row[k] + 1 < x->nsample && way[out->row[k]] < 0.25 * (k + 1) * most)
+            out->row[k]++;
     return FW_OK;
 }
 
@@ -309,7 +298,8 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     fw_effects_loads loads = *x->loads, up;
     *out = NULL;
     if (m->nhinge == 0 || x->nsample < 1) return FW_OK;
-    int row = row_of_peak(m, x), way[FW_ON_THE_WAY];
+    int row = row_of_peak(m, x);
+    fw_statics_extent extent;
     fw_statics_level_step *step = begin(arena, m, &x->ledger, x->t_s[row]);
     FW_NEED(step);
     *out = step;
@@ -319,17 +309,16 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
     FW_TRY(in_time(&low, arena, m, scene, &loads, &own));
     FW_TRY(in_time(&high, arena, m, scene, &up, &own));
     low.ledger = x->ledger;
-    double least[2], *gravity = fw_arena_array(arena, double, (size_t)high.model->nq);
+    double *gravity = fw_arena_array(arena, double, (size_t)high.model->nq);
     FW_NEED(gravity);
     memcpy(gravity, high.gravity, (size_t)high.model->nq * sizeof *gravity);
-    FW_TRY(sizes(arena, m, x, low.q0, least));
-    FW_TRY(climb_at(&low, &high, x, row, gravity, least, step));
+    FW_TRY(extent_of(arena, m, x, low.q0, low.model->scale.length_m, &extent));
+    FW_TRY(climb_at(&low, &high, x, row, gravity, extent.size, step));
     if (step->why_not || step->next != FW_HINGE_ELASTICA) return FW_OK;
-    FW_TRY(rows_on_the_way(arena, m, x, low.q0, low.model->scale.length_m, way));
     bool found = false;
     for (int k = 0; k < FW_ON_THE_WAY; k++) {
         fw_statics_level_step there = *step;
-        FW_TRY(climb_at(&low, &high, x, way[k], gravity, least, &there));
+        FW_TRY(climb_at(&low, &high, x, extent.row[k], gravity, extent.size, &there));
         if (there.why_not) continue; /* of one instant that is no sign: what falls has passed it */
         found = true;
         step->relative = fmax(step->relative, there.relative);
