@@ -9,22 +9,9 @@
 
 /* ---- what of a log is out of its limits ---- */
 
-/* of one wafer, or both of the whole lot */
-static bool same_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
-    return a->wafer == b->wafer || (a->wafer && b->wafer && strcmp(a->wafer, b->wafer) == 0);
-}
-
 static double booked_stop_s(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     int together;
     return e->step->booked_stop_s * fw_recipe_asrun_loads(run, e, &together);
-}
-
-/* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
-   end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. A clock
-   that was read to the minute leaves up to a minute either way. */
-static double clock_s(const fw_recipe_asrun_entry *e) {
-    const bool to_the_second = strlen(e->start) > 16 && strlen(e->end) > 16;
-    return to_the_second ? 0.0 : 60.0;
 }
 
 /* what is at the bench or the machine beside the step's own time, in every run of it */
@@ -46,9 +33,11 @@ static double took_s(const fw_recipe_asrun_entry *e, const fw_recipe_runs *runs)
     return runs->n > 1 ? runs->time_s : e->end_s - e->start_s;
 }
 
+/* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
+   end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    const double actual_s = took_s(e, &runs), read_s = runs.n * clock_s(e);
+    const double actual_s = took_s(e, &runs), read_s = runs.n * fw_recipe_asrun_clock_s(e);
     double surely;
     if (!e->step->time.computable) return "no plan";
     if (actual_s + read_s < e->step->time.first_look_s) return "short";
@@ -91,7 +80,8 @@ static fw_status ask_runs(fw_arena *arena, const fw_recipe_asrun *run,
                           const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     double surely;
-    const double stop = stop_by_s(run, e, &runs, &surely), read_s = runs.n * clock_s(e);
+    const double stop = stop_by_s(run, e, &runs, &surely),
+                 read_s = runs.n * fw_recipe_asrun_clock_s(e);
     fw_text text = fw_text_new(arena);
     if (runs.n < 2 || !e->step->time.computable || !(runs.time_s - read_s > stop) ||
         runs.time_s - read_s > surely)
@@ -114,7 +104,7 @@ static fw_status amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
                                fw_text *planned, fw_text *actual) {
     int together;
     const double loads = fw_recipe_asrun_loads(run, e, &together);
-    FW_TRY(fw_recipe_asrun_amount_in_time(arena, run, e, loads, clock_s(e), a));
+    FW_TRY(fw_recipe_asrun_amount_in_time(arena, run, e, loads, fw_recipe_asrun_clock_s(e), a));
     if (a->fits) return FW_OK;
     const char *unit = fw_recipe_asrun_accept(e->step, a->measured->measure)->unit;
     fw_quantity_unit in;
@@ -159,6 +149,7 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     FW_TRY(ask_amount(arena, run, e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_waits(run, e, place, diags));
     FW_TRY(ask_runs(arena, run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_at_once(arena, run, e, place, diags));
     FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;
     fw_diag_warning(diags, 283, place,
@@ -208,8 +199,7 @@ static void put_unit(fw_text *out, const char *unit) {
     if (strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
 }
 
-/* a run that another one goes on from is not short: both come to one */
-static bool is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
         if (later->step == e->step && fw_recipe_asrun_goes_on_from(run, later) == e) return true;
     return false;
@@ -222,7 +212,8 @@ static fw_status durations_of(builder *b, const fw_recipe_asrun *run,
     const double loads = runs.n > 1 ? 1.0 : fw_recipe_asrun_loads(run, e, &together);
     const char *judged = fw_recipe_asrun_in_time(run, e);
     double surely;
-    if (!is_out_of_time(judged) || (strcmp(judged, "short") == 0 && is_gone_on(run, e)))
+    if (!is_out_of_time(judged) ||
+        (strcmp(judged, "short") == 0 && fw_recipe_asrun_is_gone_on(run, e)))
         return FW_OK;
     stop_by_s(run, e, &runs, &surely);
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
@@ -235,6 +226,17 @@ static fw_status durations_of(builder *b, const fw_recipe_asrun *run,
     if (runs.n > 1) fw_text_add(&planned, " and the handling of each run");
     put_took(&is, e, &runs);
     return add(b, e, "duration", &planned, &is);
+}
+
+static fw_status at_once_of(builder *b, const fw_recipe_asrun *run,
+                            const fw_recipe_asrun_entry *e) {
+    const char *many, *allowed;
+    fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+    FW_TRY(fw_recipe_asrun_too_many(b->arena, run, e, &many, &allowed));
+    if (!many) return FW_OK;
+    fw_text_add(&planned, allowed);
+    fw_text_add(&is, many);
+    return add(b, e, "wafers at once", &planned, &is);
 }
 
 static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
@@ -318,7 +320,8 @@ static bool goes_on(const fw_recipe_asrun *run, int i) {
     const fw_recipe_asrun_entry *e = &run->entry[i];
     for (int k = i + 1; k < run->nentry; k++) {
         const fw_recipe_asrun_entry *later = &run->entry[k];
-        if (later->step == e->step && same_wafer(e, later) && later->start_s == e->start_s)
+        if (later->step == e->step && fw_text_same(e->wafer, later->wafer) &&
+            later->start_s == e->start_s)
             return true;
     }
     return false;
@@ -335,6 +338,7 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
             const bool last = fw_recipe_asrun_is_last(run, e), added = !last && goes_on(run, i);
             b.repeated = !last && !added;
             if (!added) FW_TRY(durations_of(&b, run, e));
+            if (!added) FW_TRY(at_once_of(&b, run, e));
             FW_TRY(values_of(&b, e));
             FW_TRY(amount_of(&b, run, e));
             FW_TRY(settings_of(&b, e));
@@ -421,7 +425,7 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
         const double stop = stop_by_s(run, e, &runs, NULL);
         fw_text_add(out, "      adds up to ");
         put_took(out, e, &runs);
-        if (e->step->time.computable && runs.time_s - runs.n * clock_s(e) > stop) {
+        if (e->step->time.computable && runs.time_s - runs.n * fw_recipe_asrun_clock_s(e) > stop) {
             fw_text_add(out, ", and one run is to stop by ");
             fw_schedule_put_duration(out, stop);
         }
@@ -458,7 +462,7 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
             any = true;
             if (fw_recipe_asrun_is_last(run, e))
                 sum_runs(run, e, t);
-            else
+            else if (!fw_recipe_asrun_is_gone_on(run, e))
                 t->repeated++;
         }
         t->logged += any;
@@ -474,7 +478,7 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
 static int times_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last) {
     int times = 0;
     for (const fw_recipe_asrun_entry *e = run->entry; e <= last; e++)
-        times += e->step == last->step && same_wafer(e, last);
+        times += e->step == last->step && fw_text_same(e->wafer, last->wafer);
     return times;
 }
 

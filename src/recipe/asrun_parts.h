@@ -70,6 +70,8 @@ const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *r
    away what it works on */
 const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun *run,
                                                           const fw_recipe_asrun_entry *e);
+/* asrun_compare.c: does a later run go on from this one? Then it is neither short nor repeated: both come to one */
+bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 typedef struct fw_recipe_runs { /* that come to one longer run */
     int n;
     double time_s; /* of all; of one load where there are several */
@@ -81,6 +83,17 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
 /* loads one after the other that share the time of the entry, and how many entries do (*together) */
 double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                              int *together);
+
+/* asrun_values.c: were more wafers in the machine of the entry at one time than its step, or the machine, takes? *is NULL:
+   no, or no machine is known; else "3 wafers", and "1 in hotplate" are allowed. FW-D659 says it of an entry */
+fw_status fw_recipe_asrun_too_many(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, const char **is,
+                                   const char **allowed);
+fw_status fw_recipe_asrun_ask_at_once(fw_arena *arena, const fw_recipe_asrun *run,
+                                      const fw_recipe_asrun_entry *e, fw_place place,
+                                      fw_diags *diags);
+/* how far its times may be off: a clock that was read to the minute leaves up to a minute */
+double fw_recipe_asrun_clock_s(const fw_recipe_asrun_entry *e);
 
 /* ---- what a wafer waited before an entry: asrun.c ---- */
 

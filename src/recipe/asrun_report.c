@@ -269,7 +269,9 @@ static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
             const fw_recipe_asrun_entry *e = &run->entry[i];
             if (e->step != &flow->step[s]) continue;
             fw_text_printf(out, "<tr><td>%s%s</td>", e->step->id,
-                           fw_recipe_asrun_is_last(run, e) ? "" : " (repeated later)");
+                           fw_recipe_asrun_is_last(run, e)      ? ""
+                           : fw_recipe_asrun_is_gone_on(run, e) ? " (gone on with later)"
+                                                                : " (repeated later)");
             cell(out, e->wafer ? e->wafer : "lot");
             cell(out, e->start);
             duration(out, e->step->booked_s, e->step->time.computable);

@@ -504,3 +504,82 @@ fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_
     }
     return all;
 }
+
+/* ---- wafers in one machine at one time ---- */
+
+double fw_recipe_asrun_clock_s(const fw_recipe_asrun_entry *e) {
+    const bool to_the_second = strlen(e->start) > 16 && strlen(e->end) > 16;
+    return to_the_second ? 0.0 : 60.0;
+}
+
+/* Machines of one name are one, and so are those that no entry names */
+static bool same_machine(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return a->step->equipment && a->step->equipment == b->step->equipment &&
+           fw_text_same(a->tool, b->tool);
+}
+
+/* Of the wafers that an entry is of, those that are in the machine at one time: all of them, unless its time is enough for
+   their loads one after the other. Of entries that share their time each has its part. */
+static double at_once_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    int together;
+    const double loads = fw_recipe_asrun_loads(run, e, &together),
+                 took_s = e->end_s - e->start_s + fw_recipe_asrun_clock_s(e);
+    const double wafers = e->wafer ? 1.0 : fmin(loads * e->step->batch, fmax(run->nwafer, 1.0));
+    const bool enough = !e->step->time.computable || took_s >= loads * e->step->time.first_look_s;
+    return enough ? wafers / loads : wafers;
+}
+
+/* is the wafer of o surely in the machine when `at` begins, or in one load with it? */
+static bool is_in(const fw_recipe_asrun_entry *o, const fw_recipe_asrun_entry *at) {
+    const bool alike = o->step == at->step && o->start_s == at->start_s && o->end_s == at->end_s;
+    return alike ||
+           (o->start_s <= at->start_s && o->end_s - at->start_s > fw_recipe_asrun_clock_s(o));
+}
+
+/* How many wafers are in the machine of the entry with it at one time, by all entries of the machine or by those of its step
+   alone; 0: no machine is known, or the step is once for a lot */
+static int at_once(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, bool of_its_step) {
+    const fw_recipe_asrun_entry *const end = run->entry + run->nentry;
+    double most = 0.0;
+    if (!e->step || fw_process_step_is_of_lot(e->step) || is_replaced(run, e)) return 0;
+    for (const fw_recipe_asrun_entry *at = run->entry; at < end; at++) {
+        double n = 0.0; /* when that entry begins */
+        for (const fw_recipe_asrun_entry *o = run->entry; o < end && is_in(e, at); o++)
+            if (o->step && same_machine(o, e) && !fw_process_step_is_of_lot(o->step) &&
+                (!of_its_step || o->step == e->step) && !is_replaced(run, o) && is_in(o, at))
+                n += at_once_of(run, o);
+        most = fmax(most, n);
+    }
+    return (int)lround(ceil(most - 1e-6));
+}
+
+fw_status fw_recipe_asrun_too_many(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, const char **is,
+                                   const char **allowed) {
+    const int batch = e->step->batch,
+              capacity = e->step->equipment ? e->step->equipment->capacity : 0,
+              of_step = at_once(run, e, true), of_all = at_once(run, e, false);
+    *is = NULL;
+    if (of_step <= batch && of_all <= capacity) return FW_OK;
+    const bool step = of_step > batch;
+    *is = fw_arena_printf(arena, "%d wafers", step ? of_step : of_all);
+    *allowed = fw_arena_printf(arena, "%d in %s", step ? batch : capacity, e->step->equipment->id);
+    FW_NEED(*is);
+    FW_NEED(*allowed);
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_ask_at_once(fw_arena *arena, const fw_recipe_asrun *run,
+                                      const fw_recipe_asrun_entry *e, fw_place place,
+                                      fw_diags *diags) {
+    const char *is, *allowed;
+    FW_TRY(fw_recipe_asrun_too_many(arena, run, e, &is, &allowed));
+    if (!is) return FW_OK;
+    fw_diag_warning(
+        diags, 659, place,
+        "step %s: by their times %s were in one machine at once, and the step is planned "
+        "for %s; give every wafer or load its own start and end, or the name of the "
+        "machine that each was in (tool=), where there are several",
+        e->step->id, is, allowed);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}

@@ -50,7 +50,7 @@ static const char *with(const char *log, const char *words, int number) {
         assert_int_equal(diags.item[diags.count - 1].number, number);
         return NULL;
     }
-    assert_int_equal(status, FW_OK);
+    if (status != FW_OK) fail_msg("%s: %s", words, diags.item[diags.count - 1].message);
     return fw_arena_printf(arena, "%s%s", log, line);
 }
 
@@ -665,7 +665,7 @@ static void wafers_are_no_repetitions(void **state) {
     fw_text text = fw_text_new(arena), json = fw_text_new(arena), page = fw_text_new(arena);
     lot_wafers = "1,2";
     const char *log = with(begun(), entry("wafer=1; thickness=9.1 um"), 0);
-    log = with(log, entry("wafer=2; thickness=7.1 um"), 0);
+    log = with(log, "C22; start=2026-11-20T11:00; end=2026-11-20T11:22; by=AB; second=CD; wafer=2; thickness=7.1 um", 0);
     log = with(log, entry("wafer=1; thickness=9.2 um"), 0);
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
@@ -680,6 +680,65 @@ static void wafers_are_no_repetitions(void **state) {
     assert_true(holds(&page, "<svg"));
     assert_true(holds(&page, "too few for control limits, which need 8"));
     assert_true(holds(&page, "a value is not accepted"));
+}
+
+static int said(int number) {
+    int n = 0;
+    for (size_t i = 0; i < diags.count; i++)
+        n += diags.item[i].number == number;
+    return n;
+}
+
+/* the entries (n) of a lot of three: how many of them had too many wafers in one machine, and is it said of the last one? */
+static int too_many_of(const char *const *words, int n, bool *told) {
+    fw_recipe_asrun run;
+    fw_recipe_deviation *list;
+    int count, found = 0;
+    lot_wafers = "1,2,3";
+    const char *log = begun();
+    for (int i = 0; i < n; i++)
+        log = with(log, words[i], 0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &count), FW_OK);
+    for (int i = 0; i < count; i++)
+        found += strcmp(list[i].what, "wafers at once") == 0;
+    const int before = said(659);
+    assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"log", 1, 1}, &diags), FW_OK);
+    *told = said(659) > before;
+    return found;
+}
+
+/* a hotplate for one wafer has one at a time: by one load, by entries that overlap, in whatever steps; not where their time is
+   enough for one after the other, where a clock that was read to the minute leaves it open, or on two hotplates */
+static void machines_take_so_many(void **state) {
+    (void)state;
+#define BAKE(id, from, to, more) id "; start=2026-11-20T" from "; end=2026-11-20T" to "; by=AB; " more
+    static const struct {
+        const char *words[3];
+        int found;
+    } of[] = {
+        {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C09", "10:00", "10:11", "wafer=2"),
+          BAKE("C09", "10:00", "10:11", "wafer=3")}, 3},
+        {{BAKE("C09", "10:00", "10:11", "")}, 1},
+        {{BAKE("C09", "10:00", "10:34", "wafer=1"), BAKE("C09", "10:00", "10:34", "wafer=2"),
+          BAKE("C09", "10:00", "10:34", "wafer=3")}, 0},
+        {{BAKE("C09", "10:00", "10:34", "")}, 0},
+        {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C09", "10:02", "10:13", "wafer=2")}, 2},
+        {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C11", "10:02", "10:13", "wafer=2")}, 2},
+        {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C09", "10:10", "10:21", "wafer=2")}, 0},
+        {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C09", "10:11", "10:22", "wafer=2")}, 0},
+        {{BAKE("C09", "10:00", "10:11", "wafer=1; tool=left"), BAKE("C09", "10:02", "10:13", "wafer=2; tool=right")}, 0},
+        {{BAKE("C09", "10:00", "10:11", "wafer=1; tool=left"), BAKE("C09", "10:02", "10:13", "wafer=2; tool=left")}, 2},
+    };
+#undef BAKE
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        bool told;
+        int n = 0;
+        while (n < 3 && of[i].words[n])
+            n++;
+        const int found = too_many_of(of[i].words, n, &told);
+        if (found != of[i].found || told != (found > 0)) fail_msg("case %d: %d are found, %d is told", (int)i, found, told);
+    }
 }
 
 /* ---- what becomes of wafers ---- */
@@ -998,6 +1057,10 @@ static void runs_add_up(void **state) {
     assert_near(total.earlier_s, 600.0, 1e-9);
     assert_near(total.unplanned_s, 1800.0, 1e-9);
     assert_int_equal(total.unplanned, 1);
+    fw_text page = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
+    assert_true(holds(&page, "S14 (gone on with later)"));
+    assert_int_equal(total.repeated, 0);
     assert_near(total.planned_s, step_of(flow, "S01")->booked_s + step_of(flow, "S14")->booked_s, 1e-9);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
     assert_true(holds(&table, "for those that have a planned time, actual 25 min, of which 10 min in earlier runs; 1 without a planned time took 30 min"));
@@ -1190,6 +1253,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(waits_are_not_below_nothing, setup, teardown),
         cmocka_unit_test_setup_teardown(an_entry_is_made_once, setup, teardown),
         cmocka_unit_test_setup_teardown(loads_share_their_time, setup, teardown),
+        cmocka_unit_test_setup_teardown(machines_take_so_many, setup, teardown),
         cmocka_unit_test_setup_teardown(coupons_of_other_flows, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
