@@ -7,6 +7,7 @@
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
+#include <string.h>
 
 /* ---- straight cuts through a body with holes ----
    Whatever the stress is, over a cut that parts an end from the body's hinges it comes to what acts on either side. */
@@ -390,50 +391,171 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
     return FW_OK;
 }
 
-/* ---- what is said of surfaces that a scene closes (verdict_stiction.c judges them) ---- */
+/* ---- what bodies give in series with what presses on them ----
+   A contact of stiffness k, or a cable that is drawn, acts on a place that gives c for its force (the way from there to the
+   body's middle, body_arms.c; of all its bodies together, a cable's turns counted twice). With c in series
 
-static const char *uN(char *to, size_t size, double force_N) {
-    return fw_number_text(to, size, 1e6 * force_N, 3);
+     it presses by at least 1/(1 + c k) of what it does on rigid bodies,
+     what it holds up goes farther by at most c k of its way, and by at most U_c/U_h, U_c = F^2 c/2 (Castigliano)
+
+   which is what counts beside what bodies give between their hinges. In: forces of the rigid motion, without damping.
+   Range: to first order. Cost: none where c k < 1/500. Test: test_effects.py -k slender */
+
+enum { PORTS_SEEN = 16 };
+static const double hardly_gives = 0.002; /* c k */
+
+fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scene,
+                                fw_verdict_bending *b) {
+    fw_verdict_load_end *end;
+    int n;
+    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    FW_NEED(b->place = fw_arena_array(arena, fw_verdict_place, (size_t)n));
+    for (int k = 0; k < n; k++) {
+        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
+        const double *g = arm->give;
+        if (end[k].scene != scene || !arm->known) continue;
+        const double goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        if (isfinite(end[k].known_N))
+            b->stated_J += 0.5 * end[k].known_N * end[k].known_N * goes / b->stiff_N;
+        if (!end[k].id) continue;
+        b->place[b->nplace++] = (fw_verdict_place){.body = end[k].body,
+                                                   .x_m = end[k].x_m,
+                                                   .y_m = end[k].y_m,
+                                                   .id = end[k].id,
+                                                   .arm = arm,
+                                                   .m_per_N = goes / b->stiff_N};
+    }
+    return FW_OK;
 }
 
-static const char *not_known(fw_arena *arena, const fw_verdict_stuck *s) {
-    char opens[32];
-    const char *opened = "";
-    if (s->opens_N[0] > 0)
-        opened = fw_arena_printf(arena, " (flexures open it with %s uN)",
-                                 uN(opens, sizeof opens, s->opens_N[0]));
-    if (!opened) return NULL;
-    return fw_arena_printf(
-        arena,
-        "%s%s touches in %s%s, and whether it comes free again is not known: %s%s; let it touch a "
-        "bump (b is its centre, distance its radius), or leave it more room",
-        FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), s->why, opened);
+fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                                 const fw_device_probe *probe, double *m_per_N) {
+    const double x = cos(probe->direction_rad), y = sin(probe->direction_rad);
+    fw_verdict_load_end *end;
+    int n;
+    *m_per_N = 0;
+    if (!arm || fw_device_probe_kinds[probe->row].takes != FW_PROBE_TANGENT) return FW_OK;
+    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    for (int k = 0; k < n; k++) {
+        const fw_verdict_arm *way = &arm[2 * m->nhinge + k];
+        if (end[k].scene != FW_NONE || end[k].id != probe->id || !way->known) continue;
+        const double *g = way->give;
+        *m_per_N = (g[3] * x * x + 2 * g[4] * x * y + g[5] * y * y) /
+                   (m->variant->material.youngs.value * m->variant->thickness_m);
+    }
+    return FW_OK;
 }
 
-const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *s,
-                                  double adhesion_J_per_m2) {
-    char low[32], holds[32], opens[32], least[32], times[32];
-    const bool sure = s->decision == FW_REJECT;
-    const double share = s->opens_N[0] / s->holds_N[1];
-    if (s->contact && s->why) return not_known(arena, s);
-    uN(low, sizeof low, s->holds_N[0]);
-    uN(holds, sizeof holds, s->holds_N[1]);
-    uN(opens, sizeof opens, s->opens_N[sure]);
-    if (!s->contact)
-        return fw_arena_printf(
-            arena,
-            "the surfaces of %s%s may meet in %s%s and stay closed: adhesion may hold them with up "
-            "to %s uN, and the flexure opens them with %s uN; a wider gap, a stiffer flexure or "
-            "surfaces that hold less (surface.adhesion of the flow) let them go",
-            FW_NAMED("hinge", s->hinge), FW_NAMED("scene", s->scene), holds, opens);
-    return fw_arena_printf(
-        arena,
-        "%s%s touches in %s%s and %s closed: adhesion holds it with %s to %s uN over the height of "
-        "the layer, and the flexures open it with %s uN; it comes free for sure of surfaces that "
-        "hold at most %s mJ/m2 (a coating, or surface.adhesion as measured), by flexures or a gap "
-        "%s times as stiff or wide, and the sooner the smaller its radius is",
-        FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), sure ? "stays" : "may stay",
-        low, holds, opens,
-        fw_number_text(least, sizeof least, 1e3 * adhesion_J_per_m2 * pow(share, 1.5), 2),
-        fw_number_text(times, sizeof times, 1 / share, 3));
+/* what acts there in this run: an element of that name with a port at the place, that goes by how the place goes */
+static void find_element(fw_verdict_place *at, const fw_effects_loads *loads) {
+    const double same_m = 1e-9;
+    at->element = NULL, at->stiff_N_per_m = 0;
+    for (int i = 0; i < loads->nelement && !at->element; i++) {
+        const fw_effects_force_element *e = &loads->element[i];
+        if (!e->id || strcmp(e->id, at->id) != 0 || e->class_->electrodes || e->pin != FW_NONE)
+            continue;
+        for (int k = 0; k < e->ports && !at->element; k++)
+            if (e->port[k].body == at->body && fabs(e->port[k].x_m - at->x_m) < same_m &&
+                fabs(e->port[k].y_m - at->y_m) < same_m &&
+                at->m_per_N * e->size_N_per_m > hardly_gives)
+                at->element = e, at->port = k, at->stiff_N_per_m = e->size_N_per_m;
+    }
+}
+
+static double pressed_N(const fw_verdict_place *at, const fw_dynamics_instant *now) {
+    const fw_effects_force_element *e = at->element;
+    double p[3 * PORTS_SEEN], w[3 * PORTS_SEEN], f[3 * PORTS_SEEN];
+    bool on[PORTS_SEEN] = {false};
+    if (e->ports > PORTS_SEEN || e->switches > PORTS_SEEN) return HUGE_VAL;
+    fw_effects_element_place_ports(e, now->q, NULL, p, w);
+    const fw_effects_port_state seen = {.t_s = now->t_s,
+                                        .piece_s = now->piece_s,
+                                        .load = 1,
+                                        .p = p,
+                                        .w = w,
+                                        .on = on,
+                                        .still = true};
+    for (int i = 0; i < e->switches; i++)
+        on[i] = e->class_->switch_value && e->class_->switch_value(e, &seen, i) > 0;
+    e->class_->force(e, &seen, f);
+    return hypot(f[3 * at->port], f[3 * at->port + 1]);
+}
+
+void fw_verdict_places_record(fw_verdict_bending *b, const fw_dynamics_instant *now) {
+    if (!now) {
+        b->loads = NULL, b->places_J = 0;
+        for (int i = 0; i < b->nplace; i++)
+            b->place[i].force_N = 0;
+        return;
+    }
+    for (int i = 0; now->loads != b->loads && i < b->nplace; i++)
+        find_element(&b->place[i], now->loads);
+    b->loads = now->loads;
+    for (int i = 0; i < b->nplace; i++)
+        if (b->place[i].element)
+            b->place[i].force_N = fmax(b->place[i].force_N, pressed_N(&b->place[i], now));
+}
+
+/* c k of all places of one thing, and what they store */
+static double in_series(const fw_verdict_bending *b, const char *id, double *stored_J) {
+    double share = 0;
+    *stored_J = 0;
+    for (int i = 0; i < b->nplace; i++) {
+        const fw_verdict_place *at = &b->place[i];
+        if (!at->element || !(at->force_N > 0) || strcmp(at->id, id) != 0) continue;
+        const double passes = at->port > 0 && at->port + 1 < at->element->ports ? 4 : 1;
+        share += passes * at->m_per_N * at->stiff_N_per_m;
+        *stored_J += 0.5 * at->force_N * at->force_N * at->m_per_N;
+    }
+    return share;
+}
+
+void fw_verdict_places_end(fw_verdict_bending *b) {
+    for (int i = 0; i < b->nplace; i++) {
+        const fw_verdict_place *at = &b->place[i];
+        double all_J, own_J = 0.5 * at->force_N * at->force_N * at->m_per_N;
+        if (!at->element || !(at->force_N > 0)) continue;
+        const double most_J = in_series(b, at->id, &all_J) * b->hinges_J;
+        if (isfinite(all_J)) own_J *= fmin(1, most_J / all_J);
+        if (!isfinite(all_J)) own_J = most_J;
+        b->places_J += own_J;
+        b->body_J[at->body] += own_J;
+    }
+}
+
+/* the first place of everything that acts on one; NULL: nothing does, or nobody looked */
+static const fw_verdict_place *first_of(const fw_verdict_bending *b, const char *id) {
+    for (int i = 0; i < b->nplace; i++)
+        if (b->place[i].element && b->place[i].force_N > 0 &&
+            (!id || strcmp(b->place[i].id, id) == 0))
+            return &b->place[i];
+    return NULL;
+}
+
+static const fw_verdict_bending *seen_by(const fw_dynamics_motion *motion) {
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    return saw ? &saw->bending : NULL;
+}
+
+double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe) {
+    const fw_verdict_bending *b = seen_by(motion);
+    if (!b || !(b->hinges_J > 0)) return 0;
+    if (probe->row == FW_PROBE_IS_velocity) return b->stated_J / b->hinges_J;
+    if (!probe->of || !first_of(b, probe->of)) return 0;
+    for (int i = 0; i < b->nplace; i++)
+        if (b->place[i].element && b->place[i].force_N > 0 &&
+            b->place[i].element->class_->pressing && strcmp(b->place[i].id, probe->of) != 0)
+            return 0; /* what one contact does not bear another one may */
+    return -b->places_J / b->hinges_J;
+}
+
+bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N) {
+    const fw_verdict_bending *b = seen_by(motion);
+    double left = 1, stored_J;
+    if (!b || !id || !first_of(b, id) || !(*low_N > 0)) return false;
+    for (int i = 0; i < b->nplace; i++)
+        if (first_of(b, b->place[i].id) == &b->place[i])
+            left /= 1 + in_series(b, b->place[i].id, &stored_J);
+    *low_N *= left;
+    return left < 1;
 }

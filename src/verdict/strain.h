@@ -44,11 +44,12 @@ typedef struct fw_verdict_arm {
     fw_geometry_vec2 rim;
 } fw_verdict_arm;
 
-/* Where something acts on a body in one of the flow's scenes. known_N: how large it becomes, where the scene says so;
+/* Where something acts on a body in one of the flow's scenes, or, scene FW_NONE, a stiffness is probed. known_N: how large it becomes, where the scene says so;
    NaN: it follows from the motion. what, id: "eyelet of tendon", "T1"; id NULL: it has none */
 typedef struct fw_verdict_load_end {
     int scene, body;
     int first;           /* the first of all that acts at this place: they have one way */
+    double x_m, y_m;     /* local to the body */
     fw_geometry_vec2 at; /* world, as drawn */
     double known_N;
     const char *what, *id;
@@ -218,6 +219,21 @@ typedef struct fw_verdict_extreme {
     double beside; /* by how much it is larger between the instants */
 } fw_verdict_extreme;
 
+/* Where what presses or pulls a body beside its hinges follows from how that place goes: a contact, a cable that is drawn.
+   What the body gives there is in series with it (arm_rims.c) */
+typedef struct fw_verdict_place {
+    int body;
+    double x_m, y_m; /* local to it */
+    const char *id;  /* of what acts there */
+    const fw_verdict_arm *arm;
+    double m_per_N; /* what the body gives there at most */
+    double
+        stiff_N_per_m; /* of what acts there; 0: it is not known yet, or acts whatever the place does */
+    double force_N;                          /* largest so far; infinite: not known */
+    const fw_effects_force_element *element; /* of this run */
+    int port;
+} fw_verdict_place;
+
 typedef struct fw_verdict_bending {
     const fw_verdict_arm
         *arm;       /* (2 nhinge); NULL: nothing is drawn, forces of hinges alone are seen */
@@ -253,6 +269,11 @@ typedef struct fw_verdict_bending {
     double *
         put; /* (3 nbody) of the instant: what hinges put on a body: N, N, N m about its mass centre */
     struct fw_verdict_solid_kept *kept; /* body_solid.c; NULL: of straight ways, and without arms */
+    fw_verdict_place *place;            /* (nplace) */
+    int nplace;
+    double places_J; /* what bodies store there, as far as the motion goes by it */
+    double stated_J; /* under loads of which the scene says how large they become, at most */
+    const fw_effects_loads *loads; /* whose elements act there; NULL: the run starts */
 } fw_verdict_bending;
 /* by how much the end of a hinge goes over the hinge's width, or turns over its limit, as the strip of its body gives:
    the derivatives of fw_verdict_arm_energy_J by what the hinge puts on it */
@@ -271,8 +292,22 @@ void fw_verdict_solid_keep(fw_verdict_solid_kept *kept, const fw_mechanism *mech
                            const fw_dynamics_instant *now, const fw_verdict_turn *turn);
 /* arm NULL: forces of hinges alone; straight: of straight ways, and only whether bodies are to be counted */
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,
-                                   const fw_verdict_arm *arm, bool straight,
+                                   const fw_verdict_arm *arm, bool straight, int scene,
                                    fw_verdict_bending *bending);
+/* arm_rims.c: the places of a scene; at every instant, NULL where the run starts; and when it has ended */
+fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                                fw_verdict_bending *bending);
+void fw_verdict_places_record(fw_verdict_bending *bending, const fw_dynamics_instant *now);
+void fw_verdict_places_end(fw_verdict_bending *bending);
+/* Relative error of a probe beside fw_verdict_bending_share: of a speed what bodies give under the loads that the scene states; of
+   the force of what acts on a place the part of that share that goes with it alone, which is none of its errors, less.
+   *low_N less what such a force loses at most; false: nothing changes */
+double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe);
+bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N);
+/* what the body of a probed stiffness or compliance gives at its place along its direction at most, m/N; 0: not known */
+fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_verdict_arm *arm, const fw_device_probe *probe,
+                                 double *m_per_N);
 void fw_verdict_bending_record(fw_verdict_bending *bending, const fw_mechanism *mechanism,
                                const fw_dynamics_instant *now);
 

@@ -323,12 +323,12 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         motion.glance = fw_verdict_strain_monitor_glance;
         motion.unsettled = fw_verdict_strain_monitor_unsettled;
         motion.context = &monitor[i];
-        monitor[i].clearance = &watch[0];
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
-        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, v->straight, &monitor[i].bending));
-        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, v->straight, &other[i].bending));
-        other[i].clearance = &watch[1];
+        FW_TRY(
+            fw_verdict_bending_watch(arena, m, v->arm, v->straight, (int)i, &monitor[i].bending));
+        FW_TRY(fw_verdict_bending_watch(arena, m, v->arm, v->straight, (int)i, &other[i].bending));
+        monitor[i].clearance = &watch[0], other[i].clearance = &watch[1];
         FW_TRY(fw_verdict_touch_watch(arena, scene, &monitor[i]));
         FW_TRY(fw_verdict_touch_watch(arena, scene, &other[i]));
         FW_TRY(fw_verdict_clearance_scene(m, scene, watch));

@@ -287,6 +287,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->along_N[k] = 0;
         if (b->kept) fw_verdict_solid_keep_none(b->kept);
+        fw_verdict_places_record(b, NULL);
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         for (int i = 0; b->rest_N && i < m->nbody; i++)
@@ -329,6 +330,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     record_forces(b, m, now);
     record_rests(b, m, now);
     fw_verdict_solid_keep(b->kept, m, now, b->turn);
+    fw_verdict_places_record(b, now);
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
@@ -352,7 +354,7 @@ static fw_status worst_of(fw_arena *arena, const fw_mechanism *m, const fw_verdi
 }
 
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
-                                   const fw_verdict_arm *arm, bool straight,
+                                   const fw_verdict_arm *arm, bool straight, int scene,
                                    fw_verdict_bending *bending) {
     const fw_mechanism_variant *of = m->variant;
     *bending =
@@ -374,6 +376,7 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;
     FW_TRY(fw_verdict_solid_keep_new(arena, m, &bending->kept));
+    FW_TRY(fw_verdict_places_new(arena, m, scene, bending));
     if (!(m->device->release_pitch_m > 0)) return FW_OK;
     FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
     FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
@@ -551,7 +554,7 @@ double fw_verdict_bending_stored_J(const fw_dynamics_motion *motion) {
 
 double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     const fw_verdict_bending *b = seen(motion);
-    return b ? b->bodies_J / b->hinges_J : 0;
+    return b ? (b->bodies_J + b->places_J) / b->hinges_J : 0;
 }
 
 /* A device that is pressed along its flexures goes nowhere, and its bodies may then give many times what the hinges do.
@@ -570,7 +573,8 @@ double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
     return share > fw_verdict_bending_told ? share : 0;
 }
 
-/* Of small motions no forces are known: the most of any scene, but for one that hardly moves beside another (round-off).
+/* Of small motions no forces are known: the most of any scene, but for one that hardly moves beside another (round-off), and
+   without what the bodies give under what presses on them there.
    Bodies that give only soften: a stiffness by 1/(1 + share), a frequency by its root (Rayleigh). Solids of whole devices
    swing up to 0.3 % higher than computed: the other way the share counts up to 1 %. */
 double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v) {
@@ -581,6 +585,8 @@ double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v) {
         largest_J = fmax(largest_J, fw_verdict_bending_stored_J(v->motion[i]));
     for (int i = 0; i < m->device->nscene; i++)
         if (fw_verdict_bending_stored_J(v->motion[i]) >= hardly * largest_J)
-            most = fmax(most, fw_verdict_bending_share(v->motion[i]));
+            most = fmax(most, seen(v->motion[i])
+                                  ? seen(v->motion[i])->bodies_J / seen(v->motion[i])->hinges_J
+                                  : 0);
     return most;
 }

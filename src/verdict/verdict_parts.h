@@ -125,7 +125,7 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
 fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
                                     fw_verdict_variant_verdict *v);
 
-/* arm_rims.c: why a contact or a hinge may stay closed; NULL: FW_NOMEM */
+/* verdict_run.c: why a contact or a hinge may stay closed; NULL: FW_NOMEM */
 const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *stuck,
                                   double adhesion_J_per_m2);
 

@@ -228,10 +228,10 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
                   const fw_probe_monitor *monitor, const fw_probe_result *p,
                   fw_verdict_requirement *r) {
     const fw_device_requirement *q = &m->device->requirement[r->asked];
-    const double model = model_of(m, motion, p->level),
+    const double model = model_of(m, motion, p->level) +
+                         fw_verdict_places_error(motion, &m->device->probe[q->probe]),
                  lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
-    const bool size = !isnan(p->moved); /* a gap is not below 0 */
-    r->size = size;
+    const bool size = r->size = !isnan(p->moved); /* a gap is not below 0 */
     r->swing = size ? p->moved : fmax(fabs(p->maximum - p->origin), fabs(p->minimum - p->origin));
     if (q->measure == FW_MEASURE_PARASITIC) r->swing = fabs(p->across);
     if (q->measure == FW_MEASURE_PEAK_TO_PEAK) r->swing *= 2; /* either end may */
@@ -309,12 +309,14 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         if (r->scene_index != scene || !r->measure) continue;
-        const fw_probe_result *p = &v->probed[scene * n + m->device->requirement[r->asked].probe];
+        const fw_device_requirement *q = &m->device->requirement[r->asked];
+        const fw_probe_result *p = &v->probed[scene * n + q->probe];
         if (p->known) judge(m, v->motion[scene], monitor, p, r);
-        if (p->known && m->device->requirement[r->asked].measure == FW_MEASURE_FINAL)
+        if (fw_verdict_places_lower(v->motion[scene], m->device->probe[q->probe].of, &r->low))
+            decide(r);
+        if (p->known && q->measure == FW_MEASURE_FINAL)
             FW_TRY(put_ring(m, v->motion[scene], monitor, p, r));
-        if (p->known && v->motion[scene]->ended)
-            judge_ended(m->device->requirement[r->asked].measure, r);
+        if (p->known && v->motion[scene]->ended) judge_ended(q->measure, r);
         if (!p->known && monitor->within)
             r->why =
                 "nothing is drawn of its bodies, or all of it lies within a hinge between them";
@@ -403,11 +405,13 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         }
         r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
         if (!isfinite(value)) continue;
-        const double soft = 1 + fw_verdict_bending_of_any(v),
-                     model = fw_probe_small_error(p, modes);
-        const bool is_mode = p->asked->row == FW_PROBE_IS_frequency;
-        const bool yields = p->asked->row == FW_PROBE_IS_compliance;
-        const double times = yields ? soft : 1 / (is_mode ? sqrt(soft) : soft),
+        double gives;
+        FW_TRY(fw_verdict_place_gives(arena, m, v->arm, p->asked, &gives));
+        const fw_device_probe_row row = p->asked->row;
+        const bool is_mode = row == FW_PROBE_IS_frequency, yields = row == FW_PROBE_IS_compliance;
+        const double model = fw_probe_small_error(p, modes),
+                     soft = 1 + fw_verdict_bending_of_any(v) + gives * (yields ? 1 / value : value),
+                     times = yields ? soft : 1 / (is_mode ? sqrt(soft) : soft),
                      other = fmin(fabs(times - 1), 0.01);
         put(r, value, 0, model, modes->stiffness_error, value, true);
         *(yields ? &r->high : &r->low) *= times, r->lasting += fabs(times - 1);

@@ -469,3 +469,51 @@ fw_status fw_verdict_drying_words(fw_arena *arena, const fw_verdict_variant_verd
                     *words));
     return FW_OK;
 }
+
+/* ---- what is said of surfaces that a scene closes (verdict_stiction.c judges them) ---- */
+
+static const char *uN(char *to, size_t size, double force_N) {
+    return fw_number_text(to, size, 1e6 * force_N, 3);
+}
+
+static const char *not_known(fw_arena *arena, const fw_verdict_stuck *s) {
+    char opens[32];
+    const char *opened = "";
+    if (s->opens_N[0] > 0)
+        opened = fw_arena_printf(arena, " (flexures open it with %s uN)",
+                                 uN(opens, sizeof opens, s->opens_N[0]));
+    if (!opened) return NULL;
+    return fw_arena_printf(
+        arena,
+        "%s%s touches in %s%s, and whether it comes free again is not known: %s%s; let it touch a "
+        "bump (b is its centre, distance its radius), or leave it more room",
+        FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), s->why, opened);
+}
+
+const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *s,
+                                  double adhesion_J_per_m2) {
+    char low[32], holds[32], opens[32], least[32], times[32];
+    const bool sure = s->decision == FW_REJECT;
+    const double share = s->opens_N[0] / s->holds_N[1];
+    if (s->contact && s->why) return not_known(arena, s);
+    uN(low, sizeof low, s->holds_N[0]);
+    uN(holds, sizeof holds, s->holds_N[1]);
+    uN(opens, sizeof opens, s->opens_N[sure]);
+    if (!s->contact)
+        return fw_arena_printf(
+            arena,
+            "the surfaces of %s%s may meet in %s%s and stay closed: adhesion may hold them with up "
+            "to %s uN, and the flexure opens them with %s uN; a wider gap, a stiffer flexure or "
+            "surfaces that hold less (surface.adhesion of the flow) let them go",
+            FW_NAMED("hinge", s->hinge), FW_NAMED("scene", s->scene), holds, opens);
+    return fw_arena_printf(
+        arena,
+        "%s%s touches in %s%s and %s closed: adhesion holds it with %s to %s uN over the height of "
+        "the layer, and the flexures open it with %s uN; it comes free for sure of surfaces that "
+        "hold at most %s mJ/m2 (a coating, or surface.adhesion as measured), by flexures or a gap "
+        "%s times as stiff or wide, and the sooner the smaller its radius is",
+        FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), sure ? "stays" : "may stay",
+        low, holds, opens,
+        fw_number_text(least, sizeof least, 1e3 * adhesion_J_per_m2 * pow(share, 1.5), 2),
+        fw_number_text(times, sizeof times, 1 / share, 3));
+}

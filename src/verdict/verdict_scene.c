@@ -518,6 +518,10 @@ static const fw_verdict_arm *narrowest(const fw_mechanism *m, const fw_verdict_b
         if ((i % 2 ? pin->body_b : pin->body_a) != body || !arm->known) continue;
         if (!narrow || arm->narrow_m < narrow->narrow_m) narrow = arm;
     }
+    for (int i = 0; i < b->nplace; i++)
+        if (b->place[i].element && b->place[i].body == body &&
+            (!narrow || b->place[i].arm->narrow_m < narrow->narrow_m))
+            narrow = b->place[i].arm;
     return narrow;
 }
 

@@ -550,7 +550,7 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body,
     }
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
-        const bool moves = strcmp(r->kind, "displacement") == 0 || strcmp(r->kind, "gap") == 0;
+        const bool moves = fw_words_hold("displacement gap distance opening", " ", r->kind);
         if (r->scene_index != scene || r->decision != FW_ACCEPT || !moves) continue;
         if (!(r->low - by < r->min) && !(r->high + by > r->max)) continue;
         r->decision = FW_INCONCLUSIVE;

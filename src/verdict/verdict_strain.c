@@ -61,7 +61,8 @@ static void add_end(ends *to, int body, double x_m, double y_m, double known_N, 
     while (first < to->n &&
            (to->end[first].body != body || vec_distance(to->end[first].at, at) > same_m))
         first++;
-    to->end[to->n++] = (fw_verdict_load_end){to->scene, body, first, at, known_N, what, id};
+    to->end[to->n++] =
+        (fw_verdict_load_end){to->scene, body, first, x_m, y_m, at, known_N, what, id};
 }
 
 /* in the bar behind the fingers, or in the rotor's face: fingers bear their own shares only */
@@ -109,7 +110,7 @@ fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *m, fw_verdic
                                int *n) {
     const fw_device *d = m->device;
     const int scenes = d ? d->nscene : 0; /* a mechanism alone has none */
-    size_t most = 0;
+    size_t most = d ? (size_t)d->nprobe : 0;
     for (int i = 0; i < scenes; i++) {
         const fw_device_scene *s = &d->scene[i];
         most += (size_t)(s->nforce + s->ncomb + 2 * s->ncontact + 2 * m->nspring);
@@ -122,6 +123,11 @@ fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *m, fw_verdic
         to.scene = i;
         if (fw_device_in_flow(d->scene[i].flow, m->variant->flow)) add_scene(&to, &d->scene[i]);
     }
+    to.scene = FW_NONE; /* where a small force is to tell how stiff the device is */
+    for (int i = 0; d && i < d->nprobe; i++)
+        if (fw_device_probe_kinds[d->probe[i].row].takes == FW_PROBE_TANGENT)
+            add_end(&to, d->probe[i].body, d->probe[i].x_m, d->probe[i].y_m, 0, "probe",
+                    d->probe[i].id);
     *end = to.end, *n = to.n;
     return FW_OK;
 }

@@ -116,7 +116,7 @@ static void plain_ways_are_bounds(void **state) {
             assert_true(plain < 3 * grid);
         }
         fw_verdict_strain_monitor seen = {.mechanism = &s.m, .arena = s.arena};
-        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, v.arm, true, &seen.bending), FW_OK);
+        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, v.arm, true, 0, &seen.bending), FW_OK);
         const double q[3] = {0, 0, 0}, angle[2] = {0.1, -0.1}, far = 1e-2 / (1e-6 * 0.1);
         for (int load = 0; load < 9; load++) { /* along x, along y, and between */
             const double force = load % 3 == 0 ? 0 : load % 3 == 1 ? 1e-9 : far, way = (const double[]){0, M_PI / 2, 0.65}[load / 3];
@@ -260,7 +260,7 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
         left = &s.arm[3], right = &s.arm[1];
         const fw_geometry_vec2 centre = {s.m.drawn->x_m, s.m.drawn->y_m};
         fw_verdict_strain_monitor seen = {.mechanism = &s.m, .arena = s.arena};
-        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, s.arm, false, &seen.bending),
+        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, s.arm, false, 0, &seen.bending),
                          FW_OK);
         for (int load = 0; load < 3; load++) {
             const double moment = load == 1 ? 0 : 4e-6, force = load == 0 ? 0 : 0.1;
@@ -420,7 +420,7 @@ static void a_neck_before_a_load_is_seen(void **state) {
         fw_verdict_reason reason[2];
         fw_verdict_variant_verdict v = {.reason = reason, .mechanism = &s.m};
         device.safety_factor = weak ? 2 : 1.8 / share;
-        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, s.arm, false, &seen.bending), FW_OK);
+        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, s.arm, false, 0, &seen.bending), FW_OK);
         fw_verdict_bending_record(&seen.bending, &s.m, NULL);
         fw_verdict_bending_record(&seen.bending, &s.m, &now);
         assert_relative(seen.bending.rest_N[0], 1e-4, 1e-12);
