@@ -9,6 +9,43 @@
 #include <math.h>
 #include <string.h>
 
+/* ---- what is drawn of a body ---- */
+
+static int parts_of(const fw_geometry_segment *s) {
+    double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
+    return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
+}
+
+bool fw_verdict_is_of(const fw_layout_piece *p, int body) {
+    return p->body == body && p->role == FW_ROLE_STRUCTURE;
+}
+
+fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int body,
+                                fw_verdict_line **line, int *n) {
+    size_t most = 0;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_geometry_contour *c = &layout->piece[i].contour;
+        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++)
+            most += (size_t)parts_of(&c->segment[k]);
+    }
+    FW_NEED(*line = fw_arena_array(arena, fw_verdict_line, most));
+    *n = 0;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_geometry_contour *c = &layout->piece[i].contour;
+        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++) {
+            const fw_geometry_segment *s = &c->segment[k];
+            int parts = parts_of(s);
+            fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
+            for (int j = 0; j < parts; j++) {
+                fw_geometry_vec2 to = fw_geometry_segment_point(s, (double)(j + 1) / parts);
+                (*line)[(*n)++] = (fw_verdict_line){from, to, !(s->flags & FW_SEGMENT_JOINT), i};
+                from = to;
+            }
+        }
+    }
+    return FW_OK;
+}
+
 /* ---- straight cuts through a body with holes ----
    Whatever the stress is, over a cut that parts an end from the body's hinges it comes to what acts on either side. */
 
@@ -389,173 +426,4 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
     m_per_m_s2[0] = 12 * m->body[body].mass_kg / area * most / rigid;
     m_per_m_s2[1] = m->body[body].mass_kg / area * plane / (rigid / (h * h));
     return FW_OK;
-}
-
-/* ---- what bodies give in series with what presses on them ----
-   A contact of stiffness k, or a cable that is drawn, acts on a place that gives c for its force (the way from there to the
-   body's middle, body_arms.c; of all its bodies together, a cable's turns counted twice). With c in series
-
-     it presses by at least 1/(1 + c k) of what it does on rigid bodies,
-     what it holds up goes farther by at most c k of its way, and by at most U_c/U_h, U_c = F^2 c/2 (Castigliano)
-
-   which is what counts beside what bodies give between their hinges. In: forces of the rigid motion, without damping.
-   Range: to first order. Cost: none where c k < 1/500. Test: test_effects.py -k slender */
-
-enum { PORTS_SEEN = 16 };
-static const double hardly_gives = 0.002; /* c k */
-
-fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scene,
-                                fw_verdict_bending *b) {
-    fw_verdict_load_end *end;
-    int n;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
-    FW_NEED(b->place = fw_arena_array(arena, fw_verdict_place, (size_t)n));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
-        const double *g = arm->give;
-        if (end[k].scene != scene || !arm->known) continue;
-        const double goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
-        if (isfinite(end[k].known_N))
-            b->stated_J += 0.5 * end[k].known_N * end[k].known_N * goes / b->stiff_N;
-        if (!end[k].id) continue;
-        b->place[b->nplace++] = (fw_verdict_place){.body = end[k].body,
-                                                   .x_m = end[k].x_m,
-                                                   .y_m = end[k].y_m,
-                                                   .id = end[k].id,
-                                                   .arm = arm,
-                                                   .m_per_N = goes / b->stiff_N};
-    }
-    return FW_OK;
-}
-
-fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
-                                 const fw_device_probe *probe, double *m_per_N) {
-    const double x = cos(probe->direction_rad), y = sin(probe->direction_rad);
-    fw_verdict_load_end *end;
-    int n;
-    *m_per_N = 0;
-    if (!arm || fw_device_probe_kinds[probe->row].takes != FW_PROBE_TANGENT) return FW_OK;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *way = &arm[2 * m->nhinge + k];
-        if (end[k].scene != FW_NONE || end[k].id != probe->id || !way->known) continue;
-        const double *g = way->give;
-        *m_per_N = (g[3] * x * x + 2 * g[4] * x * y + g[5] * y * y) /
-                   (m->variant->material.youngs.value * m->variant->thickness_m);
-    }
-    return FW_OK;
-}
-
-/* what acts there in this run: an element of that name with a port at the place, that goes by how the place goes */
-static void find_element(fw_verdict_place *at, const fw_effects_loads *loads) {
-    const double same_m = 1e-9;
-    at->element = NULL, at->stiff_N_per_m = 0;
-    for (int i = 0; i < loads->nelement && !at->element; i++) {
-        const fw_effects_force_element *e = &loads->element[i];
-        if (!e->id || strcmp(e->id, at->id) != 0 || e->class_->electrodes || e->pin != FW_NONE)
-            continue;
-        for (int k = 0; k < e->ports && !at->element; k++)
-            if (e->port[k].body == at->body && fabs(e->port[k].x_m - at->x_m) < same_m &&
-                fabs(e->port[k].y_m - at->y_m) < same_m &&
-                at->m_per_N * e->size_N_per_m > hardly_gives)
-                at->element = e, at->port = k, at->stiff_N_per_m = e->size_N_per_m;
-    }
-}
-
-static double pressed_N(const fw_verdict_place *at, const fw_dynamics_instant *now) {
-    const fw_effects_force_element *e = at->element;
-    double p[3 * PORTS_SEEN], w[3 * PORTS_SEEN], f[3 * PORTS_SEEN];
-    bool on[PORTS_SEEN] = {false};
-    if (e->ports > PORTS_SEEN || e->switches > PORTS_SEEN) return HUGE_VAL;
-    fw_effects_element_place_ports(e, now->q, NULL, p, w);
-    const fw_effects_port_state seen = {.t_s = now->t_s,
-                                        .piece_s = now->piece_s,
-                                        .load = 1,
-                                        .p = p,
-                                        .w = w,
-                                        .on = on,
-                                        .still = true};
-    for (int i = 0; i < e->switches; i++)
-        on[i] = e->class_->switch_value && e->class_->switch_value(e, &seen, i) > 0;
-    e->class_->force(e, &seen, f);
-    return hypot(f[3 * at->port], f[3 * at->port + 1]);
-}
-
-void fw_verdict_places_record(fw_verdict_bending *b, const fw_dynamics_instant *now) {
-    if (!now) {
-        b->loads = NULL, b->places_J = 0;
-        for (int i = 0; i < b->nplace; i++)
-            b->place[i].force_N = 0;
-        return;
-    }
-    for (int i = 0; now->loads != b->loads && i < b->nplace; i++)
-        find_element(&b->place[i], now->loads);
-    b->loads = now->loads;
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element)
-            b->place[i].force_N = fmax(b->place[i].force_N, pressed_N(&b->place[i], now));
-}
-
-/* c k of all places of one thing, and what they store */
-static double in_series(const fw_verdict_bending *b, const char *id, double *stored_J) {
-    double share = 0;
-    *stored_J = 0;
-    for (int i = 0; i < b->nplace; i++) {
-        const fw_verdict_place *at = &b->place[i];
-        if (!at->element || !(at->force_N > 0) || strcmp(at->id, id) != 0) continue;
-        const double passes = at->port > 0 && at->port + 1 < at->element->ports ? 4 : 1;
-        share += passes * at->m_per_N * at->stiff_N_per_m;
-        *stored_J += 0.5 * at->force_N * at->force_N * at->m_per_N;
-    }
-    return share;
-}
-
-void fw_verdict_places_end(fw_verdict_bending *b) {
-    for (int i = 0; i < b->nplace; i++) {
-        const fw_verdict_place *at = &b->place[i];
-        double all_J, own_J = 0.5 * at->force_N * at->force_N * at->m_per_N;
-        if (!at->element || !(at->force_N > 0)) continue;
-        const double most_J = in_series(b, at->id, &all_J) * b->hinges_J;
-        if (isfinite(all_J)) own_J *= fmin(1, most_J / all_J);
-        if (!isfinite(all_J)) own_J = most_J;
-        b->places_J += own_J;
-        b->body_J[at->body] += own_J;
-    }
-}
-
-/* the first place of everything that acts on one; NULL: nothing does, or nobody looked */
-static const fw_verdict_place *first_of(const fw_verdict_bending *b, const char *id) {
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element && b->place[i].force_N > 0 &&
-            (!id || strcmp(b->place[i].id, id) == 0))
-            return &b->place[i];
-    return NULL;
-}
-
-static const fw_verdict_bending *seen_by(const fw_dynamics_motion *motion) {
-    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    return saw ? &saw->bending : NULL;
-}
-
-double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe) {
-    const fw_verdict_bending *b = seen_by(motion);
-    if (!b || !(b->hinges_J > 0)) return 0;
-    if (probe->row == FW_PROBE_IS_velocity) return b->stated_J / b->hinges_J;
-    if (!probe->of || !first_of(b, probe->of)) return 0;
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element && b->place[i].force_N > 0 &&
-            b->place[i].element->class_->pressing && strcmp(b->place[i].id, probe->of) != 0)
-            return 0; /* what one contact does not bear another one may */
-    return -b->places_J / b->hinges_J;
-}
-
-bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N) {
-    const fw_verdict_bending *b = seen_by(motion);
-    double left = 1, stored_J;
-    if (!b || !id || !first_of(b, id) || !(*low_N > 0)) return false;
-    for (int i = 0; i < b->nplace; i++)
-        if (first_of(b, b->place[i].id) == &b->place[i])
-            left /= 1 + in_series(b, b->place[i].id, &stored_J);
-    *low_N *= left;
-    return left < 1;
 }

@@ -18,6 +18,7 @@
    Energy of a wrench w = (M, Fx, Fy) about the pin, world axes of the drawn pose: w.give.w/(2 E h). */
 typedef struct fw_verdict_arm {
     bool known;     /* drawn, and its material hangs together */
+    bool lost;      /* of a load: it is not, and its body is drawn: too narrow for any grid */
     double give[6]; /* MM, Mx, My, xx, xy, yy: m^-2, m^-1, m^-1, 1, 1, 1 */
     /* of the way, out of the plane, of (Fz, Mx, My) about the pin: zz, zx, zy, xx, xy, yy. By bending over width,
        by torsion over width and over its cube, and shear (zz alone): what to multiply with goes by the thickness */
@@ -56,6 +57,9 @@ typedef struct fw_verdict_load_end {
 } fw_verdict_load_end;
 fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *mechanism,
                                fw_verdict_load_end **end, int *n);
+/* body_loads.c: how large load `at` of those (n) becomes: of one that follows from the motion what hinges put on the body
+   (rest_N), and what its other loads may balance */
+double fw_verdict_load_N(const fw_verdict_load_end *end, int n, int at, const double *rest_N);
 /* stress at most over what is allowed of a hinge's material, of the strip along a way that bears a moment and a force
    at its end alone. along_N: the largest of the force along x and along y as the body is drawn, NULL where that is not
    known. Three times (Kirsch) that of a beam, for what holes and corners do to it; walls that the flow puts
@@ -294,7 +298,7 @@ void fw_verdict_solid_keep(fw_verdict_solid_kept *kept, const fw_mechanism *mech
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_verdict_arm *arm, bool straight, int scene,
                                    fw_verdict_bending *bending);
-/* arm_rims.c: the places of a scene; at every instant, NULL where the run starts; and when it has ended */
+/* body_loads.c: the places of a scene; at every instant, NULL where the run starts; and when it has ended */
 fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                 fw_verdict_bending *bending);
 void fw_verdict_places_record(fw_verdict_bending *bending, const fw_dynamics_instant *now);

@@ -115,7 +115,7 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
 /* after requirements and required boxes of a verdict whose values count: what may meet then, is displaced or swings
    otherwise is undecided, with a reason (FW-D638, FW-D639, FW-D640) */
 fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v);
-/* strain_monitor.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
+/* body_loads.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     double *to);
 

@@ -515,7 +515,7 @@ fw_verdict_decision fw_verdict_drying_bears(const fw_verdict_variant_verdict *v,
     return FW_INCONCLUSIVE;
 }
 
-/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower (strain_monitor.c) ---- */
+/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower (body_loads.c) ---- */
 
 static fw_status leave_open(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
                             int number, const char *what, int body, double by, const char *unit) {
