@@ -8,16 +8,10 @@
    is sought alone, then the first with the second held at nine levels between (epsilon constraints; Haimes, Lasdon, Wismer
    1971), and the front is what nothing that was judged beats. Nothing is proved: a better one may be where nobody looked.
 
-   At a wanted yield a device has to hold every limit also as the dies that lie a distance beta from what is intended in the
-   direction that is worst for it (sequential optimisation and reliability assessment: X. Du, W. Chen, J. Mech. Des. 126
-   (2004) 225). Dies are found for the best device, searches follow with these, until none is worse; then its yield is
-   estimated, and beta follows what that says, since a limit that bends, or several of them, have another yield than a plane
-   at that distance. What is returned is a device whose yield was estimated so. Test: tests/cli/test_study.py,
-   tests/cli/test_sizing.py */
+   At a wanted yield all of these are only what further searches begin with (study_search.c).
+   Test: tests/cli/test_study.py, tests/cli/test_sizing.py */
 #include "chance/random.h"
-#include "maths/functions.h"
 #include "study/study_parts.h"
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -29,12 +23,6 @@ enum {
     DIGITS = 5,        /* of what is tried: more no mask resolves */
     FRONT_MOST = 200,  /* devices of a front */
     LISTS_MOST = 1000, /* combinations of listed values */
-    ROUNDS = 12,       /* searches at a wanted yield, in one go */
-    USUAL_ROUNDS = 4,  /* what a budget is shared out for */
-    ESTIMATED = 5,     /* devices whose yield is estimated by few dies, in one go */
-    CONFIRMED = 3,     /* devices whose yield is estimated in full, until one is enough */
-    DIES = 4,          /* of a flow that searches look at; the last ones found */
-    PART = 1000000     /* numbers of samples of one search begin at a multiple of it */
 };
 
 typedef struct goal {
@@ -53,13 +41,8 @@ typedef struct sizing {
     fw_study_sample *kept; /* (nkept) of the first look, the best first */
     double *f, *c;
     int nkept;
-    /* at a wanted yield */
-    fw_study_die *die; /* (ndie) that a device has to hold as well */
-    int ndie;
-    double beta; /* how far they lie */
-    double
-        allowed; /* the share that may fail by a first estimate; less after a whole one was not enough */
-    long left; /* devices that searches may still judge */
+    const fw_study_sample **judged; /* (njudged) all, at a wanted yield */
+    int njudged;
 } sizing;
 
 /* ---- what is small, and what must not be above 0 ---- */
@@ -82,19 +65,6 @@ typedef struct aim { /* of one search */
     double level;     /* of the one held */
     double scale;
 } aim;
-
-/* what the dies use counts as what the device uses */
-static fw_status besides(const void *context, fw_study_sample *sample) {
-    const sizing *s = ((const aim *)context)->s;
-    double most = log(sample->used);
-    for (int k = 0; k < s->ndie && !isnan(most); k++) {
-        double ln;
-        FW_TRY(fw_study_dies_at(s->study->dies, s->study, sample, &s->die[k], &ln));
-        most = isnan(ln) ? (double)NAN : fmax(most, ln);
-    }
-    sample->used = exp(most);
-    return FW_OK;
-}
 
 static double objective(const void *context, const fw_study_sample *sample) {
     const aim *a = context;
@@ -169,6 +139,20 @@ static fw_status take(void *context, const fw_study_sample *sample) {
 
 /* ---- what is found ---- */
 
+fw_status fw_study_keep_found(fw_study *study, const fw_study_sample *sample, double excess,
+                              fw_study_found *found) {
+    fw_study_sample own;
+    FW_TRY(fw_study_sample_new(study->arena, study, &own));
+    fw_study_sample_copy(study, sample, &own);
+    *found = (fw_study_found){.text = own.text,
+                              .value = own.value,
+                              .response = own.response,
+                              .excess = excess,
+                              .decision = own.decision,
+                              .i = own.i};
+    return FW_OK;
+}
+
 /* the best for an aim; -1: nothing was run */
 static int best_for(const sizing *s, const aim *a) {
     int best = FW_NONE;
@@ -187,14 +171,21 @@ static int best_of(const sizing *s, const goal *g) {
 }
 
 static fw_study_search search_of(const aim *a, int most, long *first) {
-    *first += PART;
+    *first += FW_STUDY_SEARCH_PART;
     return (fw_study_search){.objective = objective,
                              .nconstraint = constraints_of(a),
                              .constraint = constraints,
                              .context = a,
                              .most = most,
                              .digits = DIGITS,
-                             .first = *first - PART};
+                             .first = *first - FW_STUDY_SEARCH_PART,
+                             .keeps_all = a->s->study->asked->yield > 0};
+}
+
+/* all that a search judged may be the answer at a wanted yield, also what is not the best without one */
+static void join(sizing *s, const fw_study_search *search) {
+    for (int k = 0; search->all && k < search->used; k++)
+        s->judged[s->njudged++] = &search->all[k];
 }
 
 /* starts of searches for an aim: the best of what was judged, each a tenth of a range from the others */
@@ -233,6 +224,7 @@ static fw_status go_on(sizing *s, const aim *a, const fw_study_search *search, i
     FW_TRY(fw_study_search_from(s->study, &s->kept[from], &one));
     FW_TRY(fw_study_search_knows(s->study, &one, s->kept, nfirst, search, n));
     FW_TRY(fw_study_search_run(s->study, &one, 1));
+    join(s, &one);
     if (one.used > 0 && one.best.run) s->kept[s->nkept++] = one.best;
     return FW_OK;
 }
@@ -251,8 +243,10 @@ static fw_status seek(sizing *s, aim *a, int most, long *first) {
     if (most < simplex(s->study)) n = 0;
     FW_TRY(fw_study_search_run(s->study, search, n));
     const int nfirst = s->nkept;
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
+        join(s, &search[i]);
         if (search[i].used > 0 && search[i].best.run) s->kept[s->nkept++] = search[i].best;
+    }
     return go_on(s, a, search, n, nfirst, most, first);
 }
 
@@ -296,190 +290,6 @@ static fw_status finish(sizing *s) {
     return fw_study_keep_found(s->study, &s->kept[best], c, r->found);
 }
 
-/* ---- at a wanted yield ---- */
-
-static const double still =
-    2e-3; /* ln by which a die may be worse than those that a search has looked at */
-static const double interval_adds = 1.1; /* to a share, of 3000 dies of which a hundredth fails */
-static const double few_leave = 0.75;    /* of what may fail, so that few dies are enough */
-static const double near_enough = 0.03;  /* standard deviations: what estimates differ by */
-
-/* the worst die of each flow at this distance from sample b; *worse: some are worse than the search has seen */
-static fw_status look_for_dies(sizing *s, fw_study *dies, bool *worse) {
-    *worse = false;
-    for (int flow = 0; flow < dies->plan->nflow; flow++) {
-        fw_study_die die;
-        int of = 0, oldest = FW_NONE;
-        FW_TRY(fw_study_dies_worst(dies, flow, s->beta, s->study->arena, &die));
-        if (!(die.ln > still)) continue;
-        *worse = true;
-        for (int k = 0; k < s->ndie; k++)
-            if (s->die[k].flow == flow) {
-                if (of++ == 0) oldest = k;
-            }
-        if (of == DIES) { /* the order stays: those behind move up */
-            memmove(&s->die[oldest], &s->die[oldest + 1],
-                    (size_t)(s->ndie - oldest - 1) * sizeof *s->die);
-            s->ndie--;
-        }
-        s->die[s->ndie++] = die;
-    }
-    return FW_OK;
-}
-
-/* farther out, or nearer, the same way */
-static void move_dies(sizing *s, double beta) {
-    for (int k = 0; k < s->ndie; k++)
-        for (size_t d = 0; d < s->die[k].dimensions; d++)
-            s->die[k].u[d] *= beta / s->beta;
-    s->beta = beta;
-}
-
-/* the most over the flows of the shares that fail, with what an interval of a whole estimate will add */
-static fw_status failing(fw_study *dies, double *most) {
-    *most = 0;
-    for (int flow = 0; flow < dies->plan->nflow; flow++) {
-        double of;
-        FW_TRY(fw_study_dies_failing(dies, flow, &of));
-        *most = fmax(*most, interval_adds * of);
-    }
-    return FW_OK;
-}
-
-/* how much farther out dies have to lie that so many less fail */
-static double farther(double fail, double allowed) {
-    return fw_maths_normal_quantile(fmin(fmax(fail, 1e-7), 1 - 1e-7)) -
-           fw_maths_normal_quantile(allowed);
-}
-
-/* a search with the dies that are there, from sample b, which becomes the best that it met */
-static fw_status search_with_dies(sizing *s, const aim *a, int most, long *first, int *b) {
-    fw_study_search one = search_of(a, s->left < most ? (int)s->left : most, first);
-    one.besides = besides;
-    if (one.most <= 0) return FW_OK;
-    FW_TRY(fw_study_search_from(s->study, &s->kept[*b], &one));
-    FW_TRY(fw_study_search_run(s->study, &one, 1));
-    s->left -= one.used;
-    if (one.used > 0 && one.best.run) {
-        s->kept[s->nkept] = one.best;
-        *b = s->nkept++;
-    }
-    return FW_OK;
-}
-
-typedef struct confirmed { /* the best device that is enough by a first estimate */
-    int at;                /* of kept; FW_NONE: none */
-    int estimated;         /* devices */
-    bool over;
-} confirmed;
-
-/* sample b, whose dies at beta hold: by how many fail other dies are looked at, or it is the answer */
-static fw_status estimate_of(sizing *s, fw_study *dies, const aim *a, int b, confirmed *c) {
-    const double allowed = s->allowed;
-    double fail;
-    FW_TRY(failing(dies, &fail));
-    c->estimated++;
-    const double more = farther(fail, allowed);
-    const bool enough = fail <= allowed;
-    if (enough && (c->at == FW_NONE || objective(a, &s->kept[b]) < objective(a, &s->kept[c->at])))
-        c->at = b;
-    c->over = c->estimated == ESTIMATED || (enough && (s->ndie == 0 || more > -near_enough));
-    /* halfway into what is near enough, so that the next one is not short of it by a hair */
-    if (!c->over) move_dies(s, fmax(s->beta + more + 0.5 * near_enough, 0.1));
-    return FW_OK;
-}
-
-static fw_status round_at_yield(sizing *s, const aim *a, int most, long *first, int *b,
-                                confirmed *c) {
-    fw_study *dies;
-    bool worse = false;
-    fw_status status = s->study->open_dies(s->study, &s->kept[*b], &dies);
-    if (status == FW_OK) status = look_for_dies(s, dies, &worse);
-    if (status == FW_OK && !worse) status = estimate_of(s, dies, a, *b, c);
-    s->study->close_dies(s->study, dies, status);
-    FW_TRY(status);
-    return c->over || s->ndie == 0 ? FW_OK : search_with_dies(s, a, most, first, b);
-}
-
-/* the yield by at most so many dies for each end of what is only assumed */
-static fw_status estimate_by(fw_study *dies, int most) {
-    fw_study_result *result = fw_arena_one(dies->arena, fw_study_result);
-    fw_device_study *asked = fw_arena_one(dies->arena, fw_device_study);
-    FW_NEED(result && asked ? result : NULL);
-    *asked = *dies->asked;
-    if (asked->samples > most) asked->samples = most;
-    dies->asked = asked;
-    dies->result = result;
-    return fw_study_kind_yield(dies, result);
-}
-
-/* the yield of what is returned, with its intervals, stays as long as the study; *low: its lower end */
-static fw_status confirm_by(sizing *s, const fw_study_sample *sample, int most, double *low) {
-    fw_study *study = s->study, *dies;
-    fw_status status = study->open_dies(study, sample, &dies);
-    if (status == FW_OK) status = estimate_by(dies, most);
-    if (status != FW_OK) {
-        study->close_dies(study, dies, status);
-        return status;
-    }
-    study->close_dies(study, study->dies, FW_OK);
-    study->dies = dies;
-    s->result->yield = dies->result->yield;
-    s->result->nyield = dies->result->nyield;
-    *low = 1;
-    for (int i = 0; i < s->result->nyield; i++)
-        *low = fmin(*low, s->result->yield[i].low);
-    return FW_OK;
-}
-
-/* A device of which hardly a die fails shows that by few of them. These are enough only where they leave a quarter of what
-   may fail: of a device that has just the wanted yield none of 600 fails in one case of 400, so that a second look leaves
-   the level of the interval nearly what it is. Test: test_sizing.py, test_few_dies_are_enough_where_hardly_one_fails */
-static fw_status confirm(sizing *s, const fw_study_sample *sample, double *low) {
-    const double fails = 1 - s->study->asked->yield;
-    FW_TRY(confirm_by(s, sample, (int)fmax(ceil(6 / fails), FW_CHANCE_BUDGET_LEAST), low));
-    if (1 - *low <= few_leave * fails) return FW_OK;
-    return confirm_by(s, sample, INT_MAX, low);
-}
-
-/* the best by first estimates: *b */
-static fw_status rounds(sizing *s, const aim *a, int most, long *first, int *b) {
-    confirmed c = {.at = FW_NONE};
-    for (int k = 0; k < ROUNDS && !c.over; k++)
-        FW_TRY(round_at_yield(s, a, most, first, b, &c));
-    if (c.at != FW_NONE) *b = c.at;
-    return FW_OK;
-}
-
-static fw_status at_yield(sizing *s, int most, long *first) {
-    fw_study_result *r = s->result;
-    const aim a = {.s = s, .goal = &s->goal[0]};
-    const double wanted = s->study->asked->yield;
-    int b = best_of(s, &s->goal[0]);
-    if (b == FW_NONE) return FW_OK;
-    double missed = constraint_of(s->study, &s->kept[b]), low;
-    if (!(missed <= 0)) return fw_study_keep_found(s->study, &s->kept[b], missed, &r->nearest);
-    s->beta = fw_maths_normal_quantile(wanted);
-    s->allowed = 1 - wanted;
-    s->left = (long)USUAL_ROUNDS * most;
-    FW_NEED(s->die = fw_arena_array(s->study->arena, fw_study_die,
-                                    (size_t)(DIES * (s->study->plan->nflow + 1))));
-    for (int k = 0; k < CONFIRMED; k++) {
-        FW_TRY(rounds(s, &a, most, first, &b));
-        FW_TRY(confirm(s, &s->kept[b], &low));
-        missed = constraint_of(s->study, &s->kept[b]);
-        if (low >= wanted && missed <= 0) {
-            FW_NEED(r->found = fw_arena_one(s->study->arena, fw_study_found));
-            r->nfound = 1;
-            return fw_study_keep_found(s->study, &s->kept[b], missed, r->found);
-        }
-        const double more = fmax(farther(1 - low, 1 - wanted), 0) + near_enough;
-        move_dies(s, s->beta + more);
-        s->allowed = fw_maths_normal_cdf(fw_maths_normal_quantile(s->allowed) - more);
-    }
-    return fw_study_keep_found(s->study, &s->kept[b], fmax(missed, still), &r->nearest);
-}
-
 static fw_status two_goals(sizing *s, int most, long *first) {
     const goal *a = &s->goal[0], *b = &s->goal[1];
     int low = best_of(s, b), high = best_of(s, a);
@@ -507,6 +317,17 @@ static long count_lists(const fw_study *study, int *at) {
     return lists;
 }
 
+fw_status fw_study_check_apart(fw_study *study) {
+    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: a study of kind %s chooses each of its samples by the ones before; "
+        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
+        "a study on each "
+        "with a part of the ranges, of which the best is the answer",
+        fw_device_study_kind_text(study->asked->kind));
+}
+
 fw_status fw_study_check_size(fw_study *study) {
     int at;
     count_lists(study, &at);
@@ -519,7 +340,7 @@ fw_status fw_study_check_size(fw_study *study) {
 
 static int searches_of(const fw_study *study, int goals) {
     return goals == 2                ? (2 + LEVELS) * SEARCHES
-           : study->asked->yield > 0 ? SEARCHES + USUAL_ROUNDS
+           : study->asked->yield > 0 ? SEARCHES + FW_STUDY_ROUNDS_USUAL
                                      : SEARCHES;
 }
 
@@ -551,7 +372,8 @@ static fw_status prepare(sizing *s, int *most) {
     s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
     *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
-    size_t room = (size_t)s->first_n + 2 * (size_t)searches + CONFIRMED * ROUNDS;
+    size_t room = (size_t)s->first_n + 2 * (size_t)searches;
+    FW_NEED(s->judged = fw_arena_array(study->arena, const fw_study_sample *, (size_t)budget + 1));
     FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, room));
     for (long i = 0; i < s->first_n; i++)
         FW_TRY(fw_study_sample_new(study->arena, study, &s->kept[i]));
@@ -559,14 +381,25 @@ static fw_status prepare(sizing *s, int *most) {
                                &s->sobol);
 }
 
+/* what was judged so far, and searches from the best of it with the dies that are worst for it; none without a device
+   that is accepted */
+static fw_status at_yield(sizing *s, int most, long *first) {
+    const aim a = {.s = s, .goal = &s->goal[0]};
+    const fw_study_search like = search_of(&a, most, first);
+    FW_TRY(fw_study_at_yield(s->study, &like, s->judged, s->njudged, s->result));
+    return s->result->nfound > 0 || s->result->nearest.text ? FW_OK : finish(s);
+}
+
 static fw_status size(fw_study *study, fw_study_result *result) {
     sizing s = {.study = study, .result = result};
     int most;
-    long first = PART;
+    long first = FW_STUDY_SEARCH_PART;
     FW_TRY(prepare(&s, &most));
     const fw_study_work work = {.n = s.first_n, .fill = fill, .take = take, .context = &s};
     FW_TRY(fw_study_pool_run(study, &work));
     fw_study_sort_samples(s.kept, s.nkept); /* they came in any order */
+    for (int i = 0; i < s.nkept && study->asked->yield > 0; i++)
+        s.judged[s.njudged++] = &s.kept[i];
     for (int g = 0; g < s.ngoal && most > 0; g++) {
         aim *a = fw_arena_one(study->arena, aim);
         FW_NEED(a);

@@ -273,8 +273,8 @@ fw_status fw_study_dies_asked(fw_arena *arena, const fw_study *of, const fw_stud
     asked->kind = FW_STUDY_IS_yield;
     asked->judge = FW_JUDGE_MADE;
     asked->nvary = asked->nrespond = 0;
-    /* thirty that fail; 3000 are the least with which rare failures are not merely counted */
-    asked->samples = (int)lround(fmin(fmax(30 / (1 - asked->yield), 400), 3000));
+    /* thirty that fail; FW_STUDY_DIES_RARE are the least with which rare failures are not merely counted */
+    asked->samples = (int)lround(fmin(fmax(30 / (1 - asked->yield), 400), FW_STUDY_DIES_RARE));
     FW_NEED(asked->uncertain = fw_arena_array(arena, fw_device_uncertain, n));
     bool *met = fw_arena_array(arena, bool, (size_t)of->nvary);
     FW_NEED(met);
@@ -371,6 +371,7 @@ static fw_status worst_of(fw_study_yielding *y, double beta, fw_study_die *die) 
         double there;
         bool turned = true;
         FW_TRY(worst_ends(y, die->u, die->unknown, &there));
+        if (ends == 0) die->intended = there;
         if (ends > 0 && !(there > die->ln)) break;
         die->ln = there;
         for (int k = 0; turned && k < TURNS; k++)

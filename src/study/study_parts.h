@@ -130,8 +130,8 @@ typedef struct fw_study_work {
     fw_status (*fill)(void *context, long k, fw_study_sample *sample, bool *wanted);
     /* in the calling thread, in the order in which they end; NULL: nobody */
     fw_status (*take)(void *context, const fw_study_sample *sample);
-    bool
-        anew; /* what the store has is judged once more: it does not hold all that `take` wants to know */
+    /* what the store has is judged once more: it does not hold all that `take` wants to know */
+    bool anew;
     void *context;
 } fw_study_work;
 /* FW_CANCELLED: what was taken before is whole */
@@ -195,8 +195,8 @@ typedef struct fw_study_search {
     void (*constraint)(const void *context, const fw_study_sample *sample, double *c, bool *untold);
     /* what is looked at besides check, of a sample that was run and is not in the store: sample->used may rise by it;
        NULL: nothing. Called by several threads at once. */
-    fw_status (*besides)(const void *context, fw_study_sample *sample);
-    const void *context;
+    fw_status (*besides)(const void *beside, fw_study_sample *sample);
+    const void *context, *beside;
     /* shares 0..1 of the ranges of the ranged inputs; listed ones keep their texts */
     double *start;
     const fw_study_sample *from; /* texts of listed inputs */
@@ -212,6 +212,8 @@ typedef struct fw_study_search {
     double f, c;           /* c: the largest constraint */
     fw_study_tried *tried; /* (used) in their order */
     int used;
+    bool keeps_all;       /* in: `all` is wanted */
+    fw_study_sample *all; /* (used) */
 } fw_study_search;
 /* begins at a sample: its shares, and its texts of listed inputs */
 fw_status fw_study_search_from(const fw_study *study, const fw_study_sample *from,
@@ -322,8 +324,8 @@ typedef struct fw_study_place { /* a die of the wafer */
     int number;     /* of the grid */
 } fw_study_place;
 
-typedef struct
-    fw_study_scatter { /* of one flow; a point: its quantities, then the settings of the study */
+/* of one flow; a point: its quantities, then the settings of the study */
+typedef struct fw_study_scatter {
     fw_chance_joint joint;
     int variables;
     fw_study_group *group; /* (groups) in the order of the point */
@@ -371,7 +373,7 @@ fw_status fw_study_levels_run(fw_study *study, const fw_study_scatter *scatter, 
 
 /* ---- study_made.c: devices that a flow may make, as a limit state ---- */
 
-enum { FW_STUDY_FLOW_PART = 100000000, FW_STUDY_DIES_USUAL = 4000 };
+enum { FW_STUDY_FLOW_PART = 100000000, FW_STUDY_DIES_USUAL = 4000, FW_STUDY_DIES_RARE = 3000 };
 
 typedef struct fw_study_cached {
     long i; /* number of its sample; -1: free */
@@ -421,13 +423,14 @@ fw_status fw_study_yielding_points(void *context, long first, size_t n, const do
 /* ---- kind_yield.c: the dies of a device that a size looks at ----
    A yield of the same description, its dies around a device that is chosen. */
 
-typedef struct
-    fw_study_die { /* one that a flow may make, where it uses most at a distance from what is intended */
-    int flow;
+/* one that a flow may make, where it uses most at a distance from what is intended */
+typedef struct fw_study_die {
+    int flow, number; /* number: of those that a size has found */
     size_t dimensions, unknowns;
+    double intended;     /* the same as ln, of what is intended */
     double *u, *unknown; /* (dimensions) in standard deviations; (unknowns) what is only assumed */
-    double
-        ln; /* of the largest share of a limit that it uses, its band in it; NaN: it could not be judged */
+    /* of the largest share of a limit that it uses, its band in it; NaN: it could not be judged */
+    double ln;
 } fw_study_die;
 
 /* the yield that a size asks of a device: rows of <uncertain>, those of what is chosen around the sample's values (NULL:
@@ -445,6 +448,13 @@ fw_status fw_study_dies_at(const fw_study *dies, const fw_study *of, const fw_st
 /* The share of dies of a flow that fail with the model's band against them, from few hundred dies around the nearest ones
    that fail, what is only assumed at the ends that are worst for what is intended; no interval. */
 fw_status fw_study_dies_failing(fw_study *dies, int flow, double *share);
+
+/* numbers of samples of a search begin at a multiple; searches at a wanted yield that a budget is for */
+enum { FW_STUDY_SEARCH_PART = 1000000, FW_STUDY_ROUNDS_USUAL = 4 };
+/* study_search.c: the best that has the yield asked for, of what was judged (n) and of what searches `like` this one try */
+fw_status fw_study_at_yield(fw_study *study, const fw_study_search *like,
+                            const fw_study_sample *const *judged, int n,
+                            struct fw_study_result *result);
 
 /* ---- parts of the documents ---- */
 
@@ -583,6 +593,7 @@ typedef struct fw_study_result {
     const char *how;            /* a sentence: what was tried */
     fw_study_flow_yield *yield; /* (nyield) a flow each */
     int nyield;
+    long may_be, estimated; /* size at a yield: accepted; those whose yield was estimated in full */
 } fw_study_result;
 
 #endif

@@ -243,6 +243,12 @@ static void say_size(fw_text *out, const fw_study *study) {
         if (study->asked->yield > 0) {
             fw_text_add(out, " and has a yield of ");
             percent(out, study->asked->yield);
+            if (r->may_be > 0)
+                fw_text_printf(out, " (that of %ld of %ld accepted devices was estimated%s)",
+                               r->estimated, r->may_be,
+                               r->estimated < r->may_be
+                                   ? ", the last of them those that are farthest from their limits"
+                                   : "");
         }
         if (r->nearest.text) {
             fw_text_add(out, "; the nearest:\n");

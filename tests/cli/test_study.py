@@ -611,6 +611,20 @@ class Study(unittest.TestCase):
         self.assertLess(found["devices_of_one_estimate"], 150)  # 400 of a device that is near what is wanted
         self.assertGreaterEqual(found["yield_range"][0], 0.925)
 
+    def test_a_device_that_was_judged_and_has_the_yield_is_found(self):
+        """five devices and no search: the best of them is too near its limit, the others are not"""
+        rows = ('<vary what="push" from="0.11 mN" to="0.19 mN"/><uncertain what="push" sd="0.01 mN"/>'
+                '<respond name="turned" value="hinges[A].peak_angle_rad" goal="minimise"/>')
+        text = study("s", "size", rows, self.write(ONE_LEAF, "one.xml"), samples=6, **{"as": "drawn", "yield": 0.9})
+        result = self.run_study(self.write(text), "judged")
+        self.assertEqual(result["found"][0]["verdict"], "accept")
+        self.assertGreaterEqual(result["yields"][0]["yield_range"][0], 0.9)
+        # four of the five have the yield; the answer is the best of these
+        judged = sorted((float(r["turned"]), 1e3 * float(r["push"])) for r in self.rows("judged"))
+        self.assertEqual(len(judged), 5)
+        self.assertGreater(judged[0][1] + 0.0128, load_at_the_limit())
+        self.assertAlmostEqual(float(result["found"][0]["set"][0]["value"].split()[0]), judged[1][1], places=6)
+
     @unittest.skipUnless(ALL, "two thousand dies")
     def test_a_size_at_a_wanted_yield_keeps_as_many_deviations_from_the_limit(self):
         """the largest load is that of the limit, less the deviations that belong to the share that may fail"""
