@@ -11,6 +11,7 @@
    At a wanted yield all of these are only what further searches begin with (study_search.c).
    Test: tests/cli/test_study.py, tests/cli/test_sizing.py */
 #include "chance/random.h"
+#include "plan/stages.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <string.h>
@@ -290,6 +291,124 @@ static fw_status finish(sizing *s) {
     return fw_study_keep_found(s->study, &s->kept[best], c, r->found);
 }
 
+/* ---- what is in the way ---- */
+
+enum { LIMITS_MOST = 8 /* sentences */ };
+static const double at_limit =
+    0.97; /* of a limit: where what uses so much of it is, for a search */
+
+static fw_status tell(fw_study *study, fw_study_found *f, const fw_text *text) {
+    FW_TRY(fw_text_end(text));
+    for (int k = 0; k < f->nlimit; k++)
+        if (strcmp(f->limit[k], text->data) == 0) return FW_OK;
+    if (f->nlimit == LIMITS_MOST) return FW_OK;
+    FW_NEED(f->limit[f->nlimit++] = fw_arena_strdup(study->arena, text->data));
+    return FW_OK;
+}
+
+static fw_status tell_reasons(fw_study *study, const fw_plan *plan, fw_study_found *f) {
+    const fw_verdict *v = &plan->verdict;
+    for (int i = 0; i < v->nvariant; i++)
+        for (int k = 0; k < v->variant[i].nreason; k++) {
+            const char *words;
+            fw_text text = fw_text_new(study->arena);
+            if (v->variant[i].reason[k].decision != v->decision) continue;
+            FW_TRY(fw_verdict_reason_words(plan->arena, v, i, k, &words));
+            if (!words) continue;
+            fw_text_add(&text, words);
+            FW_TRY(tell(study, f, &text));
+        }
+    if (!plan->layout || plan->layout->nfault == 0) return FW_OK;
+    fw_text text = fw_text_new(study->arena);
+    fw_text_printf(&text, "it cannot be made: %s [FW-D%03d]", plan->layout->fault[0].message,
+                   plan->layout->fault[0].number);
+    return tell(study, f, &text);
+}
+
+/* the hinge or the requirement that governs, where it is not accepted or uses nearly all of its limit */
+static fw_status tell_governing(fw_study *study, const fw_plan *plan, int kinds,
+                                fw_study_found *f) {
+    fw_verdict_check c;
+    bool found;
+    fw_text text = fw_text_new(study->arena);
+    FW_TRY(fw_verdict_governing(plan->arena, &plan->verdict, kinds, true, &c, &found));
+    if (!found || (c.decision == FW_ACCEPT && !(fmax(c.used, c.high) > at_limit))) return FW_OK;
+    if (c.requirement && c.decision != FW_ACCEPT) return FW_OK; /* it is among the reasons */
+    if (c.requirement)
+        fw_text_add(&text, c.of);
+    else
+        fw_text_printf(&text, "%s uses %.1f %% of %s (%.1f to %.1f %%)", c.what, 100 * c.used, c.of,
+                       100 * c.low, 100 * c.high);
+    if (c.scene) fw_text_printf(&text, " in %s", c.scene);
+    if (c.corner && strcmp(c.corner, "nominal") != 0) fw_text_printf(&text, ", with %s", c.corner);
+    return tell(study, f, &text);
+}
+
+static void value_of(fw_text *out, double value, const char *unit) {
+    fw_text_number(out, value, 5);
+    if (unit && *unit && strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
+}
+
+/* a limit of a response that it misses; where all hold, one that it is at and its goal does not lead away from */
+static fw_status tell_responses(fw_study *study, fw_study_found *f) {
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_device_respond *q = study->response[k].asked;
+        const bool missed = f->excess > 0;
+        const double value = f->response[k], slack = missed ? 0 : (1 - at_limit) * fabs(value);
+        /* NaN: no limit */
+        const bool low = value < q->min + slack && (missed || q->goal != FW_GOAL_MAXIMISE),
+                   high = value > q->max - slack && (missed || q->goal != FW_GOAL_MINIMISE);
+        fw_text text = fw_text_new(study->arena);
+        if (!low && !high) continue;
+        fw_text_printf(&text, "%s is ", q->name);
+        value_of(&text, value, study->response[k].unit);
+        fw_text_add(&text, low ? ", and at least " : ", and at most ");
+        value_of(&text, low ? q->min : q->max, study->response[k].unit);
+        fw_text_add(&text, " is asked for");
+        FW_TRY(tell(study, f, &text));
+    }
+    return FW_OK;
+}
+
+static fw_status tell_ranges(fw_study *study, fw_study_found *f) {
+    for (int k = 0; k < study->nvary; k++) {
+        const fw_study_input *in = &study->input[k];
+        const double share = in->ntext > 0 ? 0.5 : fw_study_input_share(in, f->value[k]);
+        fw_text text = fw_text_new(study->arena);
+        if (share > 1e-4 && share < 1 - 1e-4) continue;
+        fw_text_printf(&text, "%s is at the end of its range, %s", in->what, f->text[k]);
+        FW_TRY(tell(study, f, &text));
+    }
+    return FW_OK;
+}
+
+/* It is judged once more: of samples their numbers are kept, and no words. What cannot be judged says nothing here. */
+static fw_status tell_limits(fw_study *study, fw_study_found *f) {
+    int status;
+    fw_design *design = fw_study_design(study, study->options.cancel, f->text, &status);
+    FW_NEED(design);
+    FW_NEED(f->limit = fw_arena_array(study->arena, const char *, LIMITS_MOST));
+    if (status == FW_STATUS_OK) status = fw_design_judge(design);
+    const fw_plan *plan = fw_plan_design_plan(design);
+    fw_status told = FW_OK;
+    if (status == FW_STATUS_OK && f->decision != FW_ACCEPT) told = tell_reasons(study, plan, f);
+    if (status == FW_STATUS_OK && told == FW_OK)
+        told = tell_governing(study, plan, FW_CHECK_HINGES, f);
+    if (status == FW_STATUS_OK && told == FW_OK)
+        told = tell_governing(study, plan, FW_CHECK_REQUIREMENTS, f);
+    fw_design_free(design);
+    if (fw_plan_is_final((fw_status)status)) return (fw_status)status;
+    FW_TRY(told);
+    FW_TRY(tell_responses(study, f));
+    return f->decision == FW_ACCEPT ? tell_ranges(study, f) : FW_OK;
+}
+
+static fw_status tell_what_limits(sizing *s) {
+    fw_study_result *r = s->result;
+    if (r->nearest.text) return tell_limits(s->study, &r->nearest);
+    return r->nfound == 1 && s->ngoal == 1 ? tell_limits(s->study, r->found) : FW_OK;
+}
+
 static fw_status two_goals(sizing *s, int most, long *first) {
     const goal *a = &s->goal[0], *b = &s->goal[1];
     int low = best_of(s, b), high = best_of(s, a);
@@ -417,7 +536,8 @@ static fw_status size(fw_study *study, fw_study_result *result) {
             study->asked->yield > 0
                 ? ", the last ones with the dies that are worst for the best device"
                 : ""));
-    return study->asked->yield > 0 ? at_yield(&s, most, &first) : finish(&s);
+    FW_TRY(study->asked->yield > 0 ? at_yield(&s, most, &first) : finish(&s));
+    return tell_what_limits(&s);
 }
 
 /* At a wanted yield nobody knows how many dies will be asked for; else no more is judged than the budget */

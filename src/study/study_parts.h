@@ -56,7 +56,7 @@ int fw_study_input_steps(const fw_study_input *input);
 fw_status fw_study_input_at(const fw_study_input *input, double share, int digits,
                             char text[FW_STUDY_TEXT], double *value);
 
-/* the ends of an input, or what is listed: is there such a parameter or attribute, and may it be so? FW_INPUT: FW-D493 */
+/* its ends, or what is listed: is there such a parameter or attribute, and may it be so? FW_INPUT: FW-D493 */
 fw_status fw_study_input_check(fw_study *study, int k);
 
 /* the other way: 0 at from, 1 at to, not beyond */
@@ -78,8 +78,7 @@ fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel
 /* a design with the study's options, sets and these settings, read; *status tells. NULL: no memory */
 fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
                            const char (*text)[FW_STUDY_TEXT], int *status);
-/* values (nresponse) of a design whose stages have run, each document read once; what is not found is NaN,
-   and said in diags (NULL: nobody is told). The library's status */
+/* values (nresponse) of a design whose stages have run; what is not found is NaN, and said in diags (NULL: nobody is told) */
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
                             fw_diags *diags);
 /* what a design that was read says: decision and responses, or why not; the library's status */
@@ -155,8 +154,7 @@ int fw_study_jobs(const fw_study *study);
 
 /* ---- study_search.c: optimisers over the inputs ---- */
 
-struct fw_study_found;
-/* a device that was found, with all that is told of it */
+struct fw_study_found; /* a device that was found, with all that is told of it */
 fw_status fw_study_keep_found(fw_study *study, const fw_study_sample *sample, double excess,
                               struct fw_study_found *found);
 
@@ -538,6 +536,9 @@ typedef struct fw_study_found {  /* size: a design */
     double excess;               /* <= 0: every limit holds */
     int decision;
     long i; /* its sample */
+    const char *
+        *limit; /* (nlimit) sentences: what keeps it from being accepted, or from being better */
+    int nlimit;
 } fw_study_found;
 
 typedef struct fw_study_yield_end { /* the yield at values of what is only assumed */

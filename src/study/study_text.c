@@ -234,6 +234,9 @@ static void say_found(fw_text *out, const fw_study *study, const fw_study_found 
     }
     fw_text_add(out, "\n   ");
     settings(out, study, f->text);
+    for (int k = 0; k < f->nlimit; k++)
+        fw_text_printf(out, "    %s: %s\n", f->excess > 0 ? "in the way" : "it ends where",
+                       f->limit[k]);
 }
 
 static void say_size(fw_text *out, const fw_study *study) {

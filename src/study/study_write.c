@@ -159,6 +159,10 @@ static void found(fw_json *j, const char *key, const fw_study *study, const fw_s
     fw_json_end(j);
     fw_json_real(j, "excess", f->excess);
     fw_json_text(j, "verdict", fw_study_state_text(true, f->decision));
+    fw_json_list(j, "limits");
+    for (int k = 0; k < f->nlimit; k++)
+        fw_json_text(j, NULL, f->limit[k]);
+    fw_json_end(j);
     fw_json_end(j);
 }
 

@@ -589,6 +589,16 @@ class Study(unittest.TestCase):
         done = self.run_study(self.write(study("s", "size", none).replace("<study", '<study as="drawn" samples="20"')),
                               "none", status=1)
         self.assertIn("no device was found", done.stdout)
+        self.assertRegex(done.stdout, r"in the way: U is 0\.\d+, and at most 0\.1 is asked for")
+        nearest = json.loads((self.place / "none/study.json").read_text())["nearest"]
+        self.assertEqual([t.split(" ")[0] for t in nearest["limits"]], ["U", "arc"])
+
+    def test_of_the_nearest_device_is_said_what_check_refuses(self):
+        rows = ('<vary what="push" from="0.2 mN" to="0.3 mN"/>'
+                '<respond name="turned" value="hinges[A].peak_angle_rad" goal="minimise"/>')
+        text = study("s", "size", rows, self.write(ONE_LEAF, "one.xml"), samples=8, **{"as": "drawn"})
+        done = self.run_study(self.write(text), "refused", status=1)
+        self.assertRegex(done.stdout, r"in the way: hinge A uses 1\d\d\.\d % of its ")
 
     def test_of_few_devices_the_end_of_a_range_is_one(self):
         path = self.write(ONE_LEAF, "one.xml")
@@ -596,6 +606,7 @@ class Study(unittest.TestCase):
             rows = f'<vary what="push" from="0.05 mN" to="0.15 mN"/><respond name="turned" value="hinges[A].peak_angle_rad" goal="{goal}"/>'
             found = self.run_study(self.write(study("s", "size", rows, path, samples=10, **{"as": "drawn"})), goal)["found"]
             self.assertEqual(found[0]["set"], [{"path": "push", "value": f"{end} mN"}])
+            self.assertEqual(found[0]["limits"], [f"push is at the end of its range, {end} mN"])
 
     def test_few_dies_are_enough_where_hardly_one_fails(self):
         """and the interval that is stated is that of these few"""
