@@ -144,6 +144,23 @@ class Scenes(unittest.TestCase):
             self.assertEqual(done.returncode, 3)
             self.assertIn("FW-D290", done.stderr)
 
+    def test_hinges_that_bend_and_do_not_turn(self):
+        """a stage that two leaves guide goes to the side: their ends stay parallel, and what angles there are is a 1e-5 of what they use"""
+        leaf = ('<revolute id="{0}" a="ground" a-x="{1} mm" a-y="-0.75 mm" b="stage" b-x="{1} mm" b-y="-0.75 mm" '
+                'hinge="leaf" axis="0 deg"/>')
+        text = ('<device xmlns="urn:flexwright:device:1" name="guided"><material ref="silicon-100" thickness="50 um"/>'
+                '<limits safety-factor="2"/><flexure id="leaf" kind="leaf" length="500 um" width="6 um"/><mechanism>'
+                '<body id="stage" x="0 mm" y="0 mm" plate-width="1.5 mm" plate-height="0.14 mm" plate-y="-0.2 mm" width="110 um"/>'
+                + leaf.format("A", -0.7) + leaf.format("B", 0.7) + '</mechanism><scene name="draw" duration="2 ms">'
+                '<force on="stage" y="-0.2 mm" fx="0.3 mN" law="expression" factor="0.5*(1-cos(pi*t/(2 ms)))"/></scene></device>')
+        with tempfile.TemporaryDirectory() as room:
+            file = pathlib.Path(room) / "d.xml"
+            file.write_text(text)
+            done = run("tradeoff", file, "--budget", "1", "--no-time")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("no joint turns by more than the accuracy wanted of what hinges use", done.stderr)
+        self.assertIn("FW-D290", done.stderr)
+
     def test_usage(self):
         for extra in (("--budget", "0"), ("--budget", "x"), ("--settings", ""), ("--settings", "revolute;nope/dop853/1e-7")):
             done = run("tradeoff", SIX, *extra)
