@@ -89,12 +89,34 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
     return fw_text_end(out);
 }
 
+/* Dies that a size at a wanted yield usually asks: three first estimates, and of one device a yield by few and by all, at
+   every combination of the ends of what is only assumed; of each device of its own searches two. Nobody knows how many
+   devices have to be asked until one has the yield. */
+static fw_status usual_dies(const fw_study *study, long *n) {
+    fw_study *dies = study->dies;
+    *n = 0;
+    if (!(study->asked->yield > 0)) return FW_OK;
+    const long all = dies->asked->samples, least = FW_CHANCE_BUDGET_LEAST;
+    const long few = (long)fmax(ceil(6 / (1 - study->asked->yield)), (double)least);
+    *n = fw_study_count(study);
+    for (int flow = 0; flow < dies->plan->nflow; flow++) {
+        fw_study_yielding y;
+        FW_TRY(fw_study_yielding_begin(dies, flow, 0, &y));
+        *n += 3 * (all / 5 > least ? all / 5 : least) + ((few + all) << y.scatter.joint.unknowns);
+        fw_arena_free(y.chance);
+    }
+    return FW_OK;
+}
+
 fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
-    long n = fw_study_count(study);
+    long n = fw_study_count(study), dies;
     int jobs = fw_study_jobs(study);
     FW_TRY(fw_study_asked_text(study, out));
-    fw_text_printf(out, "%s%ld devices in %d threads",
-                   study->asked->kind == FW_STUDY_IS_sweep ? "" : "at most ", n, jobs);
+    FW_TRY(usual_dies(study, &dies));
+    fw_text_printf(out, "%s%ld devices%s in %d threads",
+                   study->asked->kind == FW_STUDY_IS_sweep ? "" : "at most ", n,
+                   dies > 0 ? fw_arena_printf(study->arena, " and some %ld dies", dies) : "", jobs);
+    n += dies;
     if (study->asked->fitted > 0) {
         fw_text_add(out, ", of which response surfaces tell those that they can to within ");
         percent(out, study->asked->fitted);
@@ -105,7 +127,9 @@ fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
         seconds(out, study->seconds_each * (double)n / jobs);
         fw_text_add(out, " (one took ");
         seconds(out, study->seconds_each);
-        fw_text_add(out, ")");
+        fw_text_add(out, dies > 0 ? "; several times as long where the first devices do not have "
+                                    "the yield)"
+                                  : ")");
     }
     fw_text_add(out, "\n");
     return fw_text_end(out);

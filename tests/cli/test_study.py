@@ -422,6 +422,17 @@ class Study(unittest.TestCase):
         self.assertIn("8 devices", done.stdout)
         self.assertEqual([p.name for p in self.place.iterdir()], ["study.xml"])
 
+    def test_a_plan_of_a_size_at_a_wanted_yield_counts_dies(self):
+        """most of its time is theirs"""
+        rows = ('<vary what="push" from="0.11 mN" to="0.19 mN"/><uncertain what="push" sd="0.01 mN"/>'
+                '<respond name="turned" value="hinges[A].peak_angle_rad" goal="minimise"/>')
+        text = study("s", "size", rows, self.write(ONE_LEAF, "one.xml"), samples=6, **{"as": "drawn", "yield": 0.9})
+        done = run("study", self.write(text), "--plan")
+        dies = re.search(r"at most 6 devices and some (\d+) dies in ", done.stdout)
+        self.assertTrue(dies, done.stdout)
+        self.assertGreater(int(dies[1]), 700)  # three first estimates, and one whole
+        self.assertLess(int(dies[1]), 3000)
+
     def test_a_study_of_the_device_file_and_the_choice_of_one(self):
         text = GALLERY.read_text().replace("</device>", '<study name="a" kind="sweep" as="drawn">' + SWEEP +
                                            '</study><study name="b" kind="worst-case" as="drawn">' +
