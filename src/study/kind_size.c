@@ -506,7 +506,10 @@ static fw_status at_yield(sizing *s, int most, long *first) {
     const aim a = {.s = s, .goal = &s->goal[0]};
     const fw_study_search like = search_of(&a, most, first);
     FW_TRY(fw_study_at_yield(s->study, &like, s->judged, s->njudged, s->result));
-    return s->result->nfound > 0 || s->result->nearest.text ? FW_OK : finish(s);
+    const int best = best_of(s, &s->goal[0]);
+    if (s->result->nfound > 0 || s->result->nearest.text || best == FW_NONE) return FW_OK;
+    const double missed = constraint_of(s->study, &s->kept[best]);
+    return fw_study_keep_found(s->study, &s->kept[best], fmax(missed, 1e-6), &s->result->nearest);
 }
 
 static fw_status size(fw_study *study, fw_study_result *result) {
