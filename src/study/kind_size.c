@@ -140,20 +140,6 @@ static fw_status take(void *context, const fw_study_sample *sample) {
 
 /* ---- what is found ---- */
 
-fw_status fw_study_keep_found(fw_study *study, const fw_study_sample *sample, double excess,
-                              fw_study_found *found) {
-    fw_study_sample own;
-    FW_TRY(fw_study_sample_new(study->arena, study, &own));
-    fw_study_sample_copy(study, sample, &own);
-    *found = (fw_study_found){.text = own.text,
-                              .value = own.value,
-                              .response = own.response,
-                              .excess = excess,
-                              .decision = own.decision,
-                              .i = own.i};
-    return FW_OK;
-}
-
 /* the best for an aim; -1: nothing was run */
 static int best_for(const sizing *s, const aim *a) {
     int best = FW_NONE;

@@ -210,6 +210,20 @@ fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_s
     return FW_OK;
 }
 
+fw_status fw_study_keep_found(fw_study *study, const fw_study_sample *sample, double excess,
+                              fw_study_found *found) {
+    fw_study_sample own;
+    FW_TRY(fw_study_sample_new(study->arena, study, &own));
+    fw_study_sample_copy(study, sample, &own);
+    *found = (fw_study_found){.text = own.text,
+                              .value = own.value,
+                              .response = own.response,
+                              .excess = excess,
+                              .decision = own.decision,
+                              .i = own.i};
+    return FW_OK;
+}
+
 const char *fw_study_state_text(bool run, int decision) {
     return !run            ? "failed"
            : decision == 0 ? "accept"
