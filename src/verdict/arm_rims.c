@@ -343,13 +343,14 @@ static double material_of_cut(const fw_verdict_pierced *body, fw_geometry_vec2 a
 }
 
 /* of what lies from `from` to `to` along `along`, and all beyond: bend[0] is the integral of M/w, bend[1] that of M (to - s)/w,
-   bend[2] that of 12 M (to - s)/w^3 + 3.2 A/w; beyond: where the outline ends */
+   bend[2] that of 12 M (to - s)/w^3 + 3.2 A/w, bend[3] the largest 6 M/w^2 in the plane, w^3 the sum of its pieces' cubes;
+   beyond: where the outline ends */
 static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, double from,
-                        double to, double beyond, double bend[3]) {
+                        double to, double beyond, double bend[4]) {
     const double least = 1e-3 * (beyond - from), step = (beyond - from) / STATIONS;
     const double least_cubes = pow(least, 3);
     double area = 0, moment = 0;
-    bend[0] = bend[1] = bend[2] = 0;
+    bend[0] = bend[1] = bend[2] = bend[3] = 0;
     for (int i = STATIONS - 1; i >= 0; i--) {
         const double s = from + (i + 0.5) * step;
         double cubes;
@@ -362,6 +363,7 @@ static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, 
         bend[2] +=
             (12 * here * (to - s) / fmax(cubes, least_cubes) + 3.2 * cut / fmax(wide, least)) *
             step;
+        bend[3] = fmax(bend[3], 6 * here / pow(fmax(cubes, least_cubes), 2.0 / 3));
         bend[0] += here / fmax(wide, least) * step;
         bend[1] += here * (to - s) / fmax(wide, least) * step;
     }
@@ -378,7 +380,7 @@ static double farthest_along(const fw_verdict_pierced *body, fw_geometry_vec2 al
 static double turned_at(const fw_verdict_pierced *body, fw_geometry_vec2 root,
                         fw_geometry_vec2 middle) {
     const fw_geometry_vec2 off = vec_sub(root, middle);
-    double lever = 0, bend[3];
+    double lever = 0, bend[4];
     if (!(vec_length(off) > 0)) return 0;
     const fw_geometry_vec2 along = vec_unit(off);
     for (int i = 0; i < body->n; i++)
@@ -390,12 +392,12 @@ static double turned_at(const fw_verdict_pierced *body, fw_geometry_vec2 root,
 
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
                               int body, const fw_verdict_line *line, int nline,
-                              double m_per_m_s2[2]) {
+                              fw_verdict_hung *hung) {
     fw_verdict_pierced outline = {.line = line, .n = nline};
     fw_geometry_vec2 *held;
     int nheld = 1;
-    double most = 0, plane = 0;
-    m_per_m_s2[0] = m_per_m_s2[1] = 0;
+    double most = 0, plane = 0, strained = 0;
+    *hung = (fw_verdict_hung){0};
     FW_NEED(held = fw_arena_array(arena, fw_geometry_vec2, 2 * (size_t)m->nhinge + 1));
     FW_NEED(outline.room = fw_arena_array(arena, double, (size_t)outline.n + 1));
     FW_TRY(fw_verdict_pierced_boxes(arena, &outline));
@@ -411,19 +413,22 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
         const double angle = i * FW_TURN / WAYS_OUT,
                      to = farthest_along(&outline, (fw_geometry_vec2){cos(angle), sin(angle)});
         const fw_geometry_vec2 along = {cos(angle), sin(angle)};
-        double from = -HUGE_VAL, bend[3];
+        double from = -HUGE_VAL, bend[4];
         for (int k = 0; k < nheld; k++)
             from = fmax(from, vec_dot(held[k], along));
         if (!(to - from > m->variant->thickness_m)) continue; /* thick: it does not bend */
         bent_beyond(&outline, along, from, to, to, bend);
         most = fmax(most, between_ways * bend[1]);
         plane = fmax(plane, between_in_plane * bend[2]);
+        strained = fmax(strained, between_ways * bend[3]);
     }
     if (nheld == 2) most += turned_at(&outline, held[1], held[0]);
     const double area = m->shape[body].area_m2, h = m->variant->thickness_m;
     const double rigid = m->variant->material.youngs.value * h * h * h;
     if (!(area > 0) || !(rigid > 0)) return FW_OK;
-    m_per_m_s2[0] = 12 * m->body[body].mass_kg / area * most / rigid;
-    m_per_m_s2[1] = m->body[body].mass_kg / area * plane / (rigid / (h * h));
+    const double kg_per_m2 = m->body[body].mass_kg / area;
+    hung->across_s2 = 12 * kg_per_m2 * most / rigid;
+    hung->in_plane_s2 = kg_per_m2 * plane / (rigid / (h * h));
+    hung->Pa_per_m_s2 = kg_per_m2 / h * strained;
     return FW_OK;
 }

@@ -27,7 +27,7 @@ double fw_verdict_load_N(const fw_verdict_load_end *end, int n, int at, const do
      what it holds up goes farther by at most c k of its way, and by at most U_c/U_h, U_c = F^2 c/2 (Castigliano)
 
    which is what counts beside what bodies give between their hinges. In: forces of the rigid motion, without damping.
-   Range: to first order. Cost: none where c k < 1/500. Test: test_effects.py -k slender */
+   Range: to first order. Cost: none where c k < 1/500. Test: test_effects.py SlenderArms */
 
 enum { PORTS_SEEN = 16 };
 static const double hardly_gives = 0.002; /* c k */
@@ -190,6 +190,56 @@ bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, d
     return left < 1;
 }
 
+/* ---- and in series with electrodes ----
+   Pull-in comes where the field takes the stiffness k that holds its rotor; where a place of the rotor's body gives c that is
+   k/(1 + c k), and k is what the field takes there: the largest eigenvalue of -df/dp at the pull-in voltage and pose. Test:
+   test_effects.py SlenderArms */
+
+static double field_takes(const fw_effects_force_element *e, const fw_statics_pull_in *p,
+                          double duration_s) {
+    enum { TIMES = 64, ROTOR = 1 };
+    double at[6], w[6], stiff[36], damp[36], most = 0;
+    if (!e->class_->electrodes || e->ports != 2 || e->switches > 0) return 0;
+    fw_effects_element_place_ports(e, p->q, NULL, at, w);
+    for (int i = 0; i <= TIMES; i++) { /* wherever its law is largest */
+        const double t_s = duration_s * i / TIMES;
+        const fw_effects_port_state seen = {.t_s = t_s,
+                                            .piece_s = t_s,
+                                            .load = p->margin * p->margin,
+                                            .p = at,
+                                            .w = w,
+                                            .still = true};
+        e->class_->tangent(e, &seen, stiff, damp);
+        const double *row = stiff + 3 * ROTOR * 6 + 3 * ROTOR;
+        const double a = -row[0], b = -0.5 * (row[1] + row[6]), c = -row[7];
+        most = fmax(most, 0.5 * (a + c) + hypot(0.5 * (a - c), b));
+    }
+    return most;
+}
+
+fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                   const fw_statics_pull_in *p, double *gives) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *motion = v->motion[scene];
+    fw_verdict_load_end *end;
+    int n;
+    *gives = 0;
+    if (!v->arm || v->straight || !p->q || !motion || !motion->loads) return FW_OK;
+    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    for (int k = 0; k < n; k++) {
+        const double *g = v->arm[2 * m->nhinge + k].give;
+        if (end[k].scene != scene || !end[k].id || !v->arm[2 * m->nhinge + k].known) continue;
+        const double goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        for (int i = 0; i < motion->loads->nelement; i++)
+            if (motion->loads->element[i].id &&
+                strcmp(motion->loads->element[i].id, end[k].id) == 0)
+                *gives +=
+                    goes / (m->variant->material.youngs.value * m->variant->thickness_m) *
+                    field_takes(&motion->loads->element[i], p, m->device->scene[scene].duration_s);
+    }
+    return FW_OK;
+}
+
 /* ---- what hangs over bends in the plane ----
    Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
    displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
@@ -241,7 +291,7 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
         shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
                   fw_quantity_law_largest(s->base[i].law, s->duration_s);
     for (int i = 0; i < m->nbody; i++)
-        to[i] = shaken > 0 ? v->out_of_plane->hangs_in[i] * shaken : 0;
+        to[i] = shaken > 0 ? v->out_of_plane->hung[i].in_plane_s2 * shaken : 0;
     FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
     FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
     FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
@@ -262,4 +312,130 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
     for (int i = 0; i < m->nbody; i++)
         to[i] += most[i];
     return FW_OK;
+}
+
+/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
+
+static fw_status leave_open(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
+                            int number, const char *what, int body, double by, const char *unit) {
+    char text[32];
+    FW_NEED(what = fw_arena_printf(
+                arena,
+                "%s, and %s%s, which is rigid there, may bend in the plane by up to %s %s where "
+                "it reaches beyond its hinges: make it wider or shorter",
+                what, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
+                fw_number_text(text, sizeof text, by, 3), unit));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
+                                                  .not_by_width = true,
+                                                  .text = what};
+    return FW_OK;
+}
+
+static fw_status opens(fw_arena *arena, int scene, double by, int body,
+                       fw_verdict_variant_verdict *v) {
+    const char *name = v->mechanism->device->scene[scene].name, *what;
+    for (int k = 0; k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
+        if (c->low_m - by > c->required_m) continue;
+        c->decision = FW_INCONCLUSIVE;
+        what = c->required_m > 0 ? "what is asked for between parts is only just kept"
+                                 : "parts only just do not meet";
+        FW_TRY(leave_open(arena, v, name, 638, what, body, 1e6 * by, "um"));
+    }
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        const bool moves = fw_words_hold("displacement gap distance opening", " ", r->kind);
+        if (r->scene_index != scene || r->decision != FW_ACCEPT || !moves) continue;
+        if (!(r->low - by < r->min) && !(r->high + by > r->max)) continue;
+        r->decision = FW_INCONCLUSIVE;
+        FW_NEED(what = fw_verdict_requirement_text(arena, r));
+        FW_TRY(leave_open(arena, v, name, 639, what, body, 1e6 * by, "um"));
+    }
+    return FW_OK;
+}
+
+/* 1/omega^2 of the rigid bodies and of what hangs over add up at most (Dunkerley) */
+static fw_status slower(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_verdict_hung *hung = v->out_of_plane->hung;
+    const char *what;
+    int body = 0;
+    for (int i = 1; i < v->mechanism->nbody; i++)
+        if (hung[i].in_plane_s2 > hung[body].in_plane_s2) body = i;
+    for (int k = 0; k < v->nrequirement && v->mechanism->nbody > 0; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_ACCEPT) continue;
+        const double low = r->low / sqrt(1 + hung[body].in_plane_s2 * pow(FW_TURN * r->low, 2));
+        if (!(low < r->min)) continue;
+        r->decision = FW_INCONCLUSIVE;
+        FW_NEED(what = fw_verdict_requirement_text(arena, r));
+        FW_TRY(leave_open(arena, v, r->scene, 640, what, body, 100 * (1 - low / r->low), "%"));
+    }
+    return FW_OK;
+}
+
+/* Where a mode swings that what hangs over may lower, its own ways are left (resonance.c). Here is what it bears as it is
+   shaken itself: its own mode lies between these times 1/sqrt(droop per acceleration), from a load at its end to one all along. */
+static double shaken_by(const fw_device_scene *s, const fw_verdict_hung *hung) {
+    const double lowest = 0.95, highest = 1.4, root = sqrt(hung->in_plane_s2);
+    double most = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
+    for (int i = 0; i < s->nbase && root > 0; i++) {
+        const double size = hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2);
+        if (size > 0)
+            most += size * fw_quantity_law_answer(s->base[i].law, s->duration_s, lowest / root,
+                                                  highest / root);
+    }
+    return most;
+}
+
+static fw_status judge_shaken(fw_arena *arena, fw_verdict_variant_verdict *v, int scene) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double corners = 3;
+    const fw_flexure_limit *limit =
+        m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
+    double worst = 1;
+    int body = FW_NONE;
+    for (int i = 0; limit && v->motion[scene] && i < m->nbody; i++) {
+        const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
+        const double share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
+                             (limit->allowable_Pa / m->device->safety_factor);
+        if (share > worst) worst = share, body = i;
+    }
+    if (body == FW_NONE) return FW_OK;
+    char high[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s%s %s%s is not known to bear its own weight as it is shaken, where it reaches beyond "
+        "its hinges and "
+        "its middle: at most %s %% of what is allowed, corners counted three times; make it wider "
+        "or shorter there",
+        FW_NAMED("scene", s->name), FW_NAMED("body", fw_text_name(m->body[body].id)),
+        isfinite(worst) ? fw_number_text(high, sizeof high, 100 * worst, 3) : "any number of");
+    FW_NEED(text);
+    return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
+}
+
+fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    double *to = fw_arena_array(arena, double, (size_t)m->nbody);
+    FW_NEED(to);
+    if (!v->out_of_plane || !v->out_of_plane->hung) return FW_OK;
+    for (int i = 0; i < m->device->nscene; i++) {
+        FW_TRY(judge_shaken(arena, v, i));
+        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, to));
+        int body = 0;
+        double by = 0, other = 0;
+        for (int b = 0; b < m->nbody; b++)
+            if (to[b] > by)
+                other = by, by = to[b], body = b;
+            else
+                other = fmax(other, to[b]);
+        if (by + other > 0) FW_TRY(opens(arena, i, by + other, body, v));
+    }
+    return slower(arena, v);
 }

@@ -120,11 +120,14 @@ void fw_verdict_arm_cut_at_edge(const fw_verdict_pierced *body, fw_verdict_arm *
    above: of torsion 1/J <= 3/0.42 (1/(w h^3) + 1/(h w^3)) */
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c);
-/* how far a body, of these lines, bends across the plane, and in it, by its own weight beyond its hinges and its middle, m
-   per m/s2 (arm_rims.c) */
+/* arm_rims.c: what a body, of these lines, does beyond its hinges and its middle under its own weight, per acceleration: it
+   bends across the plane and in it, m per m/s2, and is strained in the plane, as a bar without corners */
+typedef struct fw_verdict_hung {
+    double across_s2, in_plane_s2, Pa_per_m_s2;
+} fw_verdict_hung;
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
                               const fw_layout *layout, int body, const fw_verdict_line *line,
-                              int nline, double m_per_m_s2[2]);
+                              int nline, fw_verdict_hung *hung);
 /* plates on flexures with what bodies may give at most (verdict_out_of_plane.c) */
 struct fw_mechanism_plates;
 fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,

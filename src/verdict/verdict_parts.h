@@ -110,11 +110,14 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
                                                   const fw_device_probe *probe,
                                                   const fw_statics_modes *modes, int *in_plane);
 
-/* ---- verdict_stiction.c: what hangs over bends in the plane ---- */
+/* ---- body_loads.c: what bodies give beside their hinges, and what hangs over ---- */
 
 /* after requirements and required boxes of a verdict whose values count: what may meet then, is displaced or swings
    otherwise is undecided, with a reason (FW-D638, FW-D639, FW-D640) */
 fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v);
+/* body_loads.c: by how much what holds rotors is softer at pull-in for what bodies give there, relative, at most */
+fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                   const fw_statics_pull_in *pull_in, double *gives);
 /* body_loads.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     double *to);

@@ -184,14 +184,16 @@ static fw_status not_found(fw_arena *arena, const fw_device_scene *scene,
 
 /* what holds the rotor may be less stiff, too, by what bodies give in the motion; of a scene in which nothing moves that is
    not known. What the next model of the hinges changes of a motion near pull-in is not what it changes of a stiffness. */
-static fw_status softened(fw_arena *arena, const fw_dynamics_motion *motion,
-                          const fw_statics_pull_in **p) {
+static fw_status softened(fw_arena *arena, int scene, fw_verdict_variant_verdict *v) {
+    const fw_statics_pull_in **p = &v->pull_in[scene];
     fw_statics_pull_in *softer;
+    double gives;
     if (!*p || (*p)->kind == FW_PULL_IN_NONE) return FW_OK;
+    FW_TRY(fw_verdict_places_pulled(arena, v, scene, *p, &gives));
     FW_NEED(softer = fw_arena_one(arena, fw_statics_pull_in));
     *softer = **p;
     const double stiff = 1 - fmin(1, softer->stiffness_error);
-    softer->stiffness_error = 1 - stiff / (1 + fw_verdict_bending_moving(motion));
+    softer->stiffness_error = 1 - stiff / (1 + fw_verdict_bending_moving(v->motion[scene]) + gives);
     *p = softer;
     return FW_OK;
 }
@@ -320,7 +322,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
         return touched(arena, scene, p, ended, options, v);
     }
     FW_TRY(status);
-    FW_TRY(softened(arena, v->motion[i], &v->pull_in[i]));
+    FW_TRY(softened(arena, i, v));
     FW_TRY(judge_pull_in(arena, scene, v->pull_in[i], v->motion[i], options, diags, v));
     FW_TRY(judge_level(arena, scene, v->motion[i], v));
     FW_TRY(judge_beside(arena, scene, v->motion[i], v));
