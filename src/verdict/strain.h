@@ -54,6 +54,7 @@ typedef struct fw_verdict_load_end {
     fw_geometry_vec2 at; /* world, as drawn */
     double known_N;
     const char *what, *id;
+    const fw_device_force *force; /* that acts there; NULL: something else does */
 } fw_verdict_load_end;
 fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *mechanism,
                                fw_verdict_load_end **end, int *n);
@@ -144,8 +145,10 @@ typedef struct fw_verdict_solid_end {
    of the drawn pose; the body's inertia balances what they are not in balance by themselves */
 typedef struct fw_verdict_body_solid {
     bool known;
-    int n, nhinge; /* ends; those of hinges stand first, then the middle */
+    int n,
+        nhinge; /* ends; those of hinges stand first, then the middle, then those of loads, or none of them */
     double *fine, *coarse;
+    const fw_verdict_solid_end *end; /* (n) */
 } fw_verdict_body_solid;
 fw_status fw_verdict_body_solid_of(fw_arena *arena, const fw_verdict_line *line, int nline,
                                    fw_geometry_vec2 middle, double narrow_m,
@@ -237,8 +240,9 @@ typedef struct fw_verdict_place {
     double
         stiff_N_per_m; /* of what acts there; 0: it is not known yet, or acts whatever the place does */
     double force_N;                          /* largest so far; infinite: not known */
-    const fw_effects_force_element *element; /* of this run */
+    const fw_effects_force_element *element; /* of this run; NULL: none goes by the place */
     int port;
+    const fw_device_force *force; /* or what is stated */
 } fw_verdict_place;
 
 typedef struct fw_verdict_bending {
@@ -278,7 +282,11 @@ typedef struct fw_verdict_bending {
     struct fw_verdict_solid_kept *kept; /* body_solid.c; NULL: of straight ways, and without arms */
     fw_verdict_place *place;            /* (nplace) */
     int nplace;
-    double places_J; /* what bodies store there, as far as the motion goes by it */
+    double places_J;  /* what bodies store there, as far as the motion goes by it */
+    double springs_J; /* largest so far of what acts there stores itself */
+    double
+        acted_J; /* of all bodies as solids with all that acts where it does; infinite: not known */
+    double all_J;    /* when the motion has ended: what of all that counts for its bands */
     double stated_J; /* under loads of which the scene says how large they become, at most */
     const fw_effects_loads *loads; /* whose elements act there; NULL: the run starts */
 } fw_verdict_bending;
@@ -290,13 +298,13 @@ double fw_verdict_arm_gone(const fw_verdict_bending *bending, const fw_mechanism
 extern const double fw_verdict_bending_told; /* share above which what bodies give counts */
 typedef struct fw_verdict_solid_kept {
     double *instant;
-    int n, seen, every;
+    int n, seen, every, nplace;
 } fw_verdict_solid_kept;
-fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *mechanism,
+fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *mechanism, int nplace,
                                     fw_verdict_solid_kept **kept);
 void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept);
-void fw_verdict_solid_keep(fw_verdict_solid_kept *kept, const fw_mechanism *mechanism,
-                           const fw_dynamics_instant *now, const fw_verdict_turn *turn);
+void fw_verdict_solid_keep(const fw_verdict_bending *bending, const fw_mechanism *mechanism,
+                           const fw_dynamics_instant *now);
 /* arm NULL: forces of hinges alone; straight: of straight ways, and only whether bodies are to be counted */
 fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_verdict_arm *arm, bool straight, int scene,

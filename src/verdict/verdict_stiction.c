@@ -514,3 +514,87 @@ fw_verdict_decision fw_verdict_drying_bears(const fw_verdict_variant_verdict *v,
     *number = 584;
     return FW_INCONCLUSIVE;
 }
+
+/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
+
+static fw_status leave_open(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
+                            int number, const char *what, int body, double by, const char *unit) {
+    char text[32];
+    FW_NEED(what = fw_arena_printf(
+                arena,
+                "%s, and %s%s, which is rigid there, may bend in the plane by up to %s %s where "
+                "it reaches beyond its hinges: make it wider or shorter",
+                what, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
+                fw_number_text(text, sizeof text, by, 3), unit));
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
+                                                  .not_by_width = true,
+                                                  .text = what};
+    return FW_OK;
+}
+
+static fw_status opens(fw_arena *arena, int scene, double by, int body,
+                       fw_verdict_variant_verdict *v) {
+    const char *name = v->mechanism->device->scene[scene].name, *what;
+    for (int k = 0; k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
+        if (c->low_m - by > c->required_m) continue;
+        c->decision = FW_INCONCLUSIVE;
+        what = c->required_m > 0 ? "what is asked for between parts is only just kept"
+                                 : "parts only just do not meet";
+        FW_TRY(leave_open(arena, v, name, 638, what, body, 1e6 * by, "um"));
+    }
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        const bool moves = fw_words_hold("displacement gap distance opening", " ", r->kind);
+        if (r->scene_index != scene || r->decision != FW_ACCEPT || !moves) continue;
+        if (!(r->low - by < r->min) && !(r->high + by > r->max)) continue;
+        r->decision = FW_INCONCLUSIVE;
+        FW_NEED(what = fw_verdict_requirement_text(arena, r));
+        FW_TRY(leave_open(arena, v, name, 639, what, body, 1e6 * by, "um"));
+    }
+    return FW_OK;
+}
+
+/* 1/omega^2 of the rigid bodies and of what hangs over add up at most (Dunkerley) */
+static fw_status slower(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_verdict_hung *hung = v->out_of_plane->hung;
+    const char *what;
+    int body = 0;
+    for (int i = 1; i < v->mechanism->nbody; i++)
+        if (hung[i].in_plane_s2 > hung[body].in_plane_s2) body = i;
+    for (int k = 0; k < v->nrequirement && v->mechanism->nbody > 0; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_ACCEPT) continue;
+        const double low = r->low / sqrt(1 + hung[body].in_plane_s2 * pow(FW_TURN * r->low, 2));
+        if (!(low < r->min)) continue;
+        r->decision = FW_INCONCLUSIVE;
+        FW_NEED(what = fw_verdict_requirement_text(arena, r));
+        FW_TRY(leave_open(arena, v, r->scene, 640, what, body, 100 * (1 - low / r->low), "%"));
+    }
+    return FW_OK;
+}
+
+fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    double *to = fw_arena_array(arena, double, (size_t)m->nbody);
+    FW_NEED(to);
+    if (!v->out_of_plane || !v->out_of_plane->hung) return FW_OK;
+    for (int i = 0; i < m->device->nscene; i++) {
+        FW_TRY(fw_verdict_shaken_bears(arena, v, i));
+        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, to));
+        int body = 0;
+        double by = 0, other = 0;
+        for (int b = 0; b < m->nbody; b++)
+            if (to[b] > by)
+                other = by, by = to[b], body = b;
+            else
+                other = fmax(other, to[b]);
+        if (by + other > 0) FW_TRY(opens(arena, i, by + other, body, v));
+    }
+    return slower(arena, v);
+}

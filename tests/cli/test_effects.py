@@ -569,6 +569,16 @@ class SlenderArms(unittest.TestCase):
         self.assertEqual(decision, "inconclusive")
         self.assertIn("FW-D538", codes)
 
+    def test_a_force_in_the_open_is_told(self):
+        """which no material carries: what the body gives by it was taken along the nearest way, and nothing said so"""
+        for y, told in (("9 um", False), ("300 um", True)):
+            text = (ROOT / "tests/data/arms/ends.xml").read_text().replace('<force on="lever" x="2.4500 mm" y="9 um"', f'<force on="lever" x="2.4500 mm" y="{y}"')
+            with tempfile.TemporaryDirectory() as place:
+                device = pathlib.Path(place, "device.xml")
+                device.write_text(text)
+                done = run("check", device, "--corners", "none", "--advice", "none")
+            self.assertEqual("draw nothing of lever at (2450, 300) um" in done.stdout, told, done.stdout[:600])
+
     def test_electrodes_on_arms(self):
         """pull-in at 37.4 V, and at 27.9 V with the arm (36 um: 67.8 and 50.9), all without fringe fields"""
         for arm, leaf, snaps, holds in ((24, 20, 28, 18), (36, 30, 51, 34)):
