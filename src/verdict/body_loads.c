@@ -174,7 +174,10 @@ void fw_verdict_places_end(fw_verdict_bending *b) {
         b->places_J += own_J;
         b->body_J[at->body] += own_J;
     }
-    b->all_J = fmin(b->bodies_J + b->places_J, b->acted_J);
+}
+
+double fw_verdict_bending_all_J(const fw_verdict_bending *b) {
+    return fmin(b->bodies_J + b->places_J, b->acted_J);
 }
 
 /* the first place of everything that acts on one; NULL: nothing does, or nobody looked */
@@ -198,7 +201,8 @@ double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device
         if (b->place[i].force_N > 0 && b->place[i].element->class_->pressing &&
             strcmp(b->place[i].id, probe->of) != 0)
             return 0; /* what one contact does not bear another one may */
-    return fmax(b->all_J - b->places_J, 0) / (b->hinges_J + b->springs_J) - b->all_J / b->hinges_J;
+    const double all_J = fw_verdict_bending_all_J(b);
+    return fmax(all_J - b->places_J, 0) / (b->hinges_J + b->springs_J) - all_J / b->hinges_J;
 }
 
 bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N) {

@@ -286,7 +286,6 @@ typedef struct fw_verdict_bending {
     double springs_J; /* largest so far of what acts there stores itself */
     double
         acted_J; /* of all bodies as solids with all that acts where it does; infinite: not known */
-    double all_J;    /* when the motion has ended: what of all that counts for its bands */
     double stated_J; /* under loads of which the scene says how large they become, at most */
     const fw_effects_loads *loads; /* whose elements act there; NULL: the run starts */
 } fw_verdict_bending;
@@ -314,6 +313,8 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *mechanism, 
                                 fw_verdict_bending *bending);
 void fw_verdict_places_record(fw_verdict_bending *bending, const fw_dynamics_instant *now);
 void fw_verdict_places_end(fw_verdict_bending *bending);
+/* what of all that bodies store counts for the bands of a motion: places and solids as soon as it has ended */
+double fw_verdict_bending_all_J(const fw_verdict_bending *bending);
 /* Relative error of a probe beside fw_verdict_bending_share: of a speed what bodies give under the loads that the scene states; of
    the force of what acts on a place the part of that share that goes with it alone, which is none of its errors, less.
    *low_N less what such a force loses at most; false: nothing changes */

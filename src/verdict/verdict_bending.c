@@ -357,8 +357,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
                                    const fw_verdict_arm *arm, bool straight, int scene,
                                    fw_verdict_bending *bending) {
     const fw_mechanism_variant *of = m->variant;
-    *bending =
-        (fw_verdict_bending){.arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m};
+    *bending = (fw_verdict_bending){
+        .arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m, .acted_J = HUGE_VAL};
     if (!arm && !m->layout) return FW_OK;
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
@@ -554,7 +554,7 @@ double fw_verdict_bending_stored_J(const fw_dynamics_motion *motion) {
 
 double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     const fw_verdict_bending *b = seen(motion);
-    return b ? b->all_J / b->hinges_J : 0;
+    return b ? fw_verdict_bending_all_J(b) / b->hinges_J : 0;
 }
 
 /* A device that is pressed along its flexures goes nowhere, and its bodies may then give many times what the hinges do.
