@@ -264,11 +264,51 @@ static void what_is_in_the_way_of_a_base_is_named(void **state) {
     fw_arena_free(d.arena);
 }
 
+/* ---- fillets below what every mask shows ---- */
+
+/* Four arcs of one flexure end at eight places of four bodies: its fillets are said once, where the file states them,
+   and no longer where they are as large as the message asks for. */
+static void a_small_fillet_is_said_once(void **state) {
+    (void)state;
+    static const struct {
+        const char *fillet;
+        int said;
+    } of[] = {{"3 um", 1}, {"4 um", 1}, {"4.2 um", 0}, {"6 um", 0}};
+    for (int k = 0; k < 4; k++) {
+        char xml[4096], arcs[8192];
+        const fw_device *device;
+        turned_four_bar(0, false, xml, sizeof xml);
+        char *leaf = strstr(xml, "kind=\"leaf\""), *rest = strstr(xml, "/><mechanism>");
+        assert_true(leaf && rest);
+        *leaf = '\0';
+        snprintf(arcs, sizeof arcs,
+                 "%skind=\"csfh\" radius=\"100 um\" angle=\"270 deg\" width=\"8 um\" gap=\"8 um\" "
+                 "fillet=\"%s\"%s",
+                 xml, of[k].fillet, rest);
+        for (char *axis = arcs; (axis = strstr(axis, " axis=\"")) != NULL;) /* which the layout chooses for arcs */
+            memset(axis, ' ', (size_t)(strchr(axis + 7, '"') - axis) + 1);
+        drawn d = draw_text(arcs, &device);
+        if (d.status != FW_OK) fail_msg("%s: %s", of[k].fillet, d.layout->fault[0].message);
+        int said = 0;
+        for (size_t i = 0; i < d.diags.count; i++) {
+            const fw_diag *one = &d.diags.item[i];
+            if (one->number != 138) continue;
+            said++;
+            if (!strstr(one->message, "the fillets at the ends of flexure leaf have a radius of only"))
+                fail_msg("%s: %s", of[k].fillet, one->message);
+            assert_int_equal(one->place.column, device->flexure[0].place.column);
+        }
+        if (said != of[k].said) fail_msg("%s: said %d times", of[k].fillet, said);
+        fw_arena_free(d.arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(plates_that_grow),
                                        cmocka_unit_test(hinges_that_meet),
                                        cmocka_unit_test(sizes_that_do_not_fit),
                                        cmocka_unit_test(a_turned_base_finds_the_frame),
-                                       cmocka_unit_test(what_is_in_the_way_of_a_base_is_named)};
+                                       cmocka_unit_test(what_is_in_the_way_of_a_base_is_named),
+                                       cmocka_unit_test(a_small_fillet_is_said_once)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
