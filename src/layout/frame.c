@@ -7,11 +7,12 @@
 typedef struct in_way {
     const char *name; /* NULL: nothing */
     int body, joint;  /* of it; FW_NONE */
+    bool own;         /* there is no pedestal at all, and this says why */
 } in_way;
 
 static fw_status find_in_way(fw_layout_drawing *d, const fw_geometry_contour *strip, in_way *way) {
     const double space = fw_layout_rule.strip_clear_m, beside = fw_layout_rule.strip_disc_m;
-    *way = (in_way){NULL, FW_NONE, FW_NONE};
+    *way = (in_way){NULL, FW_NONE, FW_NONE, false};
     for (int b = 0; b < d->device->nbody && !way->name; b++)
         if (fw_geometry_contour_distance_below(strip, &d->plain[b], space, NULL, NULL) < space) {
             FW_NEED(way->name = fw_layout_body_label(d, b));
@@ -41,11 +42,12 @@ static fw_status find_in_way(fw_layout_drawing *d, const fw_geometry_contour *st
 typedef struct foot {
     fw_geometry_vec2 middle, axis; /* axis of the bar or the spoke */
     double half,
-        reach; /* half width wanted; half the free length of the bar, or how far along the spoke it may go */
+        least;    /* half width wanted; the least of a narrower one: that of the bar or the spoke */
+    double reach; /* half the free length of the bar, or how far along the spoke it may go */
 } foot;
 
 static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
-    foot f = {{0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0};
+    foot f = {{0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0, 0.0};
     const fw_layout_hinge_plan *plan = &d->hinge[joint[0]];
     const fw_layout_side *side = &plan->side[plan->side[1].body == FW_GROUND];
     for (int i = 0; i < n; i++)
@@ -71,40 +73,44 @@ static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
         if (d->device->die.anchor_m > 0.0) f.half = 0.5 * d->device->die.anchor_m;
         f.half = fmin(f.half, f.reach);
     }
+    f.least = d->device->die.anchor_m > 0.0 ? f.half : side->half_width_m;
     return f;
 }
 
 /* A pedestal as wide as is wanted where the foot is, on the nearest side that it reaches freely; where there is none,
-   narrower ones and beside that place. Turned against the frame a bar has less room between the places of its two
-   hinges: seen from a side it is shorter, and these are not. */
+   narrower ones and beside that place, but for an anchor whose width is stated. Turned against the frame a bar has
+   less room between the places of its two hinges: seen from a side it is shorter, and these are not. */
 typedef struct attempt {
     double width,
-        aside; /* shares: of the half width; of half the bar, or of the way along a spoke */
+        aside; /* shares: of half the width; of half the bar, or of the way along a spoke */
 } attempt;
 static const attempt fw_attempt[] = {{1.0, 0.0},  {0.7, 0.0},   {0.5, 0.0},  {0.35, 0.0},
                                      {0.5, 0.3},  {0.5, -0.3},  {0.25, 0.5}, {0.25, -0.5},
                                      {0.25, 0.7}, {0.25, -0.7}, {0.25, 0.0}};
 enum { ATTEMPTS = sizeof fw_attempt / sizeof fw_attempt[0] };
 
-/* false: the bar points at this side, or the strip would be too narrow to hold anything */
+/* why there is none, or NULL */
 static fw_status draw_pedestal(fw_layout_drawing *d, const foot *f, int n, attempt t,
-                               fw_layout_window_side side, fw_layout_attachment *a, bool *drawn) {
+                               fw_layout_window_side side, fw_layout_attachment *a,
+                               const char **why) {
+    const bool whole = t.width == 1.0 && t.aside == 0.0;
     const bool up = fabs(fw_layout_window_outward(side).x) > 0.5;
     const fw_geometry_vec2 middle = fw_add(f->middle, t.aside * f->reach, f->axis);
     double across = up ? middle.x : middle.y, along = up ? middle.y : middle.x;
     double slope = 0.0, half = t.width * f->half;
-    *drawn = false;
+    *why = "its own bar points";
     if (n == 2) {
         double s = up ? f->axis.y : f->axis.x, o = up ? f->axis.x : f->axis.y;
-        if (fabs(s) < 0.5) return FW_OK; /* the bar points at this side */
+        if (fabs(s) < 0.5) return FW_OK;
         slope = o / s;
         half = fmin(half, (1.0 - fabs(t.aside)) * f->reach * fabs(s));
     }
-    if (half < 0.5 * fw_layout_rule.tether_m) return FW_OK;
+    *why = "its own hinges leave no room";
+    if (half < (whole ? 0.5 * fw_layout_rule.tether_m : f->least)) return FW_OK;
     double at = fw_layout_to_grid(along);
     double low = across + slope * (at - half - along), high = across + slope * (at + half - along);
     *a = (fw_layout_attachment){.body = FW_GROUND};
-    *drawn = true;
+    *why = NULL;
     return fw_layout_strip_draw(d, side, low, high, at, half, fw_layout_rule.stub_m, a);
 }
 
@@ -116,9 +122,8 @@ static fw_status say_no_way(fw_layout_drawing *d, const int *joint, int n,
     const char *all = "";
     for (int i = 0; i < 4; i++)
         FW_NEED(all = fw_arena_printf(d->arena, "%s%sto the %s %s %s%s", all, i ? ", " : "",
-                                      side_name[order[i]], i ? "one" : "side",
-                                      way[i].name ? way[i].name : "its own bar points",
-                                      i || !way[i].name ? "" : " is in the way"));
+                                      side_name[order[i]], i ? "one" : "side", way[i].name,
+                                      i || way[i].own ? "" : " is in the way"));
     fw_diag_error(d->diags, 128, d->device->revolute[joint[0]].place,
                   "the base at ground %s%s cannot reach the frame on any side without crossing "
                   "a moving part (%s); move the ground hinges to the rim of the mechanism%s",
@@ -143,15 +148,16 @@ static fw_status say_no_way(fw_layout_drawing *d, const int *joint, int n,
 static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int only) {
     const foot f = choose_foot(d, joint, n);
     fw_layout_window_side order[4];
-    in_way way[4] = {{NULL, FW_NONE, FW_NONE}};
+    in_way way[4];
     fw_layout_sides_by_distance(d->layout, f.middle, order);
     for (int k = 0; k < ATTEMPTS; k++)
         for (int i = 0; i < 4; i++) {
             fw_layout_attachment a;
             in_way here;
-            bool drawn;
-            FW_TRY(draw_pedestal(d, &f, n, fw_attempt[k], order[i], &a, &drawn));
-            if (!drawn) continue;
+            const char *why;
+            FW_TRY(draw_pedestal(d, &f, n, fw_attempt[k], order[i], &a, &why));
+            if (why && k == 0) way[i] = (in_way){why, FW_NONE, FW_NONE, true};
+            if (why) continue;
             FW_TRY(find_in_way(d, &a.finger, &here));
             if (here.name && fw_attempt[k].aside == 0.0) way[i] = here;
             if (here.name) continue;
