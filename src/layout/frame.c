@@ -77,6 +77,20 @@ static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
     return f;
 }
 
+void fw_layout_sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
+                                 fw_layout_window_side order[4]) {
+    double far[4];
+    for (int i = 0; i < 4; i++) {
+        fw_layout_window_side s = (fw_layout_window_side)i;
+        far[i] =
+            fw_dot(fw_sub(fw_layout_window_point(l, s, 0.0, 0.0), p), fw_layout_window_outward(s));
+        int k = i;
+        for (; k > 0 && far[order[k - 1]] > far[i] + 1e-9; k--)
+            order[k] = order[k - 1];
+        order[k] = s;
+    }
+}
+
 /* A pedestal as wide as is wanted where the foot is, on the nearest side that it reaches freely; where there is none,
    narrower ones and beside that place, but for an anchor whose width is stated. Turned against the frame a bar has
    less room between the places of its two hinges: seen from a side it is shorter, and these are not. */

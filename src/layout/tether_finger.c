@@ -114,20 +114,6 @@ double fw_layout_finger_cut(const fw_layout_drawing *d, const fw_layout_attachme
                                                       : -1.0; /* else: no straight edge */
 }
 
-void fw_layout_sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
-                                 fw_layout_window_side order[4]) {
-    double far[4];
-    for (int i = 0; i < 4; i++) {
-        fw_layout_window_side s = (fw_layout_window_side)i;
-        far[i] =
-            fw_dot(fw_sub(fw_layout_window_point(l, s, 0.0, 0.0), p), fw_layout_window_outward(s));
-        int k = i;
-        for (; k > 0 && far[order[k - 1]] > far[i] + 1e-9; k--)
-            order[k] = order[k - 1];
-        order[k] = s;
-    }
-}
-
 fw_layout_ray_hit fw_layout_finger_edge(const fw_layout_drawing *d, int body,
                                         fw_layout_window_side side, double along) {
     const double beside = 30e-6;
