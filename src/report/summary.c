@@ -109,7 +109,7 @@ static const char *way_text(fw_arena *arena, const fw_verdict *v,
                            most == least ? "" : " in ", most == least ? "" : most->scene);
 }
 
-/* the least of all scenes and required poses; what meets is among the reasons already */
+/* the least of all scenes and required poses; what meets, or is not known, is among the reasons already */
 static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     const fw_verdict_clearance *least = NULL;
     char drawn[32], low[32], high[32];
@@ -118,7 +118,7 @@ static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary
             const fw_verdict_clearance *c = &v->variant[i].clearance[k];
             if (!least || c->low_m < least->low_m) least = c;
         }
-    if (!least || least->least.m <= 0) return FW_OK;
+    if (!least || least->least.m <= 0 || !isfinite(least->low_m)) return FW_OK;
     const char *way = way_text(arena, v, least);
     FW_NEED(way);
     return add(s, "nearest",
