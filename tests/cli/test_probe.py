@@ -252,6 +252,8 @@ class Probe(unittest.TestCase):
         ('<probe id="a" kind="displacement"/>', None, "FW-D320", "needs on"),
         ('<probe id="a" kind="force" on="arm" of="pin"/>', "on", "FW-D320", "no meaning"),
         ('<probe id="a" kind="torque" of="s"/>', "of", "FW-D321", "no torque"),
+        ('<probe id="a" kind="power" of="pin"/>', "of", "FW-D321", "power is what a driver, tendon or comb drive feeds in, and 'pin' is none; none here has an id"),
+        ('<probe id="a" kind="power" of="s"/>', "of", "FW-D321", "'s' is none; none here has an id"),
         ('<probe id="a" kind="stiffness" on="arm"/>', None, "FW-D320", "direction"),
         ('<probe id="a" kind="distance" a="arm" b="arm"/>', "b", "FW-D320", "same body"),
         ('<probe id="a" kind="gap" a="arm" b="arm"/>', "b", "FW-D320", "same body"),
@@ -272,6 +274,14 @@ class Probe(unittest.TestCase):
         ('<require min="1 Hz"/>', None, "FW-D322", "one of"),
         ('<probe id="a" kind="force" of="pin"/><require probe="a" min="2 uN" scene="pusch"/>', "scene", "FW-D046", "push"),
     ]
+
+    def test_power_of_a_joint_names_what_feeds_power_in(self):
+        cables = '<tendon id="T" pull="%d uN"><eyelet on="arm"/><eyelet y="5 mm"/></tendon>'
+        text = (PADDLE % ("", '<probe id="a" kind="power" of="pin"/><scene name="other" duration="1 ms">%s</scene>' % (cables % 2))).replace(
+            "</scene></device>", cables % 1 + "</scene></device>")
+        said = run("statics", self.file(text))
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("and 'pin' is none; name one of those there are: tendon 'T' [FW-D321]", said.stderr)
 
     def test_mistakes_are_reported_at_their_place(self):
         spring = '<spring id="s" a="arm" b="ground" b-y="1 mm" stiffness="1 N/m"/>'
