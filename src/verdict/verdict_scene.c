@@ -326,6 +326,9 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     FW_TRY(judge_beside(arena, scene, v->motion[i], v));
     FW_TRY(judge_strains(arena, scene, v->motion[i], v));
     FW_TRY(judge_reliability(scene, &own, v));
+    const fw_verdict_strain_monitor *saw = options->context;
+    if (!v->corner && !(saw && saw->trial))
+        FW_TRY(fw_verdict_ends_early(arena, scene, v->motion[i], options, diags, v));
     return judge_stability(arena, scene, i, diags, v);
 }
 
