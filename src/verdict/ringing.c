@@ -485,7 +485,7 @@ fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *
    its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
    comes behind it. Test: test_program.py, EndsEarly */
 
-static const double fw_few_per_cent = 0.03;
+static const double fw_few_per_cent = 0.03, fw_hardly_turned = 1e-3; /* of what a hinge bears */
 
 /* s; 0: nothing swings */
 static fw_status longest_period(fw_arena *arena, const fw_mechanism *m,
@@ -548,17 +548,20 @@ static const char *would_go(fw_arena *arena, const fw_mechanism *m, const fw_dev
     const double peak = fabs(x->peak[pin].angle_rad), degree = FW_DEG_PER_RAD;
     const double far = longer ? fabs(longer->peak[pin].angle_rad)
                               : peak + turns_on(m, x, k) * period_s / (2 * FW_PI);
+    const bool times = far > 3 * peak;
     char end[32], at[32], to[32], by[32], least[32];
-    if (!(far > peak * (1 + fw_few_per_cent))) return NULL;
+    const double least_rad = fw_hardly_turned * m->hinge[k].closed_form.limit_angle_rad;
+    if (!(far > peak * (1 + fw_few_per_cent)) || far < least_rad) return NULL;
     return fw_arena_printf(
         arena,
         "%s%s ends at %s ms with hinge %s at its peak, %s deg, and still on its way: within a "
-        "period of the lowest mode it goes on to %s deg%s, %s %% farther, and nothing of that is "
+        "period of the lowest mode it goes on to %s deg%s, %s%s, and nothing of that is "
         "judged; let the scene last %s ms at least",
         FW_NAMED("scene", scene->name), fw_number_text(end, sizeof end, 1e3 * x->end_s, 4),
         fw_text_name(m->pin[pin].id), fw_number_text(at, sizeof at, peak * degree, 3),
         fw_number_text(to, sizeof to, far * degree, 3), longer ? "" : " by its speed alone",
-        fw_number_text(by, sizeof by, 100 * (far / peak - 1), 2),
+        fw_number_text(by, sizeof by, times ? far / peak : 100 * (far / peak - 1), 2),
+        times ? " times as far" : " % farther",
         fw_number_text(least, sizeof least, 1e3 * (x->end_s + period_s), 3));
 }
 

@@ -641,6 +641,34 @@ class EndsEarly(InTemporary):
             self.assertEqual(top, [])
 
 
+class RejectedAsMade(InTemporary):
+    """a column that as drawn is pressed a little less than it bears, and as made a little more; beside it something is not known"""
+    def made(self, duration, side):
+        device = self.here / "device.xml"
+        device.write_text(f"""<device xmlns="urn:flexwright:device:1" name="column"><material ref="silicon-100" thickness="50 um"
+ youngs-modulus="160 GPa" poisson="0.22" strength="1 GPa"/><limits safety-factor="1.5"/><flow ref="al-masked-rie"/>
+<flexure id="leaf" kind="leaf" length="800 um" width="10 um"/><mechanism>
+<body id="head" x="0 mm" y="0.8 mm" plate-width="300 um" plate-height="300 um"/>
+<revolute id="A" a="ground" b="head" b-y="-0.8 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<scene name="press" duration="{duration}"><force on="head" fy="-1.21 mN" law="ramp" rise="15 ms"/><material-damping loss-factor="0.02"/></scene>
+<scene name="pull" duration="20 ms"><force on="head" fx="{side}" law="ramp" rise="15 ms"/><material-damping loss-factor="0.02"/></scene>
+<die clearance="2 mm"/></device>""", encoding="utf-8")
+        data = json.loads(run("check", device, "--advice", "none", "--json").stdout)
+        self.assertEqual((data["verdict"], data["drawn"]), ("reject", "accept"))
+        (reason,) = [r for r in data["reasons"] if r["verdict"] == "reject"]
+        return reason
+
+    def test_what_buckles_is_said_to(self):
+        reason = self.made("20 ms", "10 uN")
+        self.assertEqual(reason["code"], "FW-D238")
+        self.assertRegex(reason["text"], r"^as al-masked-rie makes it \(nominal\): scene press stays on an unstable equilibrium")
+
+    def test_a_hinge_beyond_its_limit_is_said_to_be(self):
+        reason = self.made("15.5 ms", "405 uN")
+        self.assertEqual(reason["code"], "FW-D237")
+        self.assertRegex(reason["text"], r"^as al-masked-rie makes it \(nominal\) hinge A uses 10[0-9.]+ % of its limit in pull")
+
+
 class Recipe(InTemporary):
     def test_json_of_both_flows(self):
         for flow in FLOWS:
