@@ -215,7 +215,7 @@ static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
             entry[i].active = in;
             entry[i].reason = fw_effects_hinge_forced_reason(choice);
         }
-        if (entry[i].looked_at) {
+        if (entry[i].looked_at && isfinite(entry[i].bound)) { /* else it stays anyway */
             settled[i] = entry[i].active = true;
             entry[i].reason = entry[i].looked_at;
         }
