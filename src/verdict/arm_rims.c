@@ -306,13 +306,14 @@ static double material_of_cut(const fw_verdict_pierced *body, fw_geometry_vec2 a
 }
 
 /* of what lies from `from` to `to` along `along`, and all beyond: bend[0] is the integral of M/w, bend[1] that of M (to - s)/w,
-   bend[2] that of 12 M (to - s)/w^3 + 3.2 A/w; beyond: where the outline ends */
+   bend[2] that of 12 M (to - s)/w^3 + 3.2 A/w, bend[3] the largest 6 M/w^2 in the plane, w^3 the sum of its pieces' cubes;
+   beyond: where the outline ends */
 static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, double from,
-                        double to, double beyond, double bend[3]) {
+                        double to, double beyond, double bend[4]) {
     const double least = 1e-3 * (beyond - from), step = (beyond - from) / STATIONS;
     const double least_cubes = pow(least, 3);
     double area = 0, moment = 0;
-    bend[0] = bend[1] = bend[2] = 0;
+    bend[0] = bend[1] = bend[2] = bend[3] = 0;
     for (int i = STATIONS - 1; i >= 0; i--) {
         const double s = from + (i + 0.5) * step;
         double cubes;
@@ -325,6 +326,7 @@ static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, 
         bend[2] +=
             (12 * here * (to - s) / fmax(cubes, least_cubes) + 3.2 * cut / fmax(wide, least)) *
             step;
+        bend[3] = fmax(bend[3], 6 * here / pow(fmax(cubes, least_cubes), 2.0 / 3));
         bend[0] += here / fmax(wide, least) * step;
         bend[1] += here * (to - s) / fmax(wide, least) * step;
     }
@@ -341,7 +343,7 @@ static double farthest_along(const fw_verdict_pierced *body, fw_geometry_vec2 al
 static double turned_at(const fw_verdict_pierced *body, fw_geometry_vec2 root,
                         fw_geometry_vec2 middle) {
     const fw_geometry_vec2 off = vec_sub(root, middle);
-    double lever = 0, bend[3];
+    double lever = 0, bend[4];
     if (!(vec_length(off) > 0)) return 0;
     const fw_geometry_vec2 along = vec_unit(off);
     for (int i = 0; i < body->n; i++)
@@ -353,12 +355,12 @@ static double turned_at(const fw_verdict_pierced *body, fw_geometry_vec2 root,
 
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
                               int body, const fw_verdict_line *line, int nline,
-                              double m_per_m_s2[2]) {
+                              fw_verdict_hung *hung) {
     fw_verdict_pierced outline = {.line = line, .n = nline};
     fw_geometry_vec2 *held;
     int nheld = 1;
-    double most = 0, plane = 0;
-    m_per_m_s2[0] = m_per_m_s2[1] = 0;
+    double most = 0, plane = 0, strained = 0;
+    *hung = (fw_verdict_hung){0};
     FW_NEED(held = fw_arena_array(arena, fw_geometry_vec2, 2 * (size_t)m->nhinge + 1));
     FW_NEED(outline.room = fw_arena_array(arena, double, (size_t)outline.n + 1));
     FW_TRY(fw_verdict_pierced_boxes(arena, &outline));
@@ -374,188 +376,188 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
         const double angle = i * FW_TURN / WAYS_OUT,
                      to = farthest_along(&outline, (fw_geometry_vec2){cos(angle), sin(angle)});
         const fw_geometry_vec2 along = {cos(angle), sin(angle)};
-        double from = -HUGE_VAL, bend[3];
+        double from = -HUGE_VAL, bend[4];
         for (int k = 0; k < nheld; k++)
             from = fmax(from, vec_dot(held[k], along));
         if (!(to - from > m->variant->thickness_m)) continue; /* thick: it does not bend */
         bent_beyond(&outline, along, from, to, to, bend);
         most = fmax(most, between_ways * bend[1]);
         plane = fmax(plane, between_in_plane * bend[2]);
+        strained = fmax(strained, between_ways * bend[3]);
     }
     if (nheld == 2) most += turned_at(&outline, held[1], held[0]);
     const double area = m->shape[body].area_m2, h = m->variant->thickness_m;
     const double rigid = m->variant->material.youngs.value * h * h * h;
     if (!(area > 0) || !(rigid > 0)) return FW_OK;
-    m_per_m_s2[0] = 12 * m->body[body].mass_kg / area * most / rigid;
-    m_per_m_s2[1] = m->body[body].mass_kg / area * plane / (rigid / (h * h));
+    const double kg_per_m2 = m->body[body].mass_kg / area;
+    hung->across_s2 = 12 * kg_per_m2 * most / rigid;
+    hung->in_plane_s2 = kg_per_m2 * plane / (rigid / (h * h));
+    hung->Pa_per_m_s2 = kg_per_m2 / h * strained;
     return FW_OK;
 }
 
-/* ---- what bodies give in series with what presses on them ----
-   A contact of stiffness k, or a cable that is drawn, acts on a place that gives c for its force (the way from there to the
-   body's middle, body_arms.c; of all its bodies together, a cable's turns counted twice). With c in series
+/* ---- what hangs over bends in the plane ----
+   Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
+   displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
+   turns by for F = E h, r how far the body reaches beyond; twice that, since a sudden load does twice what it does at rest.
+   What shaking and weight do to what reaches farther: arm_rims.c. Test: test_out_of_plane.py InThePlane */
 
-     it presses by at least 1/(1 + c k) of what it does on rigid bodies,
-     what it holds up goes farther by at most c k of its way, and by at most U_c/U_h, U_c = F^2 c/2 (Castigliano)
+static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
+                                const fw_verdict_load_end *end, double *beyond_m) {
+    const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
+                           off = vec_sub(end->at, middle);
+    fw_verdict_line *line;
+    int n;
+    *beyond_m = 0;
+    if (!(vec_length(off) > 0)) return FW_OK;
+    const fw_geometry_vec2 along = vec_unit(off);
+    FW_TRY(fw_verdict_body_lines(arena, m->layout, end->body, &line, &n));
+    for (int i = 0; i < n; i++)
+        *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
+    return FW_OK;
+}
 
-   which is what counts beside what bodies give between their hinges. In: forces of the rigid motion, without damping.
-   Range: to first order. Cost: none where c k < 1/500. Test: test_effects.py -k slender */
+/* what all loads bend that act on the same side of a body's middle as this one */
+static double on_one_side(const fw_mechanism *m, const fw_verdict_load_end *end, const double *by,
+                          int n, int k) {
+    const fw_geometry_vec2 middle = {m->drawn[end[k].body].x_m, m->drawn[end[k].body].y_m},
+                           off = vec_sub(end[k].at, middle);
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        if (end[i].body == end[k].body && vec_dot(off, vec_sub(end[i].at, middle)) >= 0)
+            sum += by[i];
+    return sum;
+}
 
-enum { PORTS_SEEN = 16 };
-static const double hardly_gives = 0.002; /* c k */
-
-fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scene,
-                                fw_verdict_bending *b) {
+/* to (nbody): how far each bends at most in a scene */
+fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                    double *to) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
+    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double sudden = 2, hardly_m = 1e-9;
+    double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
     fw_verdict_load_end *end;
     int n;
+    for (int i = 0; i < m->nbody; i++)
+        to[i] = 0;
+    if (!b || !b->arm || !b->rest_N) return FW_OK;
+    for (int i = 0; i < s->nbase; i++)
+        shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
+                  fw_quantity_law_largest(s->base[i].law, s->duration_s);
+    for (int i = 0; i < m->nbody; i++)
+        to[i] = shaken > 0 ? v->out_of_plane->hung[i].in_plane_s2 * shaken : 0;
     FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
-    FW_NEED(b->place = fw_arena_array(arena, fw_verdict_place, (size_t)n));
+    FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
+    FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
     for (int k = 0; k < n; k++) {
         const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
         const double *g = arm->give;
         if (end[k].scene != scene || !arm->known) continue;
-        const double goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
-        if (isfinite(end[k].known_N))
-            b->stated_J += 0.5 * end[k].known_N * end[k].known_N * goes / b->stiff_N;
-        if (!end[k].id) continue;
-        b->place[b->nplace++] = (fw_verdict_place){.body = end[k].body,
-                                                   .x_m = end[k].x_m,
-                                                   .y_m = end[k].y_m,
-                                                   .id = end[k].id,
-                                                   .arm = arm,
-                                                   .m_per_N = goes / b->stiff_N};
+        const double load_N =
+            isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
+        const double unit = sudden * load_N / b->stiff_N,
+                     goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        if (!(unit * goes > hardly_m)) continue;
+        FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
+        by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
     }
+    for (int k = 0; k < n; k++)
+        most[end[k].body] = fmax(most[end[k].body], on_one_side(m, end, by, n, k));
+    for (int i = 0; i < m->nbody; i++)
+        to[i] += most[i];
     return FW_OK;
 }
 
-fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
-                                 const fw_device_probe *probe, double *m_per_N) {
-    const double x = cos(probe->direction_rad), y = sin(probe->direction_rad);
-    fw_verdict_load_end *end;
-    int n;
-    *m_per_N = 0;
-    if (!arm || fw_device_probe_kinds[probe->row].takes != FW_PROBE_TANGENT) return FW_OK;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *way = &arm[2 * m->nhinge + k];
-        if (end[k].scene != FW_NONE || end[k].id != probe->id || !way->known) continue;
-        const double *g = way->give;
-        *m_per_N = (g[3] * x * x + 2 * g[4] * x * y + g[5] * y * y) /
-                   (m->variant->material.youngs.value * m->variant->thickness_m);
+/* ---- and bears what shakes it ---- */
+
+/* Where a mode swings that what hangs over may lower, its own ways are left (resonance.c). Here is what it bears as it is
+   shaken itself: its own mode lies between these times 1/sqrt(droop per acceleration), from a load at its end to one all along. */
+static double shaken_by(const fw_device_scene *s, const fw_verdict_hung *hung) {
+    const double lowest = 0.95, highest = 1.4, root = sqrt(hung->in_plane_s2);
+    double most = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
+    for (int i = 0; i < s->nbase && root > 0; i++) {
+        const double size = hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2);
+        if (size > 0)
+            most += size * fw_quantity_law_answer(s->base[i].law, s->duration_s, lowest / root,
+                                                  highest / root);
     }
-    return FW_OK;
+    return most;
 }
 
-/* what acts there in this run: an element of that name with a port at the place, that goes by how the place goes */
-static void find_element(fw_verdict_place *at, const fw_effects_loads *loads) {
-    const double same_m = 1e-9;
-    at->element = NULL, at->stiff_N_per_m = 0;
-    for (int i = 0; i < loads->nelement && !at->element; i++) {
-        const fw_effects_force_element *e = &loads->element[i];
-        if (!e->id || strcmp(e->id, at->id) != 0 || e->class_->electrodes || e->pin != FW_NONE)
-            continue;
-        for (int k = 0; k < e->ports && !at->element; k++)
-            if (e->port[k].body == at->body && fabs(e->port[k].x_m - at->x_m) < same_m &&
-                fabs(e->port[k].y_m - at->y_m) < same_m &&
-                at->m_per_N * e->size_N_per_m > hardly_gives)
-                at->element = e, at->port = k, at->stiff_N_per_m = e->size_N_per_m;
+fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double corners = 3;
+    const fw_flexure_limit *limit =
+        m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
+    double worst = 1;
+    int body = FW_NONE;
+    for (int i = 0; limit && v->motion[scene] && i < m->nbody; i++) {
+        const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
+        const double share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
+                             (limit->allowable_Pa / m->device->safety_factor);
+        if (share > worst) worst = share, body = i;
     }
+    if (body == FW_NONE) return FW_OK;
+    char high[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s%s %s%s is not known to bear its own weight as it is shaken, where it reaches beyond "
+        "its hinges and "
+        "its middle: at most %s %% of what is allowed, corners counted three times; make it wider "
+        "or shorter there",
+        FW_NAMED("scene", s->name), FW_NAMED("body", fw_text_name(m->body[body].id)),
+        isfinite(worst) ? fw_number_text(high, sizeof high, 100 * worst, 3) : "any number of");
+    FW_NEED(text);
+    return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
 }
 
-static double pressed_N(const fw_verdict_place *at, const fw_dynamics_instant *now) {
-    const fw_effects_force_element *e = at->element;
-    double p[3 * PORTS_SEEN], w[3 * PORTS_SEEN], f[3 * PORTS_SEEN];
-    bool on[PORTS_SEEN] = {false};
-    if (e->ports > PORTS_SEEN || e->switches > PORTS_SEEN) return HUGE_VAL;
-    fw_effects_element_place_ports(e, now->q, NULL, p, w);
-    const fw_effects_port_state seen = {.t_s = now->t_s,
-                                        .piece_s = now->piece_s,
-                                        .load = 1,
-                                        .p = p,
-                                        .w = w,
-                                        .on = on,
-                                        .still = true};
-    for (int i = 0; i < e->switches; i++)
-        on[i] = e->class_->switch_value && e->class_->switch_value(e, &seen, i) > 0;
-    e->class_->force(e, &seen, f);
-    return hypot(f[3 * at->port], f[3 * at->port + 1]);
+/* ---- what is said of surfaces that a scene closes (verdict_stiction.c judges them) ---- */
+
+static const char *uN(char *to, size_t size, double force_N) {
+    return fw_number_text(to, size, 1e6 * force_N, 3);
 }
 
-void fw_verdict_places_record(fw_verdict_bending *b, const fw_dynamics_instant *now) {
-    if (!now) {
-        b->loads = NULL, b->places_J = 0;
-        for (int i = 0; i < b->nplace; i++)
-            b->place[i].force_N = 0;
-        return;
-    }
-    for (int i = 0; now->loads != b->loads && i < b->nplace; i++)
-        find_element(&b->place[i], now->loads);
-    b->loads = now->loads;
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element)
-            b->place[i].force_N = fmax(b->place[i].force_N, pressed_N(&b->place[i], now));
+static const char *not_known(fw_arena *arena, const fw_verdict_stuck *s) {
+    char opens[32];
+    const char *opened = "";
+    if (s->opens_N[0] > 0)
+        opened = fw_arena_printf(arena, " (flexures open it with %s uN)",
+                                 uN(opens, sizeof opens, s->opens_N[0]));
+    if (!opened) return NULL;
+    return fw_arena_printf(
+        arena,
+        "%s%s touches in %s%s, and whether it comes free again is not known: %s%s; let it touch a "
+        "bump (b is its centre, distance its radius), or leave it more room",
+        FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), s->why, opened);
 }
 
-/* c k of all places of one thing, and what they store */
-static double in_series(const fw_verdict_bending *b, const char *id, double *stored_J) {
-    double share = 0;
-    *stored_J = 0;
-    for (int i = 0; i < b->nplace; i++) {
-        const fw_verdict_place *at = &b->place[i];
-        if (!at->element || !(at->force_N > 0) || strcmp(at->id, id) != 0) continue;
-        const double passes = at->port > 0 && at->port + 1 < at->element->ports ? 4 : 1;
-        share += passes * at->m_per_N * at->stiff_N_per_m;
-        *stored_J += 0.5 * at->force_N * at->force_N * at->m_per_N;
-    }
-    return share;
-}
-
-void fw_verdict_places_end(fw_verdict_bending *b) {
-    for (int i = 0; i < b->nplace; i++) {
-        const fw_verdict_place *at = &b->place[i];
-        double all_J, own_J = 0.5 * at->force_N * at->force_N * at->m_per_N;
-        if (!at->element || !(at->force_N > 0)) continue;
-        const double most_J = in_series(b, at->id, &all_J) * b->hinges_J;
-        if (isfinite(all_J)) own_J *= fmin(1, most_J / all_J);
-        if (!isfinite(all_J)) own_J = most_J;
-        b->places_J += own_J;
-        b->body_J[at->body] += own_J;
-    }
-}
-
-/* the first place of everything that acts on one; NULL: nothing does, or nobody looked */
-static const fw_verdict_place *first_of(const fw_verdict_bending *b, const char *id) {
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element && b->place[i].force_N > 0 &&
-            (!id || strcmp(b->place[i].id, id) == 0))
-            return &b->place[i];
-    return NULL;
-}
-
-static const fw_verdict_bending *seen_by(const fw_dynamics_motion *motion) {
-    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    return saw ? &saw->bending : NULL;
-}
-
-double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe) {
-    const fw_verdict_bending *b = seen_by(motion);
-    if (!b || !(b->hinges_J > 0)) return 0;
-    if (probe->row == FW_PROBE_IS_velocity) return b->stated_J / b->hinges_J;
-    if (!probe->of || !first_of(b, probe->of)) return 0;
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element && b->place[i].force_N > 0 &&
-            b->place[i].element->class_->pressing && strcmp(b->place[i].id, probe->of) != 0)
-            return 0; /* what one contact does not bear another one may */
-    return -b->places_J / b->hinges_J;
-}
-
-bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N) {
-    const fw_verdict_bending *b = seen_by(motion);
-    double left = 1, stored_J;
-    if (!b || !id || !first_of(b, id) || !(*low_N > 0)) return false;
-    for (int i = 0; i < b->nplace; i++)
-        if (first_of(b, b->place[i].id) == &b->place[i])
-            left /= 1 + in_series(b, b->place[i].id, &stored_J);
-    *low_N *= left;
-    return left < 1;
+const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *s,
+                                  double adhesion_J_per_m2) {
+    char low[32], holds[32], opens[32], least[32], times[32];
+    const bool sure = s->decision == FW_REJECT;
+    const double share = s->opens_N[0] / s->holds_N[1];
+    if (s->contact && s->why) return not_known(arena, s);
+    uN(low, sizeof low, s->holds_N[0]);
+    uN(holds, sizeof holds, s->holds_N[1]);
+    uN(opens, sizeof opens, s->opens_N[sure]);
+    if (!s->contact)
+        return fw_arena_printf(
+            arena,
+            "the surfaces of %s%s may meet in %s%s and stay closed: adhesion may hold them with up "
+            "to %s uN, and the flexure opens them with %s uN; a wider gap, a stiffer flexure or "
+            "surfaces that hold less (surface.adhesion of the flow) let them go",
+            FW_NAMED("hinge", s->hinge), FW_NAMED("scene", s->scene), holds, opens);
+    return fw_arena_printf(
+        arena,
+        "%s%s touches in %s%s and %s closed: adhesion holds it with %s to %s uN over the height of "
+        "the layer, and the flexures open it with %s uN; it comes free for sure of surfaces that "
+        "hold at most %s mJ/m2 (a coating, or surface.adhesion as measured), by flexures or a gap "
+        "%s times as stiff or wide, and the sooner the smaller its radius is",
+        FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), sure ? "stays" : "may stay",
+        low, holds, opens,
+        fw_number_text(least, sizeof least, 1e3 * adhesion_J_per_m2 * pow(share, 1.5), 2),
+        fw_number_text(times, sizeof times, 1 / share, 3));
 }

@@ -40,43 +40,6 @@ typedef struct grid {
     int *way, nway;         /* cells from a hinge to the middle */
 } grid;
 
-/* ---- lines ---- */
-
-static int parts_of(const fw_geometry_segment *s) {
-    double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
-    return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
-}
-
-bool fw_verdict_is_of(const fw_layout_piece *p, int body) {
-    return p->body == body && p->role == FW_ROLE_STRUCTURE;
-}
-
-fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int body,
-                                fw_verdict_line **line, int *n) {
-    size_t most = 0;
-    for (int i = 0; i < layout->npiece; i++) {
-        const fw_geometry_contour *c = &layout->piece[i].contour;
-        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++)
-            most += (size_t)parts_of(&c->segment[k]);
-    }
-    FW_NEED(*line = fw_arena_array(arena, fw_verdict_line, most));
-    *n = 0;
-    for (int i = 0; i < layout->npiece; i++) {
-        const fw_geometry_contour *c = &layout->piece[i].contour;
-        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++) {
-            const fw_geometry_segment *s = &c->segment[k];
-            int parts = parts_of(s);
-            fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
-            for (int j = 0; j < parts; j++) {
-                fw_geometry_vec2 to = fw_geometry_segment_point(s, (double)(j + 1) / parts);
-                (*line)[(*n)++] = (fw_verdict_line){from, to, !(s->flags & FW_SEGMENT_JOINT), i};
-                from = to;
-            }
-        }
-    }
-    return FW_OK;
-}
-
 static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
     FW_TRY(fw_verdict_body_lines(g->arena, layout, body, &g->line, &g->nline));
     for (int i = 0; i < g->nline; i++) {
@@ -495,6 +458,14 @@ static void follow(const grid *g, edges *around, const fw_verdict_pierced *pierc
     fw_verdict_arm_rims(pierced, pin, from, place(g, g->way[last]), w, arm);
 }
 
+/* Does a way from this cell begin at the place? Of an arm between two rows of cells the nearest one is elsewhere. */
+static bool begins_at(const grid *g, const edges *around, fw_geometry_vec2 at, int cell) {
+    if (cell < 0) return false;
+    const double beside_m =
+        is_inside(g, at) ? 0 : sqrt(fw_geometry_lines_least_square(&around->all, at, around->off));
+    return vec_distance(place(g, cell), at) <= beside_m + 1.5 * g->cell;
+}
+
 /* ---- bodies ---- */
 
 typedef struct end { /* of a hinge, or where a load acts: pin and root are that place */
@@ -555,9 +526,12 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
             fw_verdict_arm *to = ends[i].to;
             *to = (fw_verdict_arm){.known = false};
             pierced.own = i, pierced.root = ends[i].root;
-            find_way(&g, &q, cell_at(&g, ends[i].root, 0), middle);
-            if (g.nway > 0) follow(&g, &around, &pierced, ends[i].pin, to);
-            if (!to->known || to->narrow_m < fw_cells_across * cell) all = false;
+            const int begin = cell_at(&g, ends[i].root, 0);
+            find_way(&g, &q, begin, middle);
+            const bool there = begins_at(&g, &around, ends[i].root, begin);
+            if (g.nway > 0 && (there || i < nhinge)) follow(&g, &around, &pierced, ends[i].pin, to);
+            to->lost = !to->known && i >= nhinge;
+            if (!to->known || !there || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }
     for (int i = 0; i < nhinge; i++) {
@@ -574,10 +548,9 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
     int nload;
     FW_TRY(fw_verdict_load_ends(arena, m, &load, &nload));
     const fw_device *d = m->device;
-    const double pitch = d ? d->release_pitch_m : 0, hole_m = !(pitch > 0) ? 0
-                                                              : d->release_hole_m > 0
-                                                                  ? d->release_hole_m
-                                                                  : 0.3 * pitch;
+    const double pitch = d ? d->release_pitch_m : 0;
+    const double drawn_m = pitch > 0 ? d->release_hole_m : 0;
+    const double hole_m = pitch > 0 && !(drawn_m > 0) ? 0.3 * pitch : drawn_m;
     FW_NEED(*arm = fw_arena_array(arena, fw_verdict_arm, n + (size_t)nload));
     for (int b = 0; layout && layout->drawn && b < m->nbody; b++) {
         fw_arena *scratch = fw_arena_part(arena, 0);

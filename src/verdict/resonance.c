@@ -23,6 +23,7 @@
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "mechanism/mechanism_plates.h"
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -364,6 +365,12 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
     fw_verdict_shaken *to = &v->shaken[scene];
     shakings by;
     FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, &by, to));
+    double hangs_s2 =
+        0; /* 1/omega^2 of rigid bodies and of what hangs over add up at most (Dunkerley) */
+    for (int i = 0; v->out_of_plane && v->out_of_plane->hung && i < m->nbody; i++)
+        hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_s2);
+    for (int k = 0; k < to->n; k++)
+        to->mode[k].low /= sqrt(1 + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
     FW_TRY(add_answers(arena, m, &by, to, false, to->factor, &to->late));
     return v->corner ? FW_OK : may_pump(arena, m, scene, &by, bodies, v);
 }

@@ -412,17 +412,6 @@ typedef struct weak { /* what a body is not known to bear */
     const char *what, *id;
 } weak;
 
-/* what a load that follows from the motion comes to: what hinges put on the body, and what its other loads may balance */
-static double load_of(const fw_verdict_load_end *end, int n, int at, const double *rest_N) {
-    double known = 0;
-    if (isfinite(end[at].known_N)) return fmax(end[at].known_N, rest_N[end[at].body]);
-    for (int k = 0; k < n; k++)
-        if (end[k].scene == end[at].scene && end[k].body == end[at].body &&
-            isfinite(end[k].known_N))
-            known += end[k].known_N;
-    return known + rest_N[end[at].body];
-}
-
 static void take_weak(weak *worst, double share, const fw_verdict_arm *arm, int body,
                       const char *what, const char *id) {
     if (share > worst->share) *worst = (weak){share, arm, body, what, id};
@@ -446,7 +435,8 @@ static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
             const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
             const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
             if ((i % 2 ? pin->body_b : pin->body_a) != end[k].body) continue;
-            const double load_N = load_of(end, n, k, b->rest_N);
+            if (arm->lost) take_weak(worst, HUGE_VAL, arm, end[k].body, end[k].what, end[k].id);
+            const double load_N = fw_verdict_load_N(end, n, k, b->rest_N);
             const double rest[2] = {b->rest_N[end[k].body],
                                     b->rest_Nm ? b->rest_Nm[end[k].body] : 0};
             take_weak(worst,
@@ -462,18 +452,29 @@ static fw_status say_weak(fw_arena *arena, const char *scene, const weak *w,
                           fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     char high[32], wide[32], x[32], y[32];
-    const char *text = fw_arena_printf(
-        arena,
-        "in %s%s %s%s is not known to bear what %s%s%s brings: at most %s %% of what is "
-        "allowed, where it is %s um wide, near (%s, %s) um, corners counted three times; make it "
-        "wider there, or %s",
-        scene ? fw_text_kind("scene ", scene) : "required poses", scene ? scene : "",
-        FW_NAMED("body", m->device->body[w->body].id), w->what, w->id ? " " : "",
-        w->id ? w->id : "", fw_number_text(high, sizeof high, 100 * w->share, 3),
-        fw_number_text(wide, sizeof wide, 1e6 * w->arm->edge_wide_m, 3),
-        fw_number_text(x, sizeof x, 1e6 * w->arm->edge.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * w->arm->edge.y, 4),
-        scene ? "the load smaller" : "the required box smaller");
+    const char *text =
+        w->arm->lost
+            ? fw_arena_printf(
+                  arena,
+                  "in %s%s %s%s is not known to bear what %s%s%s brings: where that acts it is "
+                  "narrower "
+                  "than an 800th of its size, or hangs by so little; make it wider there",
+                  scene ? fw_text_kind("scene ", scene) : "required poses", scene ? scene : "",
+                  FW_NAMED("body", m->device->body[w->body].id), w->what, w->id ? " " : "",
+                  w->id ? w->id : "")
+            : fw_arena_printf(
+                  arena,
+                  "in %s%s %s%s is not known to bear what %s%s%s brings: at most %s %% of what is "
+                  "allowed, where it is %s um wide, near (%s, %s) um, corners counted three times; "
+                  "make it "
+                  "wider there, or %s",
+                  scene ? fw_text_kind("scene ", scene) : "required poses", scene ? scene : "",
+                  FW_NAMED("body", m->device->body[w->body].id), w->what, w->id ? " " : "",
+                  w->id ? w->id : "", fw_number_text(high, sizeof high, 100 * w->share, 3),
+                  fw_number_text(wide, sizeof wide, 1e6 * w->arm->edge_wide_m, 3),
+                  fw_number_text(x, sizeof x, 1e6 * w->arm->edge.x, 4),
+                  fw_number_text(y, sizeof y, 1e6 * w->arm->edge.y, 4),
+                  scene ? "the load smaller" : "the required box smaller");
     FW_NEED(text);
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene ? scene : "workspace",
                                                   .flow = m->variant->flow,
@@ -519,78 +520,4 @@ fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_
     const fw_mechanism_pin *pin = &m->pin[m->hinge[at / 2].pin];
     const weak worst = {high, &v->arm[at], at % 2 ? pin->body_b : pin->body_a, "hinge", pin->id};
     return say_weak(arena, NULL, &worst, v);
-}
-
-/* ---- what hangs over bends in the plane ----
-   Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
-   displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
-   turns by for F = E h, r how far the body reaches beyond; twice that, since a sudden load does twice what it does at rest.
-   What shaking and weight do to what reaches farther: arm_rims.c. Test: test_out_of_plane.py InThePlane */
-
-static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
-                                const fw_verdict_load_end *end, double *beyond_m) {
-    const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
-                           off = vec_sub(end->at, middle);
-    fw_verdict_line *line;
-    int n;
-    *beyond_m = 0;
-    if (!(vec_length(off) > 0)) return FW_OK;
-    const fw_geometry_vec2 along = vec_unit(off);
-    FW_TRY(fw_verdict_body_lines(arena, m->layout, end->body, &line, &n));
-    for (int i = 0; i < n; i++)
-        *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
-    return FW_OK;
-}
-
-/* what all loads bend that act on the same side of a body's middle as this one */
-static double on_one_side(const fw_mechanism *m, const fw_verdict_load_end *end, const double *by,
-                          int n, int k) {
-    const fw_geometry_vec2 middle = {m->drawn[end[k].body].x_m, m->drawn[end[k].body].y_m},
-                           off = vec_sub(end[k].at, middle);
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        if (end[i].body == end[k].body && vec_dot(off, vec_sub(end[i].at, middle)) >= 0)
-            sum += by[i];
-    return sum;
-}
-
-/* to (nbody): how far each bends at most in a scene */
-fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                    double *to) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
-    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
-    const fw_device_scene *s = &m->device->scene[scene];
-    const double sudden = 2, hardly_m = 1e-9;
-    double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
-    fw_verdict_load_end *end;
-    int n;
-    for (int i = 0; i < m->nbody; i++)
-        to[i] = 0;
-    if (!b || !b->arm || !b->rest_N) return FW_OK;
-    for (int i = 0; i < s->nbase; i++)
-        shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
-                  fw_quantity_law_largest(s->base[i].law, s->duration_s);
-    for (int i = 0; i < m->nbody; i++)
-        to[i] = shaken > 0 ? v->out_of_plane->hangs_in[i] * shaken : 0;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
-    FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
-    FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
-        const double *g = arm->give;
-        if (end[k].scene != scene || !arm->known) continue;
-        const double load_N =
-            isfinite(end[k].known_N) ? end[k].known_N : load_of(end, n, k, b->rest_N);
-        const double unit = sudden * load_N / b->stiff_N,
-                     goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
-        if (!(unit * goes > hardly_m)) continue;
-        FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
-        by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
-    }
-    for (int k = 0; k < n; k++)
-        most[end[k].body] = fmax(most[end[k].body], on_one_side(m, end, by, n, k));
-    for (int i = 0; i < m->nbody; i++)
-        to[i] += most[i];
-    return FW_OK;
 }

@@ -116,8 +116,8 @@ typedef struct fw_verdict_out_of_plane {
         weight_m; /* how far any part comes down under its weight on a table, g = 9.80665 m/s^2 */
     const char *body; /* the one that the next two are of: it gives most at its centre of mass */
     double across_N_per_m, ratio; /* across the plane; over the least in it, NaN: not known */
-    const double
-        *hangs_in; /* (nbody) what bends in the plane by its own weight, at most, m per m/s2 */
+    const struct fw_verdict_hung
+        *hung; /* (nbody) what hangs over beyond hinges and middle (strain.h) */
     struct fw_verdict_plates *plates; /* what it was computed with (verdict_out_of_plane.c) */
     fw_verdict_across *scene;         /* (nscene) of this flow, those that were run */
     int nscene;
