@@ -16,6 +16,7 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "statics/statics.h"
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -571,7 +572,9 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
                                 fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     const fw_dynamics_motion *longer;
+    const fw_verdict_strain_monitor *saw = options->context;
     double period_s;
+    if (v->corner || (saw && saw->trial)) return FW_OK; /* what is drawn says it for all */
     if (x->loads->quasi_static || x->ended || x->nsample < 1) return FW_OK;
     fw_dynamics_motion_rows(x, x->nsample - 1, 1);
     if (goes_on(m, x, (double)INFINITY) == FW_NONE) return FW_OK;
