@@ -563,3 +563,35 @@ fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
                     : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
     return diags->failed ? FW_NOMEM : FW_OK;
 }
+
+/* ---- what of a device that was made is kept and compared ---- */
+
+fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                 const fw_verdict_shaken **kept) {
+    const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1,
+                 rows = (size_t)v->nhinge + (size_t)v->mechanism->nbody;
+    fw_verdict_shaken *to;
+    *kept = NULL;
+    if (!v->shaken) return FW_OK;
+    FW_NEED(to = fw_arena_grow(arena, v->shaken, scenes, scenes, sizeof *to));
+#define KEEP(what, count)                                                                          \
+    if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
+    for (size_t i = 0; i < scenes; i++) {
+        fw_verdict_shaken *of = &to[i];
+        const size_t n = (size_t)of->n, loads = (size_t)of->nload;
+        KEEP(of->factor, 2 * h);
+        if (n == 0) continue;
+        KEEP(of->mode, n);
+        KEEP(of->load, loads);
+        KEEP(of->way, (size_t)of->ways * rows);
+        for (size_t k = 0; k < loads; k++) /* that of a driver stands in the mechanism */
+            KEEP(of->load[k].law, 1);
+        for (size_t k = 0; k < n; k++) {
+            KEEP(of->mode[k].bends, rows);
+            KEEP(of->mode[k].size, loads);
+        }
+    }
+#undef KEEP
+    *kept = to;
+    return FW_OK;
+}

@@ -288,8 +288,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
        why */
     const fw_dynamics_motion **motion;
     const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
-    double
-        *left; /* (device->nscene) of the stiffness (fw_statics_stability_find); NaN: not known */
+    double *left; /* (nscene) of the stiffness (fw_statics_stability_find); NaN: not known */
+    const char *ends_early; /* FW-D691, of the first scene that does; NULL */
     /* (device->nscene) where a mode lies within its error (verdict_parts.h, FW-D642) */
     fw_verdict_shaken *shaken;
     bool beyond_pull_in; /* a scene may ask for more than its pull-in voltage */

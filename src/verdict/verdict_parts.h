@@ -43,6 +43,11 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
    from there comes nearer */
 extern const char fw_verdict_unstable_there[];
 void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, int first);
+/* ringing.c: a warning where a scene ends with a hinge still on the way up (FW-D691), and v->ends_early */
+fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
+                                const fw_dynamics_motion *motion,
+                                const fw_dynamics_motion_options *options, fw_diags *diags,
+                                fw_verdict_variant_verdict *v);
 /* a warning where bodies give enough to count (FW-D510) */
 void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags);

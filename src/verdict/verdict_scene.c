@@ -57,8 +57,7 @@ static fw_status touches(fw_arena *arena, const fw_mechanism *m, const fw_device
         comb[i].voltage_V *= by;
     }
     changed.comb = comb;
-    quiet.observe = NULL;
-    quiet.samples = 2;
+    quiet.observe = NULL, quiet.samples = 2;
     quiet.hinge_accuracy = 1; /* whether it touches is no matter of a better level of hinges */
     fw_status status = fw_statics_move_scene(arena, m, &changed, &quiet, &own, &motion);
     *does = status == FW_SOLVER && formula_ended(&own);
@@ -328,6 +327,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     FW_TRY(judge_beside(arena, scene, v->motion[i], v));
     FW_TRY(judge_strains(arena, scene, v->motion[i], v));
     FW_TRY(judge_reliability(scene, &own, v));
+    FW_TRY(fw_verdict_ends_early(arena, scene, v->motion[i], options, diags, v));
     return judge_stability(arena, scene, i, diags, v);
 }
 
