@@ -104,7 +104,7 @@ typedef struct fw_clearance_least {
     double platform[3];        /* of a box of poses: its displacement there, m, m, rad */
     int a, b;                  /* bodies; FW_GROUND */
     fw_clearance_pose pose[2]; /* there */
-    double moved_m;            /* how far the pair moved against each other at most */
+    double moved_m;            /* how far the pair moved at most; HUGE_VAL: not known */
     double start_m;            /* distance of the pair where the motion begins */
     double share;              /* of moved_m: where they meet first; 1: they do not */
     long looked;               /* distances that were computed */
@@ -114,6 +114,11 @@ typedef struct fw_clearance_least {
 /* before anything was looked at */
 static inline fw_clearance_least fw_clearance_nothing(void) {
     return (fw_clearance_least){.low_m = HUGE_VAL, .m = HUGE_VAL, .left_m = HUGE_VAL, .share = 1};
+}
+
+/* of required poses: how far the pair goes has no bound, so that nothing is known of how near it comes */
+static inline bool fw_clearance_has_no_band(const fw_clearance_least *l) {
+    return l->m > 0 && !isfinite(l->moved_m);
 }
 
 typedef struct fw_clearance_wish {

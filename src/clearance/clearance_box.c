@@ -109,6 +109,7 @@ typedef struct boxes {
     fw_workspace_box3 whole;
     const int *with; /* (nbody) of the six-bar's bodies; FW_GROUND */
     part *memory;    /* (KEPT) */
+    bool *unbounded; /* some pair: by how much it is moved */
 } boxes;
 
 typedef struct turn { /* of a link from where it is drawn */
@@ -365,23 +366,43 @@ static int split(const void *context, const fw_clearance_region *region,
     return 2;
 }
 
-/* how far the pair is moved from where it is drawn. What goes with the platform is where it is
-   required to be, whatever the hinges do. */
-static double moved_over(const boxes *b, const fw_clearance_pair *pair,
-                         const fw_clearance_region *region, int depth) {
-    enum { DEEPEST = 9 };
-    const part *known = know(b, region);
+/* ---- how far a pair is moved from where it is drawn ----
+   Over a large box the rests of the forms are many times what the pair is moved by. So the box is halved until what
+   is proved exceeds what the pair is moved by at one of its poses by no more than a tenth. Where a leg is all but
+   stretched a link turns by any angle for a little of the platform's way, and parts so small that it is proved there
+   are none. */
+
+/* at one pose, where that is reached; 0: it is not proved to be */
+static double moved_at(const boxes *b, const fw_clearance_pair *pair, const double at[3]) {
+    fw_clearance_region one;
     fw_clearance_pose from[2];
+    for (int i = 0; i < 3; i++)
+        one.low[i] = one.high[i] = at[i];
+    const part *known = know(b, &one);
+    if (known->reached != FW_REACHED) return 0;
+    drawn(b, pair, from);
+    return slack_about(b, pair, known, from);
+}
+
+/* no pose of the region moves the pair by more than this; *found: by how much one of the box does */
+static double moved_over(const boxes *b, const fw_clearance_pair *pair,
+                         const fw_clearance_region *region, int depth, double *found) {
+    enum { DEEPEST = 12 };
+    const double close = 1.1;
+    const part *known = know(b, region);
     fw_clearance_region half[FW_CLEARANCE_PARTS];
+    fw_clearance_pose from[2];
+    double most = HUGE_VAL, middle[3];
     if (known->reached == FW_OUT_OF_REACH) return 0;
-    if (known->reached == FW_REACHED) {
-        drawn(b, pair, from);
-        return slack_about(b, pair, known, from);
-    }
-    if (depth == DEEPEST || split(b, region, half) == 0)
-        return 2 * (pair->arm_m[0] + pair->arm_m[1]); /* turned by any angle */
-    double first = moved_over(b, pair, &half[0], depth + 1);
-    return fmax(first, moved_over(b, pair, &half[1], depth + 1));
+    drawn(b, pair, from);
+    if (known->reached == FW_REACHED) most = slack_about(b, pair, known, from);
+    if (most <= close * *found) return most;
+    for (int i = 0; i < 3; i++)
+        middle[i] = 0.5 * (region->low[i] + region->high[i]);
+    *found = fmax(*found, moved_at(b, pair, middle));
+    if (most <= close * *found || depth == DEEPEST || split(b, region, half) == 0) return most;
+    double first = moved_over(b, pair, &half[0], depth + 1, found);
+    return fmax(first, moved_over(b, pair, &half[1], depth + 1, found));
 }
 
 static double moved(const void *context, const fw_clearance_pair *pair,
@@ -390,7 +411,16 @@ static double moved(const void *context, const fw_clearance_pair *pair,
     int with[2] = {goes_with(b, pair->a), goes_with(b, pair->b)};
     bool required =
         (with[0] == 2 || with[0] == FW_GROUND) && (with[1] == 2 || with[1] == FW_GROUND);
-    return required ? 0 : moved_over(b, pair, all, 0);
+    double found = 0;
+    if (required) return 0;
+    for (int corner = 0; corner < CORNERS; corner++) {
+        const fw_clearance_region one = corner_of(all, corner);
+        found = fmax(found, moved_at(b, pair, one.low));
+    }
+    const double most = moved_over(b, pair, all, 0, &found);
+    if (isfinite(most)) return most;
+    *b->unbounded = true;
+    return found;
 }
 
 static void rough(const void *context, const fw_clearance_pair *pair,
@@ -422,7 +452,9 @@ fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things
     of_six.left_out = left_out;
     const fw_clearance_region all = {.low = {asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
                                      .high = {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
-    boxes context = {.things = things, .loop = &loop, .with = with, .memory = memory};
+    bool unbounded = false;
+    boxes context = {
+        .things = things, .loop = &loop, .with = with, .memory = memory, .unbounded = &unbounded};
     for (int i = 0; i < 3; i++)
         context.whole.lo[i] = all.low[i], context.whole.hi[i] = all.high[i];
     const fw_clearance_domain domain = {.context = &context,
@@ -436,6 +468,7 @@ fw_status fw_clearance_of_box(fw_arena *arena, const fw_clearance_things *things
                                         .split = split,
                                         .middle_is_a_pose = true};
     fw_status status = fw_clearance_search(arena, things, &domain, &all, &of_six, least);
+    if (unbounded) least->moved_m = HUGE_VAL, least->low_m = -HUGE_VAL;
     fw_arena_rewind(arena, mark);
     return status;
 }

@@ -108,20 +108,10 @@ static fw_status add(building *b, int solid, int body, const fw_clearance_edge *
     return FW_OK;
 }
 
-/* the body that a tether ends at: they share a JOINT, end for end */
-static int held_by(const building *b, const fw_geometry_contour *tether) {
-    for (int i = 0; i < b->layout->npiece; i++) {
-        const fw_layout_piece *p = &b->layout->piece[i];
-        if (p->role != FW_ROLE_STRUCTURE || p->body < 0) continue;
-        for (int j = 0; j < p->contour.count; j++) {
-            const fw_geometry_segment *s = &p->contour.segment[j];
-            for (int k = 0; (s->flags & FW_SEGMENT_JOINT) && k < tether->count; k++) {
-                const fw_geometry_segment *t = &tether->segment[k];
-                if ((t->flags & FW_SEGMENT_JOINT) && vec_same(s->a, t->b) && vec_same(s->b, t->a))
-                    return p->body;
-            }
-        }
-    }
+/* the body that a tether ends at, which the layout says of its piece */
+static int held_by(const fw_layout *layout, const fw_layout_piece *tether) {
+    for (int i = 0; i < layout->ntether; i++)
+        if (layout->tether[i].label == tether->label) return layout->tether[i].body;
     return FW_NONE;
 }
 
@@ -129,7 +119,7 @@ static fw_status add_piece(building *b, const fw_layout_piece *p) {
     int solid = solid_of(b, p->body);
     fw_clearance_edge edge = {
         .hinge = FW_NONE, .other = FW_NONE, .held = FW_NONE, .label = p->label};
-    if (p->role == FW_ROLE_TETHER) edge.held = held_by(b, &p->contour);
+    if (p->role == FW_ROLE_TETHER) edge.held = held_by(b->layout, p);
     for (int i = 0; i < p->contour.count; i++) {
         edge.segment = p->contour.segment[i];
         FW_TRY(add(b, solid, solid < b->things->nbody ? solid : FW_GROUND, &edge));

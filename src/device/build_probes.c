@@ -110,19 +110,62 @@ static const char *has_none(const fw_device *d, const fw_device_probe *p) {
     return NULL;
 }
 
+/* "driver 'D'", each id once; those without an id cannot be named */
+static void add_actuator(fw_text *out, const char *kind, const char *id) {
+    char one[96];
+    if (!id) return;
+    snprintf(one, sizeof one, "%s '%.64s'", kind, id);
+    if (out->data && strstr(out->data, one)) return;
+    fw_text_printf(out, "%s%s", out->length ? ", " : "", one);
+}
+
+/* what feeds power in */
+static void add_actuators(const fw_device *d, fw_text *out) {
+    for (int i = 0; i < d->ndriver; i++)
+        add_actuator(out, "driver", d->driver[i].id);
+    for (int k = 0; k < d->nscene; k++) {
+        const fw_device_scene *s = &d->scene[k];
+        for (int i = 0; i < s->ntendon; i++)
+            add_actuator(out, "tendon", s->tendon[i].id);
+        for (int i = 0; i < s->ncomb; i++)
+            add_actuator(out, "comb drive", s->comb[i].id);
+    }
+}
+
+static void refuse_power(fw_device_reader *r, const fw_xml_record *record, const char *of) {
+    char label[FW_LABEL];
+    fw_text names = fw_text_new(r->diags->arena);
+    add_actuators(r->device, &names);
+    const bool any = names.length > 0;
+    if (fw_text_end(&names) != FW_OK) {
+        r->diags->failed = true;
+        return;
+    }
+    fw_diag_error(
+        r->diags, 321, fw_xml_place_of(record, "of"),
+        "%s: power is what a driver, tendon or comb drive feeds in, and '%.64s' is none; %s%s",
+        fw_xml_label(record, label), of,
+        any ? "name one of those there are: " : "none here has an id", any ? names.data : "");
+}
+
 static void read_carrier(fw_device_reader *r, const fw_xml_record *record, fw_device_probe *p) {
     char label[FW_LABEL];
     if (!p->of) return;
     if (!find_carrier(r->device, p)) {
         if (r->xml.broken[FW_SPACE_JOINT] || r->xml.unknown_element) return;
-        fw_diag_error(r->diags, 321, fw_xml_place_of(record, "of"),
-                      "%s: nothing with the id '%.64s' carries a force; name a joint, driver, "
-                      "spring, tendon, comb drive or contact that has an id",
-                      fw_xml_label(record, label), p->of);
+        if (p->row == FW_PROBE_IS_power)
+            refuse_power(r, record, p->of);
+        else
+            fw_diag_error(r->diags, 321, fw_xml_place_of(record, "of"),
+                          "%s: nothing with the id '%.64s' carries a force; name a joint, driver, "
+                          "spring, tendon, comb drive or contact that has an id",
+                          fw_xml_label(record, label), p->of);
         return;
     }
     const char *why = has_none(r->device, p);
-    if (why)
+    if (why && p->row == FW_PROBE_IS_power)
+        refuse_power(r, record, p->of);
+    else if (why)
         fw_diag_error(r->diags, 321, fw_xml_place_of(record, "of"), "%s: '%.64s' has no %s: %s",
                       fw_xml_label(record, label), p->of, fw_device_probe_kinds[p->row].name, why);
 }

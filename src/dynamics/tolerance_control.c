@@ -81,8 +81,18 @@ double fw_dynamics_tolerance_tightest(const fw_dynamics_problem *problem) {
     return fmax(fw_tightest, noise_floor(problem));
 }
 
-static double wanted_of(const fw_dynamics_motion *motion) {
+static double wanted_of_deflections(const fw_dynamics_motion *motion) {
     return fmax(motion->accuracy - motion->ledger.left_out, 0.05 * motion->accuracy);
+}
+
+/* Where velocities are looked at they are those of what goes to and fro, which may be a small share of
+   the deflection: it is followed as well as what is required of a probe (fw_probe_monitor_unsettled).
+   Test: test_probe.py */
+static const double fw_of_swing = 30, fw_swing_finest = 1e-8;
+
+static double wanted_of(const fw_dynamics_motion *motion) {
+    const double wanted = wanted_of_deflections(motion), swing = motion->ledger.swing;
+    return swing > 0 ? fmin(wanted, fmax(wanted * fw_of_swing * swing, fw_swing_finest)) : wanted;
 }
 
 double fw_dynamics_tolerance_wanted(const fw_dynamics_recorder *record) {
@@ -272,7 +282,7 @@ static const double nothing = 1e-10;
 
 static void warn_inaccurate(const fw_dynamics_run *r) {
     const reached x = what_is_reached(&r->record);
-    double wanted = fw_dynamics_tolerance_wanted(&r->record), degree = FW_DEG_PER_RAD;
+    double wanted = wanted_of_deflections(r->record.motion), degree = FW_DEG_PER_RAD;
     double accuracy = r->record.motion->accuracy;
     char a[32], b[32], c[32];
     if (x.error_rad > fmax(nothing, wanted * relative_to(&r->record, &x)))

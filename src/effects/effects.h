@@ -176,6 +176,7 @@ typedef struct fw_effect_entry { /* a line of the ledger */
     double cost;  /* instructions per right-hand side that it takes when it is on, as measured once
                      (docs/theory/effects/costs.md); 0 when it is not called for */
     const char *reason;
+    const char *looked_at; /* why auto keeps it whatever its bound is (fw_effect_row); or NULL */
 } fw_effect_entry;
 typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
@@ -187,6 +188,9 @@ typedef struct fw_effect_ledger {
     const char
         *undecided; /* what no motion has, matters and nothing bounds: a sentence; NULL: nothing */
     double undecided_share; /* by which it may change forces */
+    /* share of the largest deflection that what is looked at by its velocity moves: the bound of inertia where auto keeps
+       it for that; else infinite */
+    double swing;
     fw_effects_hinge_use hinge;
 } fw_effect_ledger;
 
@@ -343,6 +347,9 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     bool (*called_for)(const fw_effect_case *c);
     /* conservative bound on the relative change when left out; *reason says how it was found */
     fw_status (*bound)(const fw_effect_case *c, double *bound, const char **reason);
+    /* *why: something that the device looks at goes by what the bound says nothing of, and auto
+       keeps the effect however small that is; left alone where nothing does. NULL: nothing can */
+    fw_status (*looked_at)(const fw_effect_case *c, const char **why);
     /* adds to the loads; sizes of the plain arrays were reserved */
     fw_status (*add)(const fw_effect_case *c, fw_effects_loads *loads);
     bool adds_blindly; /* whatever the envelope is: that of what is kept need not be found first */

@@ -249,6 +249,96 @@ static fw_status find_floor(const fw_effect_case *c, const fw_effects_modal_load
     return FW_OK;
 }
 
+/* ---- what goes by velocities ---- */
+
+/* c w/k of what a force or torque is looked at of: of its damper beside its spring, in the lowest mode */
+static double damper_beside(const fw_effect_case *c, const fw_device_probe *p, double w) {
+    const fw_mechanism *m = c->mechanism;
+    double damping = 0, stiffness = 1;
+    switch (p->carrier) {
+    case FW_CARRIER_REVOLUTE:
+        if (p->row == FW_PROBE_IS_force) return 0; /* of the joint, without its flexure */
+        if (fw_effects_material_damped(c, p->index)) return fmax(0, fw_effects_loss(c));
+        damping = m->pin[p->index].damping_Nms_per_rad;
+        stiffness = m->pin[p->index].stiffness_Nm_per_rad;
+        break;
+    case FW_CARRIER_SPRING:
+        damping = m->device->spring[p->index].damping_Ns_per_m;
+        stiffness = m->device->spring[p->index].stiffness_N_per_m;
+        break;
+    case FW_CARRIER_TENDON:
+        for (int i = 0; i < c->scene->ntendon; i++) {
+            const fw_device_tendon *t = &c->scene->tendon[i];
+            if (isnan(t->draw_m) || !t->id || !fw_text_same(t->id, p->of)) continue;
+            damping = t->damping_Ns_per_m, stiffness = t->stiffness_N_per_m;
+        }
+        break;
+    case FW_CARRIER_JOINT:
+    case FW_CARRIER_DRIVER: /* no motion with one is bounded */
+    case FW_CARRIER_COMB:
+    case FW_CARRIER_CONTACT:
+        break;
+    }
+    return damping > 0 ? damping * w / stiffness : 0;
+}
+
+/* By how much more than a rotation what is looked at by a probe may change without inertia. Under a
+   ramp a mode is F/(w^3 rise) off its equilibrium at most, and in its velocity w times that, which is
+   all of the velocity F/(w^2 rise) that equilibria have: what is at rest must be brought up to speed,
+   and goes to and fro about it then. So it is of any course: the largest |f'| is no more than |f'(0+)|
+   and the total variation of f', which the sum has. However slow a load is, that sum leaves nothing of
+   a velocity: infinite. */
+static double by_velocity(const fw_effect_case *c, const fw_device_probe *p, double w) {
+    switch (p->row) {
+    case FW_PROBE_IS_velocity:
+    case FW_PROBE_IS_power: /* a force times a rate; of drivers, tendons and comb drives */
+        return (double)INFINITY;
+    case FW_PROBE_IS_force:
+    case FW_PROBE_IS_torque:
+        return damper_beside(c, p, w);
+    case FW_PROBE_IS_displacement:
+    case FW_PROBE_IS_angle:
+    case FW_PROBE_IS_distance:
+    case FW_PROBE_IS_opening:
+    case FW_PROBE_IS_gap:
+    case FW_PROBE_IS_capacitance:
+    case FW_PROBE_IS_stiffness:
+    case FW_PROBE_IS_compliance:
+    case FW_PROBE_IS_frequency:
+    case FW_PROBE_KINDS:
+        break;
+    }
+    return 0;
+}
+
+/* the probe of this scene that goes by velocities most; NULL: none does */
+static const fw_device_probe *fastest_probe(const fw_effect_case *c, double *more) {
+    const fw_device *d = c->mechanism->device;
+    const fw_effects_envelope *e = c->envelope;
+    const fw_device_probe *most = NULL;
+    *more = 0;
+    for (int i = 0; d && i < d->nprobe; i++) {
+        const fw_device_probe *p = &d->probe[i];
+        if (p->of && !fw_device_probe_in_scene(p, c->scene)) continue;
+        double now = by_velocity(c, p, e->valid && e->modes > 0 ? e->omega[0] : 0);
+        if (now > *more) *more = now, most = p;
+    }
+    return most;
+}
+
+static fw_status looked_at(const fw_effect_case *c, const char **why) {
+    double more;
+    const fw_device_probe *p = fastest_probe(c, &more);
+    if (!isinf(more)) return FW_OK;
+    FW_NEED(*why = fw_arena_printf(
+                c->arena,
+                "masses resist changes of motion, and probe %s goes by velocities, which "
+                "equilibria do not have right however slow the loads are: what they bring up to "
+                "speed goes to and fro about it: kept",
+                fw_text_name(p->id)));
+    return FW_OK;
+}
+
 /* ---- what has no bound ---- */
 
 /* NULL: the sums know all that moves the mechanism */
@@ -272,11 +362,12 @@ static const char *reason_to_keep(const fw_effect_case *c) {
    damping makes the free part smaller and adds a lag (see spread). Inputs: the envelope's modes,
    SI. Output dimensionless, against the least that the largest deflection can be; infinite where
    there is no envelope. What the envelope does not take in widens it like all bounds (table.c).
-   Valid in the linear theory of the envelope, with its margin for what is not linear. Cost modes x
-   (n + npin) per law. Source: Duhamel's integral, e.g. Clough and Penzien, Dynamics of Structures
+   More where something that is looked at goes by velocities (by_velocity). Valid in the linear theory
+   of the envelope, with its margin for what is not linear. Cost modes x (n + npin) per law. Source: Duhamel's integral, e.g. Clough and Penzien, Dynamics of Structures
    1993, ch. 6; the integration by parts is ours. Test: test_inertia.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_effects_envelope *e = c->envelope;
+    double more;
     const char *keep = reason_to_keep(c);
     *value = (double)INFINITY;
     if (keep) {
@@ -302,7 +393,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     most = most * e->margin + fw_effects_modal_second(e->modal);
     FW_TRY(find_floor(c, &modal_loads, &m, most, &least));
     fw_arena_rewind(c->arena, mark);
-    *value = most / least;
+    fastest_probe(c, &more);
+    *value = most / least * (isinf(more) ? 1 : 1 + more); /* infinite: looked_at decides */
     *reason = "masses resist changes of motion: jumps of the loads and changes of their slope, "
               "compared with a quasi-static sequence of equilibria";
     return FW_OK;
@@ -326,6 +418,7 @@ const fw_effect_row fw_effect_inertia = {
                "sequence of equilibria",
     .called_for = called_for,
     .bound = bound,
+    .looked_at = looked_at,
     .add = add,
     .adds_blindly = true,
     .leave_out = leave_out,

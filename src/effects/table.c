@@ -121,6 +121,7 @@ static fw_status find_bounds(const fw_effect_case *c, const fw_effect_choice *ch
         entry[i] = (fw_effect_entry){.id = row->id, .reason = "not called for by the scene"};
         entry[i].called_for = row->called_for(c);
         if (!entry[i].called_for) continue;
+        if (row->looked_at) FW_TRY(row->looked_at(c, &entry[i].looked_at));
         if (like && !row->kept) {
             entry[i].bound = like->bound;
             entry[i].reason = "as in a device much like this one";
@@ -213,6 +214,10 @@ static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
             settled[i] = true;
             entry[i].active = in;
             entry[i].reason = fw_effects_hinge_forced_reason(choice);
+        }
+        if (entry[i].looked_at && isfinite(entry[i].bound)) { /* else it stays anyway */
+            settled[i] = entry[i].active = true;
+            entry[i].reason = entry[i].looked_at;
         }
         if (calm && rows[i]->calms && entry[i].called_for) {
             entry[i].active = true;
@@ -328,6 +333,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
     ledger->count = ROWS;
     ledger->left_out = ledger->beside = 0;
     ledger->undecided = NULL, ledger->undecided_share = 0;
+    ledger->swing = (double)INFINITY;
     FW_TRY(fw_effects_loads_new(arena, mechanism, scene, loads));
     FW_NEED(envelope.taken = fw_arena_array(arena, bool, ROWS));
     FW_TRY(look_around(&c, &envelope));
@@ -345,6 +351,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
         if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active && !forced &&
             !rows[i]->beside)
             ledger->left_out += e->bound;
+        if (e->active && e->looked_at) ledger->swing = e->bound;
         if (e->active) {
             if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));
             FW_TRY(rows[i]->add(&c, loads));

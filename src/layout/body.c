@@ -503,6 +503,12 @@ static fw_status say_flaw(fw_layout_drawing *d, const work *w) {
     const char *label = fw_layout_body_label(d, w->body);
     FW_NEED(label);
     if (d->said) return FW_OK;
+    for (int i = 0; i < w->njoint && *f.what == 'r'; i++) {
+        const fw_layout_hinge_layout *h = &d->layout->hinge[w->joint[i]];
+        if (fabs(f.value_m - h->fillet_m) < 1e-9 &&
+            vec_distance(f.where, h->centre) < h->keep_out_m)
+            return fw_layout_say_fillet(d, w->joint[i], label, f.where, f.limit_m);
+    }
     fw_diag_warning(
         d->diags, 138, fw_layout_body_place(d, w->body),
         "the outline of %s has a %s of only %s um at (%s, %s) um; the layout's own rule is "

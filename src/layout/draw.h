@@ -255,6 +255,9 @@ fw_status fw_layout_flexure_draw(fw_arena *arena, const fw_device_flexure *flexu
    or not, block and ring may overlap: they become one when the body is united, with another head
    where that is unsound */
 bool fw_layout_path_in_the_way(const fw_device_flexure *flexure, const fw_layout_hinge_plan *plan);
+/* that the fillets of a hinge's flexure are below what every mask shows, as at this body */
+fw_status fw_layout_say_fillet(fw_layout_drawing *d, int joint, const char *label,
+                               fw_geometry_vec2 at, double least_m);
 /* draws a head with other free dimensions */
 fw_status fw_layout_head_draw(fw_layout_drawing *d, int joint, int body, int attempt);
 /* where the root's face, extended outwards, meets the circle of radius q about W */

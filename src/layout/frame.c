@@ -3,37 +3,51 @@
 #include "layout/layout_text.h"
 #include <math.h>
 
-static fw_status clear_of_all(const fw_layout_drawing *d, const fw_geometry_contour *strip,
-                              bool *clear) {
+/* what a strip of the frame crosses or nearly touches */
+typedef struct in_way {
+    const char *name; /* NULL: nothing */
+    int body, joint;  /* of it; FW_NONE */
+    bool own;         /* there is no pedestal at all, and this says why */
+} in_way;
+
+static fw_status find_in_way(fw_layout_drawing *d, const fw_geometry_contour *strip, in_way *way) {
     const double space = fw_layout_rule.strip_clear_m, beside = fw_layout_rule.strip_disc_m;
-    *clear = false;
-    for (int b = 0; b < d->device->nbody; b++)
-        if (fw_geometry_contour_distance_below(strip, &d->plain[b], space, NULL, NULL) < space)
-            return FW_OK;
-    if (fw_layout_near_stator(d, strip, space)) return FW_OK;
-    for (int j = 0; j < d->device->nrevolute; j++) {
+    *way = (in_way){NULL, FW_NONE, FW_NONE, false};
+    for (int b = 0; b < d->device->nbody && !way->name; b++)
+        if (fw_geometry_contour_distance_below(strip, &d->plain[b], space, NULL, NULL) < space) {
+            FW_NEED(way->name = fw_layout_body_label(d, b));
+            way->body = b;
+        }
+    if (!way->name && fw_layout_near_stator(d, strip, space)) way->name = "a stator";
+    for (int j = 0; j < d->device->nrevolute && !way->name; j++) {
         const fw_layout_hinge_layout *h = &d->layout->hinge[j];
         fw_geometry_contour disc;
-        if (fw_geometry_contour_contains(strip, h->centre)) return FW_OK;
-        fw_status status = fw_geometry_contour_disc(d->arena, h->centre, h->keep_out_m, &disc);
-        if (status == FW_NOMEM) return status; /* not a reason to go to another side */
-        if (status != FW_OK ||
-            fw_geometry_contour_distance_below(strip, &disc, beside, NULL, NULL) < beside)
-            return FW_OK;
+        bool near = fw_geometry_contour_contains(strip, h->centre);
+        if (!near) {
+            fw_status status = fw_geometry_contour_disc(d->arena, h->centre, h->keep_out_m, &disc);
+            if (status == FW_NOMEM) return status; /* not a reason to go to another side */
+            near = status != FW_OK ||
+                   fw_geometry_contour_distance_below(strip, &disc, beside, NULL, NULL) < beside;
+        }
+        if (!near) continue;
+        way->joint = j;
+        FW_NEED(way->name = fw_arena_printf(d->arena, "%s%s",
+                                            FW_NAMED("hinge", d->device->revolute[j].id)));
     }
-    *clear = true;
     return FW_OK;
 }
 
 /* where the pedestal leaves the base: the middle of the bar between two ground hinges, or the end
    of the spoke of one */
 typedef struct foot {
-    fw_geometry_vec2 middle, axis; /* axis of the bar, or (0, 0) */
-    double half, reach;            /* half width wanted; half the free length of the bar */
+    fw_geometry_vec2 middle, axis; /* axis of the bar or the spoke */
+    double half,
+        least;    /* half width wanted; the least of a narrower one: that of the bar or the spoke */
+    double reach; /* half the free length of the bar, or how far along the spoke it may go */
 } foot;
 
 static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
-    foot f = {{0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0};
+    foot f = {{0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0, 0.0};
     const fw_layout_hinge_plan *plan = &d->hinge[joint[0]];
     const fw_layout_side *side = &plan->side[plan->side[1].body == FW_GROUND];
     for (int i = 0; i < n; i++)
@@ -43,6 +57,8 @@ static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
         double begin = side->neck_end_m, cut = fw_layout_base_reach(d, joint[0]);
         f.middle = fw_add(f.middle, begin + fw_layout_rule.pedestal_share * (cut - begin),
                           side->direction);
+        f.axis = side->direction;
+        f.reach = fw_layout_rule.pedestal_share * (cut - begin);
         f.half = fw_layout_rule.pedestal_widths * side->half_width_m;
         if (d->device->die.anchor_m > 0.0) f.half = 0.5 * d->device->die.anchor_m;
     }
@@ -57,58 +73,75 @@ static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
         if (d->device->die.anchor_m > 0.0) f.half = 0.5 * d->device->die.anchor_m;
         f.half = fmin(f.half, f.reach);
     }
+    f.least = d->device->die.anchor_m > 0.0 ? f.half : side->half_width_m;
     return f;
 }
 
-static double side_distance(const fw_layout *l, fw_layout_window_side side, fw_geometry_vec2 p) {
-    return fabs(fw_dot(fw_sub(fw_layout_window_point(l, side, 0.0, 0.0), p),
-                       fw_layout_window_outward(side)));
+void fw_layout_sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
+                                 fw_layout_window_side order[4]) {
+    double far[4];
+    for (int i = 0; i < 4; i++) {
+        fw_layout_window_side s = (fw_layout_window_side)i;
+        far[i] =
+            fw_dot(fw_sub(fw_layout_window_point(l, s, 0.0, 0.0), p), fw_layout_window_outward(s));
+        int k = i;
+        for (; k > 0 && far[order[k - 1]] > far[i] + 1e-9; k--)
+            order[k] = order[k - 1];
+        order[k] = s;
+    }
 }
 
-/* one base: heads at its ground hinges, a bar between them, and a pedestal to the nearest side of
-   the window that it reaches freely */
-static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int only) {
-    foot f = choose_foot(d, joint, n);
-    bool tried[4] = {false, false, false, false};
-    for (int round = 0; round < 4; round++) {
-        fw_layout_window_side side = FW_LEFT;
-        double best = HUGE_VAL;
-        for (int s = 0; s < 4; s++) {
-            double far = side_distance(d->layout, (fw_layout_window_side)s, f.middle);
-            if (!tried[s] && far < best - 1e-9) {
-                best = far;
-                side = (fw_layout_window_side)s;
-            }
-        }
-        tried[side] = true;
-        fw_geometry_vec2 out = fw_layout_window_outward(side);
-        bool up = out.x != 0.0;
-        double across = up ? f.middle.x : f.middle.y, along = up ? f.middle.y : f.middle.x;
-        double slope = 0.0, half = f.half;
-        if (n == 2) {
-            double t = up ? f.axis.y : f.axis.x, o = up ? f.axis.x : f.axis.y;
-            if (fabs(t) < 0.5) continue; /* the bar points at this side */
-            slope = o / t;
-            half = fmin(half, f.reach * fabs(t));
-        }
-        if (half < 0.5 * fw_layout_rule.tether_m) continue;
-        fw_layout_attachment a = {.body = FW_GROUND};
-        double at = fw_layout_to_grid(along);
-        double low = across + slope * (at - half - along),
-               high = across + slope * (at + half - along);
-        FW_TRY(fw_layout_strip_draw(d, side, low, high, at, half, fw_layout_rule.stub_m, &a));
-        bool clear;
-        FW_TRY(clear_of_all(d, &a.finger, &clear));
-        if (!clear) continue;
-        fw_geometry_contour pedestal = a.finger;
-        a.finger = (fw_geometry_contour){NULL, 0};
-        FW_TRY(fw_layout_attachment_add(d, &a));
-        return fw_layout_body_draw(d, FW_GROUND, only, &pedestal, 1);
+/* A pedestal as wide as is wanted where the foot is, on the nearest side that it reaches freely; where there is none,
+   narrower ones and beside that place, but for an anchor whose width is stated. Turned against the frame a bar has
+   less room between the places of its two hinges: seen from a side it is shorter, and these are not. */
+typedef struct attempt {
+    double width,
+        aside; /* shares: of half the width; of half the bar, or of the way along a spoke */
+} attempt;
+static const attempt fw_attempt[] = {{1.0, 0.0},  {0.7, 0.0},   {0.5, 0.0},  {0.35, 0.0},
+                                     {0.5, 0.3},  {0.5, -0.3},  {0.25, 0.5}, {0.25, -0.5},
+                                     {0.25, 0.7}, {0.25, -0.7}, {0.25, 0.0}};
+enum { ATTEMPTS = sizeof fw_attempt / sizeof fw_attempt[0] };
+
+/* why there is none, or NULL */
+static fw_status draw_pedestal(fw_layout_drawing *d, const foot *f, int n, attempt t,
+                               fw_layout_window_side side, fw_layout_attachment *a,
+                               const char **why) {
+    const bool whole = t.width == 1.0 && t.aside == 0.0;
+    const bool up = fabs(fw_layout_window_outward(side).x) > 0.5;
+    const fw_geometry_vec2 middle = fw_add(f->middle, t.aside * f->reach, f->axis);
+    double across = up ? middle.x : middle.y, along = up ? middle.y : middle.x;
+    double slope = 0.0, half = t.width * f->half;
+    *why = "its own bar points";
+    if (n == 2) {
+        double s = up ? f->axis.y : f->axis.x, o = up ? f->axis.x : f->axis.y;
+        if (fabs(s) < 0.5) return FW_OK;
+        slope = o / s;
+        half = fmin(half, (1.0 - fabs(t.aside)) * f->reach * fabs(s));
     }
+    *why = "its own hinges leave no room";
+    if (half < (whole ? 0.5 * fw_layout_rule.tether_m : f->least)) return FW_OK;
+    double at = fw_layout_to_grid(along);
+    double low = across + slope * (at - half - along), high = across + slope * (at + half - along);
+    *a = (fw_layout_attachment){.body = FW_GROUND};
+    *why = NULL;
+    return fw_layout_strip_draw(d, side, low, high, at, half, fw_layout_rule.stub_m, a);
+}
+
+/* what lies between a base and each side, the nearest first, of the narrowest pedestal at its middle */
+static fw_status say_no_way(fw_layout_drawing *d, const int *joint, int n,
+                            const fw_layout_window_side order[4], const in_way way[4]) {
+    static const char *const side_name[] = {
+        [FW_LEFT] = "left", [FW_RIGHT] = "right", [FW_BOTTOM] = "lower", [FW_TOP] = "upper"};
+    const char *all = "";
+    for (int i = 0; i < 4; i++)
+        FW_NEED(all = fw_arena_printf(d->arena, "%s%sto the %s %s %s%s", all, i ? ", " : "",
+                                      side_name[order[i]], i ? "one" : "side", way[i].name,
+                                      i || way[i].own ? "" : " is in the way"));
     fw_diag_error(d->diags, 128, d->device->revolute[joint[0]].place,
                   "the base at ground %s%s cannot reach the frame on any side without crossing "
-                  "a moving part; move the ground hinges to the rim of the mechanism%s",
-                  FW_NAMED("hinge", d->device->revolute[joint[0]].id),
+                  "a moving part (%s); move the ground hinges to the rim of the mechanism%s",
+                  FW_NAMED("hinge", d->device->revolute[joint[0]].id), all,
                   n == 2 ? ". These two have one base between them, which nothing that moves may "
                            "cross: put both on one side of what they hold, or add a third ground "
                            "hinge, with which each stands on a base of its own"
@@ -116,8 +149,38 @@ static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int on
     fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint[0]));
     fault.body[fault.nbody++] = FW_GROUND;
     fault.joint[fault.njoint++] = joint[0];
+    for (int i = 0; i < 4 && fault.nbody == 1 && fault.njoint == 1; i++) {
+        if (way[i].body != FW_NONE) fault.body[fault.nbody++] = way[i].body;
+        if (way[i].joint != FW_NONE && way[i].joint != joint[0])
+            fault.joint[fault.njoint++] = way[i].joint;
+    }
     FW_TRY(fw_layout_fault_keep(d, fault));
     return FW_GEOMETRY;
+}
+
+/* one base: heads at its ground hinges, a bar between them, and a pedestal */
+static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int only) {
+    const foot f = choose_foot(d, joint, n);
+    fw_layout_window_side order[4];
+    in_way way[4];
+    fw_layout_sides_by_distance(d->layout, f.middle, order);
+    for (int k = 0; k < ATTEMPTS; k++)
+        for (int i = 0; i < 4; i++) {
+            fw_layout_attachment a;
+            in_way here;
+            const char *why;
+            FW_TRY(draw_pedestal(d, &f, n, fw_attempt[k], order[i], &a, &why));
+            if (why && k == 0) way[i] = (in_way){why, FW_NONE, FW_NONE, true};
+            if (why) continue;
+            FW_TRY(find_in_way(d, &a.finger, &here));
+            if (here.name && fw_attempt[k].aside == 0.0) way[i] = here;
+            if (here.name) continue;
+            fw_geometry_contour pedestal = a.finger;
+            a.finger = (fw_geometry_contour){NULL, 0};
+            FW_TRY(fw_layout_attachment_add(d, &a));
+            return fw_layout_body_draw(d, FW_GROUND, only, &pedestal, 1);
+        }
+    return say_no_way(d, joint, n, order, way);
 }
 
 /* one base for two ground hinges; with more, every hinge has its own to the frame */

@@ -5,7 +5,9 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "layout/draw.h"
+#include "layout/layout_text.h"
 #include <math.h>
+#include <string.h>
 
 /* elastic centre from O, by the same function as the mechanics use */
 static double hinge_centre(const fw_device_flexure *flexure, double fillet_m) {
@@ -428,4 +430,26 @@ bool fw_layout_path_in_the_way(const fw_device_flexure *f, const fw_layout_hinge
             (f->kind == FW_FLEXURE_PATH && crosses_itself(&plan->side[i].head)))
             return true;
     return false;
+}
+
+/* the fillets of a flexure, which the file states of it: once, at whatever bodies and hinges it ends */
+fw_status fw_layout_say_fillet(fw_layout_drawing *d, int joint, const char *label,
+                               fw_geometry_vec2 at, double least_m) {
+    const fw_layout_hinge_layout *h = &d->layout->hinge[joint];
+    char x[32], y[32], value[32], limit[32];
+    const char *id = d->device->flexure[d->device->revolute[joint].flexure].id;
+    const char *what =
+        fw_arena_printf(d->arena, "the fillets at the ends of %s%s have", FW_NAMED("flexure", id));
+    FW_NEED(what);
+    for (size_t i = 0; i < d->diags->count; i++)
+        if (strncmp(d->diags->item[i].message, what, strlen(what)) == 0) return FW_OK;
+    fw_diag_warning(d->diags, 138, h->place,
+                    "%s a radius of only %s um, as at %s by %s%s, at (%s, %s) um; the layout's own "
+                    "rule is %s um, so that every mask "
+                    "shows it: state a fillet of %s um or more, or see whether the rules of the "
+                    "mask accept it",
+                    what, fw_layout_um(value, h->fillet_m), label,
+                    FW_NAMED("hinge", d->device->revolute[joint].id), fw_layout_um(x, at.x),
+                    fw_layout_um(y, at.y), fw_layout_um(limit, least_m), limit);
+    return FW_OK;
 }

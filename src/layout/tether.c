@@ -30,7 +30,19 @@ static fw_status draw_tether(fw_layout_drawing *d, double at, double cut, fw_lay
                                      fw_layout_rule.corner_m, &a->tether, &where);
 }
 
-/* body with one more stub, rounded as without it; not done when the stub does not fit there */
+/* is this edge one of the outline's, a cut of it? */
+static bool has_cut(const fw_geometry_contour *c, fw_geometry_vec2 a, fw_geometry_vec2 b) {
+    for (int i = 0; i < c->count; i++) {
+        const fw_geometry_segment *s = &c->segment[i];
+        const bool same = (vec_same(s->a, a) && vec_same(s->b, b)) ||
+                          (vec_same(s->a, b) && vec_same(s->b, a)); /* sides of the window differ */
+        if (same && (s->flags & FW_SEGMENT_JOINT)) return true;
+    }
+    return false;
+}
+
+/* Body with one more stub, rounded as without it; not done when the stub does not fit there, or does not end
+   outside of the body: the finger would then run into it and be as wide as it is, without a neck. */
 static fw_status add_stub(fw_layout_drawing *d, int body, double at, double cut, double deep,
                           fw_layout_window_side side, bool *done) {
     const fw_layout_local world = {{0.0, 0.0}, 1.0, 0.0, false};
@@ -49,6 +61,7 @@ static fw_status add_stub(fw_layout_drawing *d, int body, double at, double cut,
         status = fw_geometry_contour_round(d->arena, &both.contour[0], r, r, &held, &where);
     if (status == FW_GEOMETRY || (status == FW_OK && both.count != 1)) return FW_OK;
     FW_TRY(status);
+    if (!has_cut(&held, p[1], p[2])) return FW_OK;
     d->raw[body] = both.contour[0];
     d->held[body] = held;
     *done = true;

@@ -83,13 +83,14 @@ bool fw_layout_finger_leaves_once(const fw_layout_drawing *d, const fw_layout_at
 }
 
 /* where a line straight outwards leaves the body, as depth in the window: inside at `deep`, outside
-   at the window's edge, once in between */
+   at the window's edge, once in between; NaN: it is not inside at `deep`, as where the body is just as
+   thick as a finger begins below its edge */
 static double edge_depth(const fw_layout_drawing *d, const fw_layout_attachment *a, double along,
                          double deep) {
     double in = deep, out = 0.0;
     const fw_geometry_contour *body = &d->plain[a->body];
     if (!fw_geometry_contour_contains(body, fw_layout_window_point(d->layout, a->side, along, in)))
-        return deep;
+        return (double)NAN;
     while (in - out > 1e-9) {
         double middle = 0.5 * (in + out);
         if (fw_geometry_contour_contains(body,
@@ -106,24 +107,11 @@ double fw_layout_finger_cut(const fw_layout_drawing *d, const fw_layout_attachme
     double r = d->corner_m[a->body], far = 0.5 * fw_layout_rule.tether_neck_m + r;
     double low = edge_depth(d, a, at - far, deep), high = edge_depth(d, a, at + far, deep);
     double middle = edge_depth(d, a, at, deep), slope = (high - low) / (2.0 * far);
+    if (isnan(low) || isnan(middle) || isnan(high)) return -1.0;
     double cut =
         fmin(middle, fmin(low, high)) - r * hypot(1.0, slope) - fw_layout_rule.neck_straight_m;
     return middle - cut < fw_layout_rule.tether_cut_m ? fw_layout_to_grid(cut)
                                                       : -1.0; /* else: no straight edge */
-}
-
-void fw_layout_sides_by_distance(const fw_layout *l, fw_geometry_vec2 p,
-                                 fw_layout_window_side order[4]) {
-    double far[4];
-    for (int i = 0; i < 4; i++) {
-        fw_layout_window_side s = (fw_layout_window_side)i;
-        far[i] =
-            fw_dot(fw_sub(fw_layout_window_point(l, s, 0.0, 0.0), p), fw_layout_window_outward(s));
-        int k = i;
-        for (; k > 0 && far[order[k - 1]] > far[i] + 1e-9; k--)
-            order[k] = order[k - 1];
-        order[k] = s;
-    }
 }
 
 fw_layout_ray_hit fw_layout_finger_edge(const fw_layout_drawing *d, int body,

@@ -344,6 +344,8 @@ static void clearance_row(fw_text *out, const fw_verdict_clearance *c) {
               c->flow ? c->flow : "", l->at.a, l->at.b);
     if (l->m <= 0)
         fw_markup(out, "<td>they meet</td><td></td>");
+    else if (fw_clearance_has_no_band(l))
+        fw_markup(out, "<td>{u}</td><td>not known</td>", c->m, "m");
     else
         fw_markup(out, "<td>{u}</td><td>{u} to {u}</td>", c->m, "m", c->low_m, "m", c->high_m, "m");
     if (c->required_m > 0)

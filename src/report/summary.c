@@ -109,7 +109,7 @@ static const char *way_text(fw_arena *arena, const fw_verdict *v,
                            most == least ? "" : " in ", most == least ? "" : most->scene);
 }
 
-/* the least of all scenes and required poses; what meets is among the reasons already */
+/* the least of all scenes and required poses; what meets, or is not known, is among the reasons already */
 static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     const fw_verdict_clearance *least = NULL;
     char drawn[32], low[32], high[32];
@@ -118,7 +118,7 @@ static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary
             const fw_verdict_clearance *c = &v->variant[i].clearance[k];
             if (!least || c->low_m < least->low_m) least = c;
         }
-    if (!least || least->least.m <= 0) return FW_OK;
+    if (!least || least->least.m <= 0 || !isfinite(least->low_m)) return FW_OK;
     const char *way = way_text(arena, v, least);
     FW_NEED(way);
     return add(s, "nearest",
@@ -273,9 +273,18 @@ static fw_status outside(fw_arena *arena, const fw_report_input *in, fw_report_s
                fw_arena_printf(arena, "%s [FW-D%03d]%s", first->text, first->number, more));
 }
 
+/* what a scene ended before is not in the verdict, whatever that is */
+static fw_status ends_early(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
+    for (int i = 0; i < v->nvariant; i++)
+        if (v->variant[i].ends_early)
+            return add(s, "not judged",
+                       fw_arena_printf(arena, "%s [FW-D691]", v->variant[i].ends_early));
+    return FW_OK;
+}
+
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     const fw_verdict *v = in->verdict;
-    size_t most = 7 + 2 * (size_t)in->nflow;
+    size_t most = 8 + 2 * (size_t)in->nflow;
     for (int i = 0; i < v->nvariant; i++)
         most += (size_t)v->variant[i].nreason;
     const int all = FW_CHECK_HINGES | FW_CHECK_REQUIREMENTS;
@@ -298,6 +307,7 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
     if (rejected) FW_TRY(undecided(arena, v, s));
     FW_TRY(required(arena, v, s));
     FW_TRY(nearest(arena, v, s));
+    FW_TRY(ends_early(arena, v, s));
     FW_TRY(outside(arena, in, s));
     return rejected ? FW_OK : guarantees(arena, in, s);
 }

@@ -248,14 +248,15 @@ static void report_cost(const fw_device_scene *scene, const fw_effect_ledger *le
                         double accuracy, fw_diags *diags) {
     const fw_effect_entry *entry = inertia_of(ledger);
     char text[32];
-    if (!entry || entry->bound < accuracy) return;
+    if (!entry || (entry->bound < accuracy && !entry->looked_at)) return;
     fw_number_text(text, sizeof text, 100 * entry->bound, 2);
     fw_diag_warning(diags, 254, scene->place,
                     "%s%s is computed as a quasi-static sequence of equilibria, because "
-                    "--effects excludes inertia: deflections may be wrong by %s%s",
+                    "--effects excludes inertia: deflections may be wrong by %s%s%s",
                     FW_NAMED("scene", fw_text_name(scene->name)),
                     isinf(entry->bound) ? "an amount that is not bounded" : text,
-                    isinf(entry->bound) ? "; use --effects all or auto to include it" : " %");
+                    isinf(entry->bound) ? "; use --effects all or auto to include it" : " %",
+                    entry->looked_at ? ", and what goes by velocities by all of it" : "");
 }
 
 static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_device_scene *scene,

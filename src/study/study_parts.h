@@ -277,7 +277,7 @@ typedef struct fw_study_axes {  /* numbers in which devices differ by chance */
     int n;
     double *chance; /* room for one device */
 } fw_study_axes;
-/* draws all devices; room: a sample. kind_sweep.c */
+/* draws all devices; room: a sample. study_made.c */
 fw_status fw_study_axes_find(const fw_study *study, const fw_study_points *points,
                              fw_study_sample *room, fw_study_axes *axes);
 /* z (nvary + axes->n) from -1 to 1 */

@@ -9,43 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- what is drawn of a body ---- */
-
-static int parts_of(const fw_geometry_segment *s) {
-    double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
-    return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
-}
-
-bool fw_verdict_is_of(const fw_layout_piece *p, int body) {
-    return p->body == body && p->role == FW_ROLE_STRUCTURE;
-}
-
-fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int body,
-                                fw_verdict_line **line, int *n) {
-    size_t most = 0;
-    for (int i = 0; i < layout->npiece; i++) {
-        const fw_geometry_contour *c = &layout->piece[i].contour;
-        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++)
-            most += (size_t)parts_of(&c->segment[k]);
-    }
-    FW_NEED(*line = fw_arena_array(arena, fw_verdict_line, most));
-    *n = 0;
-    for (int i = 0; i < layout->npiece; i++) {
-        const fw_geometry_contour *c = &layout->piece[i].contour;
-        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++) {
-            const fw_geometry_segment *s = &c->segment[k];
-            int parts = parts_of(s);
-            fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
-            for (int j = 0; j < parts; j++) {
-                fw_geometry_vec2 to = fw_geometry_segment_point(s, (double)(j + 1) / parts);
-                (*line)[(*n)++] = (fw_verdict_line){from, to, !(s->flags & FW_SEGMENT_JOINT), i};
-                from = to;
-            }
-        }
-    }
-    return FW_OK;
-}
-
 /* ---- straight cuts through a body with holes ----
    Whatever the stress is, over a cut that parts an end from the body's hinges it comes to what acts on either side. */
 
@@ -343,13 +306,14 @@ static double material_of_cut(const fw_verdict_pierced *body, fw_geometry_vec2 a
 }
 
 /* of what lies from `from` to `to` along `along`, and all beyond: bend[0] is the integral of M/w, bend[1] that of M (to - s)/w,
-   bend[2] that of 12 M (to - s)/w^3 + 3.2 A/w; beyond: where the outline ends */
+   bend[2] that of 12 M (to - s)/w^3 + 3.2 A/w, bend[3] the largest 6 M/w^2 in the plane, w^3 the sum of its pieces' cubes;
+   beyond: where the outline ends */
 static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, double from,
-                        double to, double beyond, double bend[3]) {
+                        double to, double beyond, double bend[4]) {
     const double least = 1e-3 * (beyond - from), step = (beyond - from) / STATIONS;
     const double least_cubes = pow(least, 3);
     double area = 0, moment = 0;
-    bend[0] = bend[1] = bend[2] = 0;
+    bend[0] = bend[1] = bend[2] = bend[3] = 0;
     for (int i = STATIONS - 1; i >= 0; i--) {
         const double s = from + (i + 0.5) * step;
         double cubes;
@@ -362,6 +326,7 @@ static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, 
         bend[2] +=
             (12 * here * (to - s) / fmax(cubes, least_cubes) + 3.2 * cut / fmax(wide, least)) *
             step;
+        bend[3] = fmax(bend[3], 6 * here / pow(fmax(cubes, least_cubes), 2.0 / 3));
         bend[0] += here / fmax(wide, least) * step;
         bend[1] += here * (to - s) / fmax(wide, least) * step;
     }
@@ -378,7 +343,7 @@ static double farthest_along(const fw_verdict_pierced *body, fw_geometry_vec2 al
 static double turned_at(const fw_verdict_pierced *body, fw_geometry_vec2 root,
                         fw_geometry_vec2 middle) {
     const fw_geometry_vec2 off = vec_sub(root, middle);
-    double lever = 0, bend[3];
+    double lever = 0, bend[4];
     if (!(vec_length(off) > 0)) return 0;
     const fw_geometry_vec2 along = vec_unit(off);
     for (int i = 0; i < body->n; i++)
@@ -390,12 +355,12 @@ static double turned_at(const fw_verdict_pierced *body, fw_geometry_vec2 root,
 
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
                               int body, const fw_verdict_line *line, int nline,
-                              double m_per_m_s2[2]) {
+                              fw_verdict_hung *hung) {
     fw_verdict_pierced outline = {.line = line, .n = nline};
     fw_geometry_vec2 *held;
     int nheld = 1;
-    double most = 0, plane = 0;
-    m_per_m_s2[0] = m_per_m_s2[1] = 0;
+    double most = 0, plane = 0, strained = 0;
+    *hung = (fw_verdict_hung){0};
     FW_NEED(held = fw_arena_array(arena, fw_geometry_vec2, 2 * (size_t)m->nhinge + 1));
     FW_NEED(outline.room = fw_arena_array(arena, double, (size_t)outline.n + 1));
     FW_TRY(fw_verdict_pierced_boxes(arena, &outline));
@@ -411,19 +376,188 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
         const double angle = i * FW_TURN / WAYS_OUT,
                      to = farthest_along(&outline, (fw_geometry_vec2){cos(angle), sin(angle)});
         const fw_geometry_vec2 along = {cos(angle), sin(angle)};
-        double from = -HUGE_VAL, bend[3];
+        double from = -HUGE_VAL, bend[4];
         for (int k = 0; k < nheld; k++)
             from = fmax(from, vec_dot(held[k], along));
         if (!(to - from > m->variant->thickness_m)) continue; /* thick: it does not bend */
         bent_beyond(&outline, along, from, to, to, bend);
         most = fmax(most, between_ways * bend[1]);
         plane = fmax(plane, between_in_plane * bend[2]);
+        strained = fmax(strained, between_ways * bend[3]);
     }
     if (nheld == 2) most += turned_at(&outline, held[1], held[0]);
     const double area = m->shape[body].area_m2, h = m->variant->thickness_m;
     const double rigid = m->variant->material.youngs.value * h * h * h;
     if (!(area > 0) || !(rigid > 0)) return FW_OK;
-    m_per_m_s2[0] = 12 * m->body[body].mass_kg / area * most / rigid;
-    m_per_m_s2[1] = m->body[body].mass_kg / area * plane / (rigid / (h * h));
+    const double kg_per_m2 = m->body[body].mass_kg / area;
+    hung->across_s2 = 12 * kg_per_m2 * most / rigid;
+    hung->in_plane_s2 = kg_per_m2 * plane / (rigid / (h * h));
+    hung->Pa_per_m_s2 = kg_per_m2 / h * strained;
     return FW_OK;
+}
+
+/* ---- what hangs over bends in the plane ----
+   Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
+   displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
+   turns by for F = E h, r how far the body reaches beyond; twice that, since a sudden load does twice what it does at rest.
+   What shaking and weight do to what reaches farther: arm_rims.c. Test: test_out_of_plane.py InThePlane */
+
+static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
+                                const fw_verdict_load_end *end, double *beyond_m) {
+    const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
+                           off = vec_sub(end->at, middle);
+    fw_verdict_line *line;
+    int n;
+    *beyond_m = 0;
+    if (!(vec_length(off) > 0)) return FW_OK;
+    const fw_geometry_vec2 along = vec_unit(off);
+    FW_TRY(fw_verdict_body_lines(arena, m->layout, end->body, &line, &n));
+    for (int i = 0; i < n; i++)
+        *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
+    return FW_OK;
+}
+
+/* what all loads bend that act on the same side of a body's middle as this one */
+static double on_one_side(const fw_mechanism *m, const fw_verdict_load_end *end, const double *by,
+                          int n, int k) {
+    const fw_geometry_vec2 middle = {m->drawn[end[k].body].x_m, m->drawn[end[k].body].y_m},
+                           off = vec_sub(end[k].at, middle);
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        if (end[i].body == end[k].body && vec_dot(off, vec_sub(end[i].at, middle)) >= 0)
+            sum += by[i];
+    return sum;
+}
+
+/* to (nbody): how far each bends at most in a scene */
+fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                    double *to) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
+    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double sudden = 2, hardly_m = 1e-9;
+    double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
+    fw_verdict_load_end *end;
+    int n;
+    for (int i = 0; i < m->nbody; i++)
+        to[i] = 0;
+    if (!b || !b->arm || !b->rest_N) return FW_OK;
+    for (int i = 0; i < s->nbase; i++)
+        shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
+                  fw_quantity_law_largest(s->base[i].law, s->duration_s);
+    for (int i = 0; i < m->nbody; i++)
+        to[i] = shaken > 0 ? v->out_of_plane->hung[i].in_plane_s2 * shaken : 0;
+    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
+    FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
+    for (int k = 0; k < n; k++) {
+        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
+        const double *g = arm->give;
+        if (end[k].scene != scene || !arm->known) continue;
+        const double load_N =
+            isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
+        const double unit = sudden * load_N / b->stiff_N,
+                     goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        if (!(unit * goes > hardly_m)) continue;
+        FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
+        by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
+    }
+    for (int k = 0; k < n; k++)
+        most[end[k].body] = fmax(most[end[k].body], on_one_side(m, end, by, n, k));
+    for (int i = 0; i < m->nbody; i++)
+        to[i] += most[i];
+    return FW_OK;
+}
+
+/* ---- and bears what shakes it ---- */
+
+/* Where a mode swings that what hangs over may lower, its own ways are left (resonance.c). Here is what it bears as it is
+   shaken itself: its own mode lies between these times 1/sqrt(droop per acceleration), from a load at its end to one all along. */
+static double shaken_by(const fw_device_scene *s, const fw_verdict_hung *hung) {
+    const double lowest = 0.95, highest = 1.4, root = sqrt(hung->in_plane_s2);
+    double most = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
+    for (int i = 0; i < s->nbase && root > 0; i++) {
+        const double size = hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2);
+        if (size > 0)
+            most += size * fw_quantity_law_answer(s->base[i].law, s->duration_s, lowest / root,
+                                                  highest / root);
+    }
+    return most;
+}
+
+fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double corners = 3;
+    const fw_flexure_limit *limit =
+        m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
+    double worst = 1;
+    int body = FW_NONE;
+    for (int i = 0; limit && v->motion[scene] && i < m->nbody; i++) {
+        const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
+        const double share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
+                             (limit->allowable_Pa / m->device->safety_factor);
+        if (share > worst) worst = share, body = i;
+    }
+    if (body == FW_NONE) return FW_OK;
+    char high[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s%s %s%s is not known to bear its own weight as it is shaken, where it reaches beyond "
+        "its hinges and "
+        "its middle: at most %s %% of what is allowed, corners counted three times; make it wider "
+        "or shorter there",
+        FW_NAMED("scene", s->name), FW_NAMED("body", fw_text_name(m->body[body].id)),
+        isfinite(worst) ? fw_number_text(high, sizeof high, 100 * worst, 3) : "any number of");
+    FW_NEED(text);
+    return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
+}
+
+/* ---- what is said of surfaces that a scene closes (verdict_stiction.c judges them) ---- */
+
+static const char *uN(char *to, size_t size, double force_N) {
+    return fw_number_text(to, size, 1e6 * force_N, 3);
+}
+
+static const char *not_known(fw_arena *arena, const fw_verdict_stuck *s) {
+    char opens[32];
+    const char *opened = "";
+    if (s->opens_N[0] > 0)
+        opened = fw_arena_printf(arena, " (flexures open it with %s uN)",
+                                 uN(opens, sizeof opens, s->opens_N[0]));
+    if (!opened) return NULL;
+    return fw_arena_printf(
+        arena,
+        "%s%s touches in %s%s, and whether it comes free again is not known: %s%s; let it touch a "
+        "bump (b is its centre, distance its radius), or leave it more room",
+        FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), s->why, opened);
+}
+
+const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *s,
+                                  double adhesion_J_per_m2) {
+    char low[32], holds[32], opens[32], least[32], times[32];
+    const bool sure = s->decision == FW_REJECT;
+    const double share = s->opens_N[0] / s->holds_N[1];
+    if (s->contact && s->why) return not_known(arena, s);
+    uN(low, sizeof low, s->holds_N[0]);
+    uN(holds, sizeof holds, s->holds_N[1]);
+    uN(opens, sizeof opens, s->opens_N[sure]);
+    if (!s->contact)
+        return fw_arena_printf(
+            arena,
+            "the surfaces of %s%s may meet in %s%s and stay closed: adhesion may hold them with up "
+            "to %s uN, and the flexure opens them with %s uN; a wider gap, a stiffer flexure or "
+            "surfaces that hold less (surface.adhesion of the flow) let them go",
+            FW_NAMED("hinge", s->hinge), FW_NAMED("scene", s->scene), holds, opens);
+    return fw_arena_printf(
+        arena,
+        "%s%s touches in %s%s and %s closed: adhesion holds it with %s to %s uN over the height of "
+        "the layer, and the flexures open it with %s uN; it comes free for sure of surfaces that "
+        "hold at most %s mJ/m2 (a coating, or surface.adhesion as measured), by flexures or a gap "
+        "%s times as stiff or wide, and the sooner the smaller its radius is",
+        FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), sure ? "stays" : "may stay",
+        low, holds, opens,
+        fw_number_text(least, sizeof least, 1e3 * adhesion_J_per_m2 * pow(share, 1.5), 2),
+        fw_number_text(times, sizeof times, 1 / share, 3));
 }

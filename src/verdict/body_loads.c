@@ -27,7 +27,7 @@ double fw_verdict_load_N(const fw_verdict_load_end *end, int n, int at, const do
      what it holds up goes farther by at most c k of its way, and by at most U_c/U_h, U_c = F^2 c/2 (Castigliano)
 
    which is what counts beside what bodies give between their hinges. In: forces of the rigid motion, without damping.
-   Range: to first order. Cost: none where c k < 1/500. Test: test_effects.py -k slender */
+   Range: to first order. Cost: none where c k < 1/500. Test: test_effects.py SlenderArms */
 
 enum { PORTS_SEEN = 16 };
 static const double hardly_gives = 0.002; /* c k */
@@ -45,8 +45,8 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scen
         const double goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
         if (isfinite(end[k].known_N))
             b->stated_J += 0.5 * end[k].known_N * end[k].known_N * goes / b->stiff_N;
-        if (!end[k].id) continue;
         b->place[b->nplace++] = (fw_verdict_place){.body = end[k].body,
+                                                   .force = end[k].force,
                                                    .x_m = end[k].x_m,
                                                    .y_m = end[k].y_m,
                                                    .id = end[k].id,
@@ -76,27 +76,36 @@ fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *m, const f
     return FW_OK;
 }
 
-/* what acts there in this run: an element of that name with a port at the place, that goes by how the place goes */
+/* what acts there in this run: an element of that name with a port at the place; does it go by how the place goes? */
 static void find_element(fw_verdict_place *at, const fw_effects_loads *loads) {
     const double same_m = 1e-9;
     at->element = NULL, at->stiff_N_per_m = 0;
-    for (int i = 0; i < loads->nelement && !at->element; i++) {
+    for (int i = 0; at->id && i < loads->nelement && !at->element; i++) {
         const fw_effects_force_element *e = &loads->element[i];
-        if (!e->id || strcmp(e->id, at->id) != 0 || e->class_->electrodes || e->pin != FW_NONE)
+        if (!e->id || strcmp(e->id, at->id) != 0 || e->class_->electrodes || e->pin != FW_NONE ||
+            e->ports > PORTS_SEEN || e->switches > PORTS_SEEN)
             continue;
         for (int k = 0; k < e->ports && !at->element; k++)
             if (e->port[k].body == at->body && fabs(e->port[k].x_m - at->x_m) < same_m &&
-                fabs(e->port[k].y_m - at->y_m) < same_m &&
-                at->m_per_N * e->size_N_per_m > hardly_gives)
-                at->element = e, at->port = k, at->stiff_N_per_m = e->size_N_per_m;
+                fabs(e->port[k].y_m - at->y_m) < same_m)
+                at->element = e, at->port = k;
     }
+    if (at->element && at->m_per_N * at->element->size_N_per_m > hardly_gives)
+        at->stiff_N_per_m = at->element->size_N_per_m;
 }
 
-static double pressed_N(const fw_verdict_place *at, const fw_dynamics_instant *now) {
+/* force and couple that act on a place now, N, N, N m, world */
+static void acts_on(const fw_verdict_place *at, const fw_dynamics_instant *now, double acts[3],
+                    double *stored_J) {
     const fw_effects_force_element *e = at->element;
-    double p[3 * PORTS_SEEN], w[3 * PORTS_SEEN], f[3 * PORTS_SEEN];
+    double p[3 * PORTS_SEEN], w[3 * PORTS_SEEN], f[3 * PORTS_SEEN], law[3] = {1};
     bool on[PORTS_SEEN] = {false};
-    if (e->ports > PORTS_SEEN || e->switches > PORTS_SEEN) return HUGE_VAL;
+    acts[0] = acts[1] = acts[2] = 0;
+    if (at->force) {
+        if (at->force->law) fw_quantity_law_value(at->force->law, now->t_s, now->piece_s, law);
+        acts[0] = at->force->fx_N * law[0], acts[1] = at->force->fy_N * law[0];
+    }
+    if (!e) return;
     fw_effects_element_place_ports(e, now->q, NULL, p, w);
     const fw_effects_port_state seen = {.t_s = now->t_s,
                                         .piece_s = now->piece_s,
@@ -108,12 +117,21 @@ static double pressed_N(const fw_verdict_place *at, const fw_dynamics_instant *n
     for (int i = 0; i < e->switches; i++)
         on[i] = e->class_->switch_value && e->class_->switch_value(e, &seen, i) > 0;
     e->class_->force(e, &seen, f);
-    return hypot(f[3 * at->port], f[3 * at->port + 1]);
+    memcpy(acts, f + 3 * at->port, 3 * sizeof *acts);
+    if (stored_J && e->class_->energy) *stored_J += e->class_->energy(e, &seen);
+}
+
+/* of the places of one element the first that counts */
+static bool is_first(const fw_verdict_bending *b, int place) {
+    for (int i = 0; i < place; i++)
+        if (b->place[i].element == b->place[place].element && b->place[i].stiff_N_per_m > 0)
+            return false;
+    return true;
 }
 
 void fw_verdict_places_record(fw_verdict_bending *b, const fw_dynamics_instant *now) {
     if (!now) {
-        b->loads = NULL, b->places_J = 0;
+        b->loads = NULL, b->places_J = b->springs_J = 0, b->acted_J = HUGE_VAL;
         for (int i = 0; i < b->nplace; i++)
             b->place[i].force_N = 0;
         return;
@@ -121,9 +139,15 @@ void fw_verdict_places_record(fw_verdict_bending *b, const fw_dynamics_instant *
     for (int i = 0; now->loads != b->loads && i < b->nplace; i++)
         find_element(&b->place[i], now->loads);
     b->loads = now->loads;
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element)
-            b->place[i].force_N = fmax(b->place[i].force_N, pressed_N(&b->place[i], now));
+    double stored_J = 0;
+    for (int i = 0; i < b->nplace; i++) {
+        fw_verdict_place *at = &b->place[i];
+        if (!(at->stiff_N_per_m > 0)) continue;
+        double acts[3];
+        acts_on(at, now, acts, is_first(b, i) ? &stored_J : NULL);
+        at->force_N = fmax(at->force_N, hypot(acts[0], acts[1]));
+    }
+    b->springs_J = fmax(b->springs_J, stored_J);
 }
 
 /* c k of all places of one thing, and what they store */
@@ -132,7 +156,7 @@ static double in_series(const fw_verdict_bending *b, const char *id, double *sto
     *stored_J = 0;
     for (int i = 0; i < b->nplace; i++) {
         const fw_verdict_place *at = &b->place[i];
-        if (!at->element || !(at->force_N > 0) || strcmp(at->id, id) != 0) continue;
+        if (!(at->force_N > 0) || strcmp(at->id, id) != 0) continue;
         const double passes = at->port > 0 && at->port + 1 < at->element->ports ? 4 : 1;
         share += passes * at->m_per_N * at->stiff_N_per_m;
         *stored_J += 0.5 * at->force_N * at->force_N * at->m_per_N;
@@ -144,21 +168,22 @@ void fw_verdict_places_end(fw_verdict_bending *b) {
     for (int i = 0; i < b->nplace; i++) {
         const fw_verdict_place *at = &b->place[i];
         double all_J, own_J = 0.5 * at->force_N * at->force_N * at->m_per_N;
-        if (!at->element || !(at->force_N > 0)) continue;
+        if (!(at->force_N > 0)) continue;
         const double most_J = in_series(b, at->id, &all_J) * b->hinges_J;
-        if (isfinite(all_J)) own_J *= fmin(1, most_J / all_J);
-        if (!isfinite(all_J)) own_J = most_J;
+        own_J *= fmin(1, most_J / all_J);
         b->places_J += own_J;
         b->body_J[at->body] += own_J;
     }
 }
 
+double fw_verdict_bending_all_J(const fw_verdict_bending *b) {
+    return fmin(b->bodies_J + b->places_J, b->acted_J);
+}
+
 /* the first place of everything that acts on one; NULL: nothing does, or nobody looked */
 static const fw_verdict_place *first_of(const fw_verdict_bending *b, const char *id) {
     for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element && b->place[i].force_N > 0 &&
-            (!id || strcmp(b->place[i].id, id) == 0))
-            return &b->place[i];
+        if (b->place[i].force_N > 0 && strcmp(b->place[i].id, id) == 0) return &b->place[i];
     return NULL;
 }
 
@@ -173,10 +198,11 @@ double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device
     if (probe->row == FW_PROBE_IS_velocity) return b->stated_J / b->hinges_J;
     if (!probe->of || !first_of(b, probe->of)) return 0;
     for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].element && b->place[i].force_N > 0 &&
-            b->place[i].element->class_->pressing && strcmp(b->place[i].id, probe->of) != 0)
+        if (b->place[i].force_N > 0 && b->place[i].element->class_->pressing &&
+            strcmp(b->place[i].id, probe->of) != 0)
             return 0; /* what one contact does not bear another one may */
-    return -b->places_J / b->hinges_J;
+    const double all_J = fw_verdict_bending_all_J(b);
+    return fmax(all_J - b->places_J, 0) / (b->hinges_J + b->springs_J) - all_J / b->hinges_J;
 }
 
 bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N) {
@@ -184,82 +210,322 @@ bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, d
     double left = 1, stored_J;
     if (!b || !id || !first_of(b, id) || !(*low_N > 0)) return false;
     for (int i = 0; i < b->nplace; i++)
-        if (first_of(b, b->place[i].id) == &b->place[i])
+        if (b->place[i].force_N > 0 && first_of(b, b->place[i].id) == &b->place[i])
             left /= 1 + in_series(b, b->place[i].id, &stored_J);
     *low_N *= left;
     return left < 1;
 }
 
-/* ---- what hangs over bends in the plane ----
-   Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
-   displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
-   turns by for F = E h, r how far the body reaches beyond; twice that, since a sudden load does twice what it does at rest.
-   What shaking and weight do to what reaches farther: arm_rims.c. Test: test_out_of_plane.py InThePlane */
+/* ---- and in series with electrodes ----
+   Pull-in comes where the field takes the stiffness k that holds its rotor; where a place of the rotor's body gives c that is
+   k/(1 + c k), and k is what the field takes there: the largest eigenvalue of -df/dp at the pull-in voltage and pose. Test:
+   test_effects.py SlenderArms */
 
-static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
-                                const fw_verdict_load_end *end, double *beyond_m) {
-    const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
-                           off = vec_sub(end->at, middle);
-    fw_verdict_line *line;
+static double field_takes(const fw_effects_force_element *e, const fw_statics_pull_in *p,
+                          double duration_s) {
+    enum { TIMES = 64, ROTOR = 1 };
+    double at[6], w[6], stiff[36], damp[36], most = 0;
+    if (!e->class_->electrodes || e->ports != 2 || e->switches > 0) return 0;
+    fw_effects_element_place_ports(e, p->q, NULL, at, w);
+    for (int i = 0; i <= TIMES; i++) { /* wherever its law is largest */
+        const double t_s = duration_s * i / TIMES;
+        const fw_effects_port_state seen = {.t_s = t_s,
+                                            .piece_s = t_s,
+                                            .load = p->margin * p->margin,
+                                            .p = at,
+                                            .w = w,
+                                            .still = true};
+        e->class_->tangent(e, &seen, stiff, damp);
+        const double *row = stiff + 3 * ROTOR * 6 + 3 * ROTOR;
+        const double a = -row[0], b = -0.5 * (row[1] + row[6]), c = -row[7];
+        most = fmax(most, 0.5 * (a + c) + hypot(0.5 * (a - c), b));
+    }
+    return most;
+}
+
+fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                   const fw_statics_pull_in *p, double *gives) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *motion = v->motion[scene];
+    fw_verdict_load_end *end;
     int n;
-    *beyond_m = 0;
-    if (!(vec_length(off) > 0)) return FW_OK;
-    const fw_geometry_vec2 along = vec_unit(off);
-    FW_TRY(fw_verdict_body_lines(arena, m->layout, end->body, &line, &n));
-    for (int i = 0; i < n; i++)
-        *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
+    *gives = 0;
+    if (!v->arm || v->straight || !p->q || !motion || !motion->loads) return FW_OK;
+    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    for (int k = 0; k < n; k++) {
+        const double *g = v->arm[2 * m->nhinge + k].give;
+        if (end[k].scene != scene || !end[k].id || !v->arm[2 * m->nhinge + k].known) continue;
+        const double goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        for (int i = 0; i < motion->loads->nelement; i++)
+            if (motion->loads->element[i].id &&
+                strcmp(motion->loads->element[i].id, end[k].id) == 0)
+                *gives +=
+                    goes / (m->variant->material.youngs.value * m->variant->thickness_m) *
+                    field_takes(&motion->loads->element[i], p, m->device->scene[scene].duration_s);
+    }
     return FW_OK;
 }
 
-/* what all loads bend that act on the same side of a body's middle as this one */
-static double on_one_side(const fw_mechanism *m, const fw_verdict_load_end *end, const double *by,
-                          int n, int k) {
-    const fw_geometry_vec2 middle = {m->drawn[end[k].body].x_m, m->drawn[end[k].body].y_m},
-                           off = vec_sub(end[k].at, middle);
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        if (end[i].body == end[k].body && vec_dot(off, vec_sub(end[i].at, middle)) >= 0)
-            sum += by[i];
-    return sum;
+/* ---- bodies as solids, along a motion (body_solid.c) ---- */
+
+/* What hinges and loads put on bodies, at up to KEPT instants that lie equally far from each other in number: where they are
+   more, every second one is left out. An instant: (3 nhinge) moment of the flexure, N m, and force on body b, N, world; (nbody)
+   how far each has turned; (3 nplace) force and couple of what acts there */
+enum { KEPT = 256 };
+
+static size_t instant_size(const fw_mechanism *m, int nplace) {
+    return 3 * (size_t)m->nhinge + (size_t)m->nbody + 3 * (size_t)nplace;
 }
 
-/* to (nbody): how far each bends at most in a scene */
-fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                    double *to) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
-    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
-    const fw_device_scene *s = &m->device->scene[scene];
-    const double sudden = 2, hardly_m = 1e-9;
-    double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
-    fw_verdict_load_end *end;
-    int n;
-    for (int i = 0; i < m->nbody; i++)
-        to[i] = 0;
-    if (!b || !b->arm || !b->rest_N) return FW_OK;
-    for (int i = 0; i < s->nbase; i++)
-        shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
-                  fw_quantity_law_largest(s->base[i].law, s->duration_s);
-    for (int i = 0; i < m->nbody; i++)
-        to[i] = shaken > 0 ? v->out_of_plane->hangs_in[i] * shaken : 0;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
-    FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
-    FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
-        const double *g = arm->give;
-        if (end[k].scene != scene || !arm->known) continue;
-        const double load_N =
-            isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
-        const double unit = sudden * load_N / b->stiff_N,
-                     goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
-        if (!(unit * goes > hardly_m)) continue;
-        FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
-        by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
+fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *m, int nplace,
+                                    fw_verdict_solid_kept **kept) {
+    FW_NEED(*kept = fw_arena_one(arena, fw_verdict_solid_kept));
+    (*kept)->nplace = nplace;
+    FW_NEED((*kept)->instant = fw_arena_array(arena, double, KEPT *instant_size(m, nplace)));
+    fw_verdict_solid_keep_none(*kept);
+    return FW_OK;
+}
+
+void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept) {
+    kept->n = kept->seen = 0, kept->every = 1;
+}
+
+void fw_verdict_solid_keep(const fw_verdict_bending *b, const fw_mechanism *m,
+                           const fw_dynamics_instant *now) {
+    fw_verdict_solid_kept *kept = b->kept;
+    const size_t size = instant_size(m, kept->nplace);
+    if (kept->seen++ % kept->every != 0) return;
+    if (kept->n == KEPT) {
+        for (size_t i = 1; 2 * i < KEPT; i++)
+            memcpy(kept->instant + i * size, kept->instant + 2 * i * size, size * sizeof(double));
+        kept->n = KEPT / 2, kept->every *= 2;
     }
-    for (int k = 0; k < n; k++)
-        most[end[k].body] = fmax(most[end[k].body], on_one_side(m, end, by, n, k));
+    double *to = kept->instant + (size_t)kept->n++ * size;
+    for (int k = 0; k < m->nhinge; k++) {
+        const int j = m->hinge[k].pin;
+        *to++ = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
+        *to++ = now->reaction_N[2 * j];
+        *to++ = now->reaction_N[2 * j + 1];
+    }
     for (int i = 0; i < m->nbody; i++)
-        to[i] += most[i];
+        *to++ = b->turn[i].rad;
+    for (int i = 0; i < b->nplace; i++, to += 3)
+        acts_on(&b->place[i], now, to, NULL);
+}
+
+typedef struct solids {
+    const fw_mechanism *m;
+    const fw_layout *layout;
+    const fw_verdict_arm *arm;
+    double stiff_N;
+} solids;
+
+/* where loads act on a body, in any scene; 0 where one of them is narrower than the body's hinges and their ways, or there are
+   too many: then all acts in the middle */
+static fw_status add_loads(fw_arena *arena, const solids *s, int body, double narrow_m,
+                           fw_verdict_solid_end **end, int *n) {
+    enum { LOADS = 16 };
+    fw_verdict_load_end *load;
+    int nload, first = *n;
+    FW_TRY(fw_verdict_load_ends(arena, s->m, &load, &nload));
+    FW_NEED(*end =
+                fw_arena_grow(arena, *end, (size_t)*n, (size_t)*n + (size_t)nload, sizeof **end));
+    for (int k = 0; k < nload; k++) {
+        const fw_verdict_arm *arm = &s->arm[2 * s->m->nhinge + k];
+        if (load[k].body != body || load[k].first != k) continue;
+        if (!arm->known || arm->narrow_m < narrow_m || *n - first >= LOADS) {
+            *n = first;
+            return FW_OK;
+        }
+        (*end)[(*n)++] = (fw_verdict_solid_end){.pin = load[k].at, .root = load[k].at};
+    }
+    return FW_OK;
+}
+
+/* hinge ends in the order of hinges and sides, then the middle, then where loads act, if that is known */
+static fw_status make_solid(fw_arena *arena, const solids *s, int body,
+                            fw_verdict_body_solid *out) {
+    const fw_mechanism *m = s->m;
+    fw_verdict_line *line;
+    int nline, n = 0;
+    double narrow = HUGE_VAL;
+    fw_verdict_solid_end *end =
+        fw_arena_array(arena, fw_verdict_solid_end, 2 * (size_t)m->nhinge + 1);
+    FW_NEED(end);
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, i % 2),
+                               root = i % 2 ? pin->root_b_m : pin->root_a_m;
+        end[n++] = (fw_verdict_solid_end){
+            .pin = at, .root = vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
+        if (s->arm[i].known) narrow = fmin(narrow, s->arm[i].narrow_m);
+    }
+    const int nhinge = n;
+    const fw_geometry_vec2 middle = s->layout->body[body].centroid;
+    end[n++] = (fw_verdict_solid_end){.pin = middle, .root = middle, .nearest = true};
+    FW_TRY(add_loads(arena, s, body, narrow, &end, &n));
+    FW_TRY(fw_verdict_body_lines(arena, s->layout, body, &line, &nline));
+    FW_TRY(fw_verdict_body_solid_of(arena, line, nline, middle, narrow, end, n, out));
+    if (!out->known && n > nhinge + 1)
+        FW_TRY(fw_verdict_body_solid_of(arena, line, nline, middle, narrow, end, nhinge + 1, out));
+    out->nhinge = nhinge, out->end = end;
+    return FW_OK;
+}
+
+/* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose, and in its middle, `about`, all else: what
+   loads, and inertia, bend beyond that is another bound (theory, 5a). placed: what acts at places is there, and not in the middle */
+static void wrenches_of(const solids *s, const fw_verdict_bending *b, int body,
+                        const fw_verdict_body_solid *of, const double *instant, bool placed,
+                        fw_geometry_vec2 about, double *w) {
+    const fw_mechanism *m = s->m;
+    const double turn = instant[3 * m->nhinge + body], *acts = instant + 3 * m->nhinge + m->nbody;
+    const double same_m = 1e-9;
+    double rest[3] = {0}, *first = w;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        const double *on = instant + 3 * (i / 2), sign = i % 2 ? 1 : -1;
+        const fw_geometry_vec2 force = fw_geometry_vec_rotate(
+                                   (fw_geometry_vec2){sign * on[1], sign * on[2]}, -turn),
+                               arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
+        *w++ = -sign * on[0], *w++ = force.x, *w++ = force.y;
+        rest[0] -= -sign * on[0] + vec_cross(arm, force);
+        rest[1] -= force.x, rest[2] -= force.y;
+    }
+    double *middle = w;
+    for (w += 3; w < first + 3 * of->n; w++)
+        *w = 0;
+    for (int i = 0; placed && i < b->nplace; i++, acts += 3) {
+        const fw_verdict_place *at = &b->place[i];
+        if (at->body != body) continue;
+        const fw_geometry_vec2 place = fw_mechanism_local_place(m, body, at->x_m, at->y_m),
+                               arm = vec_sub(place, about),
+                               force = fw_geometry_vec_rotate((fw_geometry_vec2){acts[0], acts[1]},
+                                                              -turn);
+        int end = of->nhinge + 1;
+        while (end < of->n && vec_distance(of->end[end].pin, place) > same_m)
+            end++;
+        if (end == of->n) continue; /* it stays in the middle */
+        double *to = first + 3 * end;
+        to[0] += acts[2], to[1] += force.x, to[2] += force.y;
+        rest[0] -= acts[2] + vec_cross(arm, force);
+        rest[1] -= force.x, rest[2] -= force.y;
+    }
+    memcpy(middle, rest, sizeof rest);
+}
+
+/* largest over instants: as beams, and as solids where these are known, with what acts beside hinges in the middle and where
+   it does */
+typedef struct stored {
+    double beams_J, solids_J, acted_J, gone;
+    double *beam_J, *solid_J; /* (nbody) */
+} stored;
+
+/* how far the end of a hinge goes over its width, or turns over its limit, against the middle of a solid */
+static double end_goes(const solids *s, const fw_verdict_body_solid *of, const double *w, int end,
+                       const fw_mechanism_hinge *h, fw_geometry_vec2 arm) {
+    double to[3], middle[3];
+    fw_verdict_solid_goes(of, s->stiff_N, w, end, to);
+    fw_verdict_solid_goes(of, s->stiff_N, w, of->nhinge, middle);
+    const double far =
+        hypot(to[1] - middle[1] + middle[0] * arm.y, to[2] - middle[2] - middle[0] * arm.x);
+    return fmax(far / h->input.width_m, fabs(to[0] - middle[0]) / h->closed_form.limit_angle_rad);
+}
+
+/* of one body: adds to what all store at the instant */
+static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
+                        const fw_verdict_body_solid *of, const double *instant, double *w,
+                        stored *most, double sum[3]) {
+    const fw_mechanism *m = s->m;
+    const double rad = instant[3 * m->nhinge + body];
+    const fw_verdict_turn turn = {rad, cos(rad), sin(rad)};
+    const fw_geometry_vec2 about = s->layout->body[body].centroid;
+    double beam = 0;
+    if (of->known) wrenches_of(s, b, body, of, instant, false, about, w);
+    for (int i = 0, end = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_hinge *h = &m->hinge[i / 2];
+        const fw_mechanism_pin *pin = &m->pin[h->pin];
+        const double *on = instant + 3 * (i / 2);
+        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        const fw_geometry_vec2 arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
+        if (of->known)
+            most->gone = fmax(most->gone, end_goes(s, of, w, end++, h, arm));
+        else if (s->arm[i].known)
+            most->gone =
+                fmax(most->gone, fw_verdict_arm_gone(b, h, &s->arm[i], -on[0], on + 1, &turn));
+        if (s->arm[i].known)
+            beam += fw_verdict_arm_energy_J(&s->arm[i], s->stiff_N, -on[0], on[1], on[2], &turn);
+    }
+    const double one = of->known ? fw_verdict_solid_energy_J(of, s->stiff_N, w) : beam;
+    double acted = one;
+    if (of->known && of->n > of->nhinge + 1) {
+        wrenches_of(s, b, body, of, instant, true, about, w);
+        acted = fw_verdict_solid_energy_J(of, s->stiff_N, w);
+    }
+    most->beam_J[body] = fmax(most->beam_J[body], beam);
+    most->solid_J[body] = fmax(most->solid_J[body], one);
+    sum[0] += beam, sum[1] += one, sum[2] += acted;
+}
+
+static fw_status take_solids(fw_arena *arena, const solids *s, const fw_verdict_body_solid *solid,
+                             fw_verdict_bending *b) {
+    const fw_mechanism *m = s->m;
+    const size_t bodies = (size_t)m->nbody;
+    stored most = {.beam_J = fw_arena_array(arena, double, bodies),
+                   .solid_J = fw_arena_array(arena, double, bodies)};
+    int most_ends = 0;
+    for (int i = 0; i < m->nbody; i++)
+        most_ends = solid[i].n > most_ends ? solid[i].n : most_ends;
+    double *w = fw_arena_array(arena, double, 3 * (size_t)most_ends + 3);
+    FW_NEED(most.beam_J && most.solid_J ? w : NULL);
+    for (int k = 0; k < b->kept->n; k++) {
+        const double *instant = b->kept->instant + (size_t)k * instant_size(m, b->nplace);
+        double sum[3] = {0};
+        for (int i = 0; i < m->nbody; i++)
+            body_stores(s, b, i, &solid[i], instant, w, &most, sum);
+        most.beams_J = fmax(most.beams_J, sum[0]), most.solids_J = fmax(most.solids_J, sum[1]);
+        most.acted_J = fmax(most.acted_J, sum[2]);
+    }
+    if (!(most.beams_J > 0)) return FW_OK;
+    bool acted = true;
+    for (int i = 0; i < b->nplace; i++) {
+        const fw_verdict_body_solid *of = &solid[b->place[i].body];
+        acted = acted && (!(b->place[i].force_N > 0) || (of->known && of->n > of->nhinge + 1));
+    }
+    if (acted) b->acted_J = b->bodies_J * most.acted_J / most.beams_J;
+    b->bodies_J *= most.solids_J / most.beams_J;
+    b->gone = most.gone;
+    for (int i = 0; i < m->nbody; i++)
+        if (most.beam_J[i] > 0) b->body_J[i] *= most.solid_J[i] / most.beam_J[i];
+    return FW_OK;
+}
+
+/* Solids are made of bodies that as beams give a hundredth of what the hinges do, where all of them come to what is told */
+static fw_status by_solids(fw_arena *arena, const fw_layout *layout, fw_verdict_bending *b,
+                           fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const double hardly = 0.01;
+    solids s = {.m = m, .layout = layout, .arm = b->arm, .stiff_N = b->stiff_N};
+    if (!b->kept || b->kept->n == 0 || !(b->bodies_J > fw_verdict_bending_told * b->hinges_J))
+        return FW_OK;
+    fw_verdict_body_solid *solid = fw_arena_array(arena, fw_verdict_body_solid, (size_t)m->nbody);
+    FW_NEED(solid);
+    for (int i = 0; i < m->nbody; i++) {
+        if (v->solid) solid[i] = v->solid[i];
+        if (!solid[i].fine && b->body_J[i] > hardly * b->hinges_J)
+            FW_TRY(make_solid(arena, &s, i, &solid[i]));
+    }
+    v->solid = solid;
+    return take_solids(arena, &s, solid, b);
+}
+
+fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout,
+                                 fw_verdict_strain_monitor *monitor,
+                                 fw_verdict_strain_monitor *other, fw_verdict_variant_verdict *v) {
+    FW_TRY(by_solids(arena, layout, &monitor->bending, v));
+    FW_TRY(by_solids(arena, layout, &other->bending, v));
+    fw_verdict_places_end(&monitor->bending);
+    fw_verdict_places_end(&other->bending);
     return FW_OK;
 }

@@ -44,6 +44,43 @@ typedef struct grid {
     double *area;   /* (nnode) of material about it, m2 */
 } grid;
 
+/* ---- what is drawn of a body ---- */
+
+static int parts_of(const fw_geometry_segment *s) {
+    double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
+    return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
+}
+
+bool fw_verdict_is_of(const fw_layout_piece *p, int body) {
+    return p->body == body && p->role == FW_ROLE_STRUCTURE;
+}
+
+fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int body,
+                                fw_verdict_line **line, int *n) {
+    size_t most = 0;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_geometry_contour *c = &layout->piece[i].contour;
+        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++)
+            most += (size_t)parts_of(&c->segment[k]);
+    }
+    FW_NEED(*line = fw_arena_array(arena, fw_verdict_line, most));
+    *n = 0;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_geometry_contour *c = &layout->piece[i].contour;
+        for (int k = 0; fw_verdict_is_of(&layout->piece[i], body) && k < c->count; k++) {
+            const fw_geometry_segment *s = &c->segment[k];
+            int parts = parts_of(s);
+            fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
+            for (int j = 0; j < parts; j++) {
+                fw_geometry_vec2 to = fw_geometry_segment_point(s, (double)(j + 1) / parts);
+                (*line)[(*n)++] = (fw_verdict_line){from, to, !(s->flags & FW_SEGMENT_JOINT), i};
+                from = to;
+            }
+        }
+    }
+    return FW_OK;
+}
+
 /* ---- cells ---- */
 
 static void mark_between(bool *row, int n, const double *x, int crossings) {
@@ -375,201 +412,4 @@ void fw_verdict_solid_goes(const fw_verdict_body_solid *s, double stiff_N, const
         for (int j = 0; j < rows; j++)
             to[k] += s->fine[(3 * end + k) * rows + j] * w[j] / stiff_N;
     }
-}
-
-/* ---- of a motion ---- */
-
-/* What hinges put on bodies, at up to KEPT instants that lie equally far from each other in number: where they are more,
-   every second one is left out. An instant: (3 nhinge) moment of the flexure, N m, and force on body b, N, world; (nbody)
-   how far each has turned */
-enum { KEPT = 256 };
-
-static size_t instant_size(const fw_mechanism *m) {
-    return 3 * (size_t)m->nhinge + (size_t)m->nbody;
-}
-
-fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *m,
-                                    fw_verdict_solid_kept **kept) {
-    FW_NEED(*kept = fw_arena_one(arena, fw_verdict_solid_kept));
-    FW_NEED((*kept)->instant = fw_arena_array(arena, double, KEPT *instant_size(m)));
-    fw_verdict_solid_keep_none(*kept);
-    return FW_OK;
-}
-
-void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept) {
-    kept->n = kept->seen = 0, kept->every = 1;
-}
-
-void fw_verdict_solid_keep(fw_verdict_solid_kept *kept, const fw_mechanism *m,
-                           const fw_dynamics_instant *now, const fw_verdict_turn *turn) {
-    const size_t size = instant_size(m);
-    if (kept->seen++ % kept->every != 0) return;
-    if (kept->n == KEPT) {
-        for (size_t i = 1; 2 * i < KEPT; i++)
-            memcpy(kept->instant + i * size, kept->instant + 2 * i * size, size * sizeof(double));
-        kept->n = KEPT / 2, kept->every *= 2;
-    }
-    double *to = kept->instant + (size_t)kept->n++ * size;
-    for (int k = 0; k < m->nhinge; k++) {
-        const int j = m->hinge[k].pin;
-        *to++ = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
-        *to++ = now->reaction_N[2 * j];
-        *to++ = now->reaction_N[2 * j + 1];
-    }
-    for (int i = 0; i < m->nbody; i++)
-        *to++ = turn[i].rad;
-}
-
-typedef struct solids {
-    const fw_mechanism *m;
-    const fw_layout *layout;
-    const fw_verdict_arm *arm;
-    double stiff_N;
-} solids;
-
-/* hinge ends in the order of hinges and sides, then the middle */
-static fw_status make_solid(fw_arena *arena, const solids *s, int body,
-                            fw_verdict_body_solid *out) {
-    const fw_mechanism *m = s->m;
-    fw_verdict_line *line;
-    int nline, n = 0;
-    double narrow = HUGE_VAL;
-    fw_verdict_solid_end *end =
-        fw_arena_array(arena, fw_verdict_solid_end, 2 * (size_t)m->nhinge + 1);
-    FW_NEED(end);
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
-        const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, i % 2),
-                               root = i % 2 ? pin->root_b_m : pin->root_a_m;
-        end[n++] = (fw_verdict_solid_end){
-            .pin = at, .root = vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
-        if (s->arm[i].known) narrow = fmin(narrow, s->arm[i].narrow_m);
-    }
-    const int nhinge = n;
-    const fw_geometry_vec2 middle = s->layout->body[body].centroid;
-    end[n++] = (fw_verdict_solid_end){.pin = middle, .root = middle, .nearest = true};
-    FW_TRY(fw_verdict_body_lines(arena, s->layout, body, &line, &nline));
-    FW_TRY(fw_verdict_body_solid_of(arena, line, nline, middle, narrow, end, n, out));
-    out->nhinge = nhinge;
-    return FW_OK;
-}
-
-/* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose, and in its
-   middle, `about`, all else: what loads, and inertia, bend beyond that is another bound (theory, 5a) */
-static void wrenches_of(const solids *s, int body, const double *instant, fw_geometry_vec2 about,
-                        double *w) {
-    const fw_mechanism *m = s->m;
-    const double turn = instant[3 * m->nhinge + body];
-    double rest[3] = {0};
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
-        const double *on = instant + 3 * (i / 2), sign = i % 2 ? 1 : -1;
-        const fw_geometry_vec2 force = fw_geometry_vec_rotate(
-                                   (fw_geometry_vec2){sign * on[1], sign * on[2]}, -turn),
-                               arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
-        *w++ = -sign * on[0], *w++ = force.x, *w++ = force.y;
-        rest[0] -= -sign * on[0] + vec_cross(arm, force);
-        rest[1] -= force.x, rest[2] -= force.y;
-    }
-    memcpy(w, rest, sizeof rest);
-}
-
-typedef struct stored { /* largest over instants: as beams, and as solids where these are known */
-    double beams_J, solids_J, gone;
-    double *beam_J, *solid_J; /* (nbody) */
-} stored;
-
-/* how far the end of a hinge goes over its width, or turns over its limit, against the middle of a solid */
-static double end_goes(const solids *s, const fw_verdict_body_solid *of, const double *w, int end,
-                       const fw_mechanism_hinge *h, fw_geometry_vec2 arm) {
-    double to[3], middle[3];
-    fw_verdict_solid_goes(of, s->stiff_N, w, end, to);
-    fw_verdict_solid_goes(of, s->stiff_N, w, of->nhinge, middle);
-    const double far =
-        hypot(to[1] - middle[1] + middle[0] * arm.y, to[2] - middle[2] - middle[0] * arm.x);
-    return fmax(far / h->input.width_m, fabs(to[0] - middle[0]) / h->closed_form.limit_angle_rad);
-}
-
-/* of one body: adds to what all store at the instant */
-static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
-                        const fw_verdict_body_solid *of, const double *instant, double *w,
-                        stored *most, double *beams, double *all) {
-    const fw_mechanism *m = s->m;
-    const double rad = instant[3 * m->nhinge + body];
-    const fw_verdict_turn turn = {rad, cos(rad), sin(rad)};
-    const fw_geometry_vec2 about = s->layout->body[body].centroid;
-    double beam = 0;
-    wrenches_of(s, body, instant, about, w);
-    for (int i = 0, end = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_hinge *h = &m->hinge[i / 2];
-        const fw_mechanism_pin *pin = &m->pin[h->pin];
-        const double *on = instant + 3 * (i / 2);
-        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
-        const fw_geometry_vec2 arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
-        if (of->known)
-            most->gone = fmax(most->gone, end_goes(s, of, w, end++, h, arm));
-        else if (s->arm[i].known)
-            most->gone =
-                fmax(most->gone, fw_verdict_arm_gone(b, h, &s->arm[i], -on[0], on + 1, &turn));
-        if (s->arm[i].known)
-            beam += fw_verdict_arm_energy_J(&s->arm[i], s->stiff_N, -on[0], on[1], on[2], &turn);
-    }
-    const double one = of->known ? fw_verdict_solid_energy_J(of, s->stiff_N, w) : beam;
-    most->beam_J[body] = fmax(most->beam_J[body], beam);
-    most->solid_J[body] = fmax(most->solid_J[body], one);
-    *beams += beam, *all += one;
-}
-
-static fw_status take_solids(fw_arena *arena, const solids *s, const fw_verdict_body_solid *solid,
-                             fw_verdict_bending *b) {
-    const fw_mechanism *m = s->m;
-    const size_t bodies = (size_t)m->nbody;
-    stored most = {.beam_J = fw_arena_array(arena, double, bodies),
-                   .solid_J = fw_arena_array(arena, double, bodies)};
-    double *w = fw_arena_array(arena, double, 6 * (size_t)m->nhinge + 3);
-    FW_NEED(most.beam_J && most.solid_J ? w : NULL);
-    for (int k = 0; k < b->kept->n; k++) {
-        const double *instant = b->kept->instant + (size_t)k * instant_size(m);
-        double beams = 0, all = 0;
-        for (int i = 0; i < m->nbody; i++)
-            body_stores(s, b, i, &solid[i], instant, w, &most, &beams, &all);
-        most.beams_J = fmax(most.beams_J, beams), most.solids_J = fmax(most.solids_J, all);
-    }
-    if (!(most.beams_J > 0)) return FW_OK;
-    b->bodies_J *= most.solids_J / most.beams_J;
-    b->gone = most.gone;
-    for (int i = 0; i < m->nbody; i++)
-        if (most.beam_J[i] > 0) b->body_J[i] *= most.solid_J[i] / most.beam_J[i];
-    return FW_OK;
-}
-
-/* Solids are made of bodies that as beams give a hundredth of what the hinges do, where all of them come to what is told */
-static fw_status by_solids(fw_arena *arena, const fw_layout *layout, fw_verdict_bending *b,
-                           fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    const double hardly = 0.01;
-    solids s = {.m = m, .layout = layout, .arm = b->arm, .stiff_N = b->stiff_N};
-    if (!b->kept || b->kept->n == 0 || !(b->bodies_J > fw_verdict_bending_told * b->hinges_J))
-        return FW_OK;
-    fw_verdict_body_solid *solid = fw_arena_array(arena, fw_verdict_body_solid, (size_t)m->nbody);
-    FW_NEED(solid);
-    for (int i = 0; i < m->nbody; i++) {
-        if (v->solid) solid[i] = v->solid[i];
-        if (!solid[i].fine && b->body_J[i] > hardly * b->hinges_J)
-            FW_TRY(make_solid(arena, &s, i, &solid[i]));
-    }
-    v->solid = solid;
-    return take_solids(arena, &s, solid, b);
-}
-
-fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout,
-                                 fw_verdict_strain_monitor *monitor,
-                                 fw_verdict_strain_monitor *other, fw_verdict_variant_verdict *v) {
-    FW_TRY(by_solids(arena, layout, &monitor->bending, v));
-    FW_TRY(by_solids(arena, layout, &other->bending, v));
-    fw_verdict_places_end(&monitor->bending);
-    fw_verdict_places_end(&other->bending);
-    return FW_OK;
 }

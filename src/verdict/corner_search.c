@@ -81,12 +81,23 @@ static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_ver
     }
 }
 
-/* the first reason beside the hinges; the workspace goes before all others */
+static bool hinge_decides(const fw_verdict_variant_verdict *now) {
+    for (int k = 0; k < now->nhinge; k++)
+        if (now->hinge[k].decision == now->decision) return true;
+    return false;
+}
+
+/* The first reason beside the hinges of those that decide: what is not known is no reason of a rejection, be it by another
+   reason or by a hinge, which has none. The workspace goes before all others */
 static fw_status take_reason(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                              fw_verdict_fabricated_corner *corner) {
     const char *why = NULL;
-    for (int i = 0; i < now->nreason && !why; i++) {
-        if (now->reason[i].decision == FW_ACCEPT) continue;
+    fw_verdict_decision worst = FW_ACCEPT;
+    for (int i = 0; i < now->nreason; i++)
+        if (fw_verdict_is_worse(now->reason[i].decision, worst)) worst = now->reason[i].decision;
+    const bool by_hinge = fw_verdict_is_worse(now->decision, worst) && hinge_decides(now);
+    for (int i = 0; i < now->nreason && !why && !by_hinge; i++) {
+        if (worst == FW_ACCEPT || now->reason[i].decision != worst) continue;
         why = now->reason[i].text;
         corner->number = now->reason[i].number;
         corner->scene = now->reason[i].scene;

@@ -272,8 +272,8 @@ static fw_geometry_vec2 drawn_place(const fw_device *d, const fw_layout *layout,
                               (isnan(b->y_m) ? centroid.y : b->y_m) + s * x_m + c * y_m};
 }
 
-/* Does an outline of the body come as near as this? A body of which nothing is drawn is taken to be of the layer. */
-static bool comes_near(const fw_layout *layout, int body, fw_geometry_vec2 at, double distance_m) {
+bool fw_verdict_comes_near(const fw_layout *layout, int body, fw_geometry_vec2 at,
+                           double distance_m) {
     bool any = false;
     for (int i = 0; i < layout->npiece; i++) {
         const fw_layout_piece *p = &layout->piece[i];
@@ -295,12 +295,12 @@ static bool is_of_layer(const fw_device *d, const fw_layout *layout, const fw_de
     *at = (fw_geometry_vec2){0, 0};
     if (!layout || !layout->drawn) return true;
     *at = drawn_place(d, layout, body, second ? c->bx_m : c->ax_m, second ? c->by_m : c->ay_m);
-    if (!c->face) return comes_near(layout, body, *at, c->distance_m + touches_m);
+    if (!c->face) return fw_verdict_comes_near(layout, body, *at, c->distance_m + touches_m);
     if (second) {
         const double normal = c->face_rad + turned(d, c->body_a);
         move(&at->x, &at->y, -c->distance_m, normal);
     }
-    return comes_near(layout, body, *at, touches_m);
+    return fw_verdict_comes_near(layout, body, *at, touches_m);
 }
 
 static bool is_outside(const fw_device_contact_use *c) {

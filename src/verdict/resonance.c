@@ -23,6 +23,7 @@
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "mechanism/mechanism_plates.h"
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -364,6 +365,12 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
     fw_verdict_shaken *to = &v->shaken[scene];
     shakings by;
     FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, &by, to));
+    double hangs_s2 =
+        0; /* 1/omega^2 of rigid bodies and of what hangs over add up at most (Dunkerley) */
+    for (int i = 0; v->out_of_plane && v->out_of_plane->hung && i < m->nbody; i++)
+        hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_s2);
+    for (int k = 0; k < to->n; k++)
+        to->mode[k].low /= sqrt(1 + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
     FW_TRY(add_answers(arena, m, &by, to, false, to->factor, &to->late));
     return v->corner ? FW_OK : may_pump(arena, m, scene, &by, bodies, v);
 }
@@ -555,4 +562,36 @@ fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
             ran > 1 ? "any scene"
                     : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- what of a device that was made is kept and compared ---- */
+
+fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                 const fw_verdict_shaken **kept) {
+    const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1,
+                 rows = (size_t)v->nhinge + (size_t)v->mechanism->nbody;
+    fw_verdict_shaken *to;
+    *kept = NULL;
+    if (!v->shaken) return FW_OK;
+    FW_NEED(to = fw_arena_grow(arena, v->shaken, scenes, scenes, sizeof *to));
+#define KEEP(what, count)                                                                          \
+    if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
+    for (size_t i = 0; i < scenes; i++) {
+        fw_verdict_shaken *of = &to[i];
+        const size_t n = (size_t)of->n, loads = (size_t)of->nload;
+        KEEP(of->factor, 2 * h);
+        if (n == 0) continue;
+        KEEP(of->mode, n);
+        KEEP(of->load, loads);
+        KEEP(of->way, (size_t)of->ways * rows);
+        for (size_t k = 0; k < loads; k++) /* that of a driver stands in the mechanism */
+            KEEP(of->load[k].law, 1);
+        for (size_t k = 0; k < n; k++) {
+            KEEP(of->mode[k].bends, rows);
+            KEEP(of->mode[k].size, loads);
+        }
+    }
+#undef KEEP
+    *kept = to;
+    return FW_OK;
 }

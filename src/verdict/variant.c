@@ -552,9 +552,9 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_NEED(bodies = fw_arena_array(arena, double, (size_t)device->nscene));
     for (int i = 0; i < device->nscene; i++)
         bodies[i] = fw_verdict_bending_share(v->motion[i]);
+    FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
     FW_TRY(fw_verdict_detune(arena, m, bodies, &options->motion, brief, diags, v));
     fw_verdict_bent_leaves_open(v, 0);
-    FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
     if (!options->hinges_only)
         FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));
     int first = v->nreason;

@@ -116,8 +116,8 @@ typedef struct fw_verdict_out_of_plane {
         weight_m; /* how far any part comes down under its weight on a table, g = 9.80665 m/s^2 */
     const char *body; /* the one that the next two are of: it gives most at its centre of mass */
     double across_N_per_m, ratio; /* across the plane; over the least in it, NaN: not known */
-    const double
-        *hangs_in; /* (nbody) what bends in the plane by its own weight, at most, m per m/s2 */
+    const struct fw_verdict_hung
+        *hung; /* (nbody) what hangs over beyond hinges and middle (strain.h) */
     struct fw_verdict_plates *plates; /* what it was computed with (verdict_out_of_plane.c) */
     fw_verdict_across *scene;         /* (nscene) of this flow, those that were run */
     int nscene;
@@ -288,8 +288,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
        why */
     const fw_dynamics_motion **motion;
     const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
-    double
-        *left; /* (device->nscene) of the stiffness (fw_statics_stability_find); NaN: not known */
+    double *left; /* (nscene) of the stiffness (fw_statics_stability_find); NaN: not known */
+    const char *ends_early; /* FW-D691, of the first scene that does; NULL */
     /* (device->nscene) where a mode lies within its error (verdict_parts.h, FW-D642) */
     fw_verdict_shaken *shaken;
     bool beyond_pull_in; /* a scene may ask for more than its pull-in voltage */

@@ -329,8 +329,8 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     }
     record_forces(b, m, now);
     record_rests(b, m, now);
-    fw_verdict_solid_keep(b->kept, m, now, b->turn);
     fw_verdict_places_record(b, now);
+    fw_verdict_solid_keep(b, m, now);
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
@@ -357,8 +357,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
                                    const fw_verdict_arm *arm, bool straight, int scene,
                                    fw_verdict_bending *bending) {
     const fw_mechanism_variant *of = m->variant;
-    *bending =
-        (fw_verdict_bending){.arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m};
+    *bending = (fw_verdict_bending){
+        .arm = arm, .stiff_N = of->material.youngs.value * of->thickness_m, .acted_J = HUGE_VAL};
     if (!arm && !m->layout) return FW_OK;
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
@@ -375,8 +375,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     if (!arm) return FW_OK; /* nothing is drawn: what tips is found by forces alone */
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;
-    FW_TRY(fw_verdict_solid_keep_new(arena, m, &bending->kept));
     FW_TRY(fw_verdict_places_new(arena, m, scene, bending));
+    FW_TRY(fw_verdict_solid_keep_new(arena, m, bending->nplace, &bending->kept));
     if (!(m->device->release_pitch_m > 0)) return FW_OK;
     FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
     FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
@@ -554,7 +554,7 @@ double fw_verdict_bending_stored_J(const fw_dynamics_motion *motion) {
 
 double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     const fw_verdict_bending *b = seen(motion);
-    return b ? (b->bodies_J + b->places_J) / b->hinges_J : 0;
+    return b ? fw_verdict_bending_all_J(b) / b->hinges_J : 0;
 }
 
 /* A device that is pressed along its flexures goes nowhere, and its bodies may then give many times what the hinges do.

@@ -10,10 +10,9 @@
 #include <string.h>
 
 /* ---- what may meet ----
-   What clearance/ proves holds for the outlines as drawn and the
-   motion as computed. Of the band: walls as they are made come nearer by 2 edge + |flare|; a motion
-   that is off by the share e (its numbers, and what its model of the hinges is off by) moves every
-   part by at most e times as far as the pair has moved against each other. Theory:
+   What clearance/ proves holds for the outlines as drawn and the motion as computed. Of the band: walls as they are
+   made come nearer by 2 edge + |flare|; a motion that is off by the share e (its numbers, and what its model of the
+   hinges is off by) moves every part by at most e times as far as the pair has moved against each other. Theory:
    docs/theory/clearance.md, section 5. Test: tests/clearance/cases.py, compare.py */
 
 /* of the least clearance, beside 1 nm; distances that are computed for it, and while nothing is decided */
@@ -21,7 +20,7 @@ static const double fw_clearance_relative = 2e-3;
 /* what a long motion, which is looked at in parts, is taken to be off by; one that is off by more is not decided */
 static const double fw_off_at_most = 0.1;
 const double fw_verdict_clearance_counts = 0.3;
-enum { MOST = 1000, MOST_IN_BOX = 400, MOST_EVER = 100000 };
+enum { MOST = 1000, MOST_IN_BOX = 2000, MOST_EVER = 100000 };
 
 static double required(const fw_device *device) {
     return isnan(device->limits.clearance_m) ? 0 : device->limits.clearance_m;
@@ -123,8 +122,8 @@ fw_status fw_verdict_clearance_begin(fw_arena *arena, const fw_layout *layout,
 /* a stated place and a drawn wall, whose corners are rounded, need not agree better */
 static const double touches_m = 10e-6;
 
-/* Is the round thing about this point, no larger than the distance, part of what is drawn of the body? A bead
-   that is held stands in the open: the ground may carry it, and its frame is none of it. */
+/* Is the round thing about this point, no larger than the distance, part of what is drawn of the body? A bead that is
+   held stands in the open: the ground may carry it, and its frame is none of it. */
 static bool is_drawn_there(const fw_mechanism *m, const fw_clearance_things *things, int body,
                            double x_m, double y_m, double distance_m) {
     const fw_clearance_solid *solid = &things->solid[body == FW_GROUND ? things->nbody : body];
@@ -144,8 +143,7 @@ static bool lets_meet(const fw_mechanism *m, const fw_clearance_things *things,
            is_drawn_there(m, things, c->body_b, c->bx_m, c->by_m, c->distance_m);
 }
 
-/* pairs of which the scene says itself what happens when they touch; the conjugate surfaces of a
-   hinge are no edges here at all */
+/* pairs of which the scene says itself what happens when they touch; conjugate surfaces are no edges here at all */
 fw_status fw_verdict_clearance_scene(const fw_mechanism *m, const fw_device_scene *scene,
                                      fw_verdict_clearance_watch watch[2]) {
     const fw_clearance_things *things = watch[0].things;
@@ -214,8 +212,7 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
 
 /* ---- judged ---- */
 
-/* The share of its motion with which the pair keeps what is asked for: where it meets, that is known;
-   else the distance is taken to fall in proportion */
+/* of its motion, with which the pair keeps what is asked for: known where it meets; else distance falls in proportion */
 static double keep_of(const fw_verdict_clearance *c, double target_m) {
     const fw_clearance_least *l = &c->least;
     if (l->m <= 0) return l->share;
@@ -223,8 +220,7 @@ static double keep_of(const fw_verdict_clearance *c, double target_m) {
     return lost > 0 ? fmin(1, fmax(0, (l->start_m - target_m) / lost)) : 0.5;
 }
 
-/* A pair that meets after a share of its motion is rejected where it would meet with a motion less by
-   its error, too. */
+/* a pair that meets after a share of its motion is rejected where it would with a motion less by its error, too */
 static void decide(fw_verdict_clearance *c, double off) {
     const fw_clearance_least *l = &c->least;
     double band = off * l->moved_m;
@@ -257,6 +253,8 @@ static const char *what_happens(fw_arena *arena, const fw_verdict_clearance *c) 
         return l->at.bound ? "may meet: the strip's bent shape is only bounded," : "meet";
     const char *text = fw_arena_printf(arena, "come within %s um of each other as drawn",
                                        micrometres(drawn, l->m));
+    if (text && fw_clearance_has_no_band(l))
+        return fw_arena_printf(arena, "%s, and how far links go there is not bounded,", text);
     if (text && c->wall_m != 0)
         text = fw_arena_printf(arena, "%s, %s um as made", text, micrometres(made, c->m));
     if (text)
@@ -286,6 +284,8 @@ static const char *mend_of(fw_arena *arena, const fw_verdict_clearance *c,
                       : "that is enough, but so long a scene is followed in parts, each as if the "
                         "motion were off by 10 % at most: shorten the scene, or make bodies that "
                         "give stiffer";
+    if (fw_clearance_has_no_band(&c->least))
+        return "require poses farther from the limit of reach, where a leg is all but stretched";
     if (c->least.at.tether)
         return "a tether stands first on the frame's nearest side: turn that side from the motion, "
                "widen <die clearance>, or hold the body in another way (<die tethers=\"no\"/>)";
@@ -301,7 +301,7 @@ static const char *mend_of(fw_arena *arena, const fw_verdict_clearance *c,
 static fw_status give_reason(fw_arena *arena, const fw_verdict_clearance *c, const char *where,
                              fw_verdict_variant_verdict *v) {
     const fw_clearance_least *l = &c->least;
-    const bool unknown = l->given_up || l->at.bound;
+    const bool unknown = l->given_up || l->at.bound || fw_clearance_has_no_band(l);
     char x[32], y[32], share[32];
     if (c->decision == FW_ACCEPT) return FW_OK;
     const char *what = what_happens(arena, c), *mend = mend_of(arena, c, v), *then = "", *text;
@@ -433,8 +433,8 @@ static fw_status stators_of_box(fw_arena *arena, const fw_layout *layout, int in
     return FW_OK;
 }
 
-/* Required poses are what the platform is asked to take: where it goes itself the only errors are
-   those of the walls. Links go by what their hinges are: as far off as motions with that model. */
+/* Required poses are what the platform is asked to take: where it goes itself the only errors are those of the walls.
+   Links go by what their hinges are: as far off as motions with that model. */
 fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
                                      const fw_layout *layout, bool brief,
                                      fw_verdict_variant_verdict *v) {

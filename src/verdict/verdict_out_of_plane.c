@@ -19,7 +19,7 @@ typedef struct fw_verdict_plates { /* rigid bodies; bodies that give as much as 
     double *x, *f, *ring;
     double
         hangs; /* what bodies hang over and bend by their own weight, the most of any, m per m/s2 */
-    double *hangs_in; /* (nbody) the same in the plane */
+    fw_verdict_hung *hung; /* (nbody) */
 } both;
 
 /* ---- who asks ---- */
@@ -233,17 +233,15 @@ static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags
 
 static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
                          both *to) {
-    FW_NEED(to->hangs_in = fw_arena_array(arena, double, (size_t)m->nbody));
+    FW_NEED(to->hung = fw_arena_array(arena, fw_verdict_hung, (size_t)m->nbody));
     for (int b = 0; b < m->nbody; b++) {
-        double hangs[2];
         fw_mark mark = fw_arena_mark(arena);
         fw_verdict_line *line;
         int nline;
         FW_TRY(fw_verdict_body_lines(arena, m->layout, b, &line, &nline));
-        FW_TRY(fw_verdict_overhang(arena, m, m->layout, b, line, nline, hangs));
+        FW_TRY(fw_verdict_overhang(arena, m, m->layout, b, line, nline, &to->hung[b]));
         fw_arena_rewind(arena, mark);
-        to->hangs = fmax(to->hangs, hangs[0]);
-        to->hangs_in[b] = hangs[1];
+        to->hangs = fmax(to->hangs, to->hung[b].across_s2);
     }
     FW_TRY(fw_mechanism_plates_new(arena, m, NULL, &to->rigid));
     to->soft.why = to->rigid.why;
@@ -538,7 +536,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     FW_NEED(out->plates = is = fw_arena_one(arena, both));
     FW_TRY(prepare(arena, m, v->arm, is));
     out->why = is->rigid.why;
-    out->hangs_in = is->hangs_in;
+    out->hung = is->hung;
     FW_NEED(out->scene = fw_arena_array(arena, fw_verdict_across, (size_t)d->nscene));
     if (!out->why) {
         out->error = is->rigid.error;

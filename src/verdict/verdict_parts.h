@@ -43,6 +43,11 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
    from there comes nearer */
 extern const char fw_verdict_unstable_there[];
 void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, int first);
+/* ringing.c: a warning where a scene ends with a hinge still on the way up (FW-D691), and v->ends_early */
+fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
+                                const fw_dynamics_motion *motion,
+                                const fw_dynamics_motion_options *options, fw_diags *diags,
+                                fw_verdict_variant_verdict *v);
 /* a warning where bodies give enough to count (FW-D510) */
 void fw_verdict_bending_tell(const fw_mechanism *mechanism, const fw_device_scene *scene,
                              const fw_dynamics_motion *motion, fw_diags *diags);
@@ -110,24 +115,30 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
                                                   const fw_device_probe *probe,
                                                   const fw_statics_modes *modes, int *in_plane);
 
-/* ---- verdict_stiction.c: what hangs over bends in the plane ---- */
+/* ---- body_loads.c: what bodies give beside their hinges, and what hangs over ---- */
 
 /* after requirements and required boxes of a verdict whose values count: what may meet then, is displaced or swings
    otherwise is undecided, with a reason (FW-D638, FW-D639, FW-D640) */
 fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v);
+/* body_loads.c: by how much what holds rotors is softer at pull-in for what bodies give there, relative, at most */
+fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                   const fw_statics_pull_in *pull_in, double *gives);
 /* body_loads.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     double *to);
 
+/* arm_rims.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
+fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene);
+
 /* ---- verdict_stiction.c: what a liquid pulls, and what adhesion holds ---- */
+
+/* arm_rims.c: why a contact or a hinge may stay closed; NULL: FW_NOMEM */
+const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *stuck,
+                                  double adhesion_J_per_m2);
 
 /* after the scenes were run: v->stiction, and reasons of v. brief: only where a meniscus passes over it */
 fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
                                     fw_verdict_variant_verdict *v);
-
-/* verdict_run.c: why a contact or a hinge may stay closed; NULL: FW_NOMEM */
-const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *stuck,
-                                  double adhesion_J_per_m2);
 
 /* ---- decision.c: what speaks against a scene; resonance.c: where a mode may lie elsewhere ---- */
 
@@ -326,6 +337,9 @@ enum {
    what list holds already. Test: test_not_drawn.c */
 const char *fw_verdict_undrawn_not_said(const fw_device *device, const fw_layout *layout,
                                         const char *flow);
+/* fabrication.c: does an outline of the body come as near as this? A body of which nothing is drawn is taken to be of the layer. */
+bool fw_verdict_comes_near(const fw_layout *layout, int body, fw_geometry_vec2 at,
+                           double distance_m);
 /* are both sides of a contact part of the layer, as far as outlines say? */
 bool fw_verdict_contact_drawn(const fw_device *device, const fw_layout *layout,
                               const fw_device_contact_use *contact);

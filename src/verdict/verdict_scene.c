@@ -57,8 +57,7 @@ static fw_status touches(fw_arena *arena, const fw_mechanism *m, const fw_device
         comb[i].voltage_V *= by;
     }
     changed.comb = comb;
-    quiet.observe = NULL;
-    quiet.samples = 2;
+    quiet.observe = NULL, quiet.samples = 2;
     quiet.hinge_accuracy = 1; /* whether it touches is no matter of a better level of hinges */
     fw_status status = fw_statics_move_scene(arena, m, &changed, &quiet, &own, &motion);
     *does = status == FW_SOLVER && formula_ended(&own);
@@ -184,14 +183,16 @@ static fw_status not_found(fw_arena *arena, const fw_device_scene *scene,
 
 /* what holds the rotor may be less stiff, too, by what bodies give in the motion; of a scene in which nothing moves that is
    not known. What the next model of the hinges changes of a motion near pull-in is not what it changes of a stiffness. */
-static fw_status softened(fw_arena *arena, const fw_dynamics_motion *motion,
-                          const fw_statics_pull_in **p) {
+static fw_status softened(fw_arena *arena, int scene, fw_verdict_variant_verdict *v) {
+    const fw_statics_pull_in **p = &v->pull_in[scene];
     fw_statics_pull_in *softer;
+    double gives;
     if (!*p || (*p)->kind == FW_PULL_IN_NONE) return FW_OK;
+    FW_TRY(fw_verdict_places_pulled(arena, v, scene, *p, &gives));
     FW_NEED(softer = fw_arena_one(arena, fw_statics_pull_in));
     *softer = **p;
     const double stiff = 1 - fmin(1, softer->stiffness_error);
-    softer->stiffness_error = 1 - stiff / (1 + fw_verdict_bending_moving(motion));
+    softer->stiffness_error = 1 - stiff / (1 + fw_verdict_bending_moving(v->motion[scene]) + gives);
     *p = softer;
     return FW_OK;
 }
@@ -320,12 +321,13 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
         return touched(arena, scene, p, ended, options, v);
     }
     FW_TRY(status);
-    FW_TRY(softened(arena, v->motion[i], &v->pull_in[i]));
+    FW_TRY(softened(arena, i, v));
     FW_TRY(judge_pull_in(arena, scene, v->pull_in[i], v->motion[i], options, diags, v));
     FW_TRY(judge_level(arena, scene, v->motion[i], v));
     FW_TRY(judge_beside(arena, scene, v->motion[i], v));
     FW_TRY(judge_strains(arena, scene, v->motion[i], v));
     FW_TRY(judge_reliability(scene, &own, v));
+    FW_TRY(fw_verdict_ends_early(arena, scene, v->motion[i], options, diags, v));
     return judge_stability(arena, scene, i, diags, v);
 }
 
@@ -479,16 +481,47 @@ void fw_verdict_bent_leaves_open(fw_verdict_variant_verdict *v, int first) {
 
 /* ---- what moves it from outside ----
    A driver is an actuator that nothing on the chip is, as a force of a scene is: a probe, a hand. Other than a
-   force it also holds what it moves. That it is not of the chip is said (FW-D598). */
+   force it also holds what it moves (FW-D598). */
+
+static bool is_on_body(const fw_mechanism *m, const fw_layout *layout, const fw_device_force *f,
+                       fw_geometry_vec2 *at) {
+    const double hardly_m = 10e-6;
+    if (f->body == FW_GROUND) return true;
+    *at = fw_mechanism_local_place(m, f->body, f->x_m, f->y_m);
+    for (int i = 0; i < layout->npiece; i++)
+        if (fw_verdict_is_of(&layout->piece[i], f->body) &&
+            fw_geometry_contour_contains(&layout->piece[i].contour, *at))
+            return true;
+    return fw_verdict_comes_near(layout, f->body, *at, hardly_m);
+}
+
+static fw_status forces_in_the_open(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                                    const fw_device_scene *s, int scene,
+                                    fw_verdict_from_outside *list, int *n) {
+    char x[32], y[32];
+    fw_geometry_vec2 at;
+    for (int k = 0; k < s->nforce; k++) {
+        const bool own = s->force[k].x_m == 0 && s->force[k].y_m == 0; /* as the file has it */
+        if (own || is_on_body(m, layout, &m->device->scene[scene].force[k], &at)) continue;
+        list[*n] = (fw_verdict_from_outside){.number = 696, .place = s->force[k].place};
+        FW_NEED(list[(*n)++].text = fw_arena_printf(
+                    arena,
+                    "%s%s: the masks draw nothing of %s at (%s, %s) um, where a force acts on it: "
+                    "something else has to carry it from there; move it on to the body (x, y)",
+                    FW_NAMED("scene", s->name), fw_text_name(m->device->body[s->force[k].body].id),
+                    fw_number_text(x, 32, 1e6 * at.x, 5), fw_number_text(y, 32, 1e6 * at.y, 5)));
+    }
+    return FW_OK;
+}
 
 fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_verdict *verdict,
                              const fw_verdict_from_outside **outside, int *n) {
     const bool drawn = verdict->layout && verdict->layout->drawn;
-    const int drivers = drawn ? device->ndriver : 0;
+    const int drivers = drawn ? device->ndriver : 0, scenes = drawn ? device->nscene : 0;
     size_t most = (size_t)drivers;
     fw_verdict_from_outside *list;
-    for (int i = 0; drawn && i < device->nscene; i++)
-        most += 2 * (size_t)device->scene[i].ncontact;
+    for (int i = 0; i < scenes; i++)
+        most += (size_t)(2 * device->scene[i].ncontact + device->scene[i].nforce);
     FW_NEED(list = fw_arena_array(arena, fw_verdict_from_outside, most));
     for (*n = 0; *n < drivers; (*n)++) {
         const fw_device_driver *d = &device->driver[*n];
@@ -503,6 +536,9 @@ fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_
                     FW_NAMED("driver", fw_text_name(d->id)),
                     fw_text_kind(turns ? "hinge " : "joint ", id), fw_text_name(id)));
     }
+    for (int i = 0; verdict->nvariant > 0 && i < scenes; i++)
+        FW_TRY(forces_in_the_open(arena, verdict->variant[0].mechanism, verdict->layout,
+                                  &device->scene[i], i, list, n));
     *outside = list;
     return drawn ? fw_verdict_undrawn(arena, device, verdict->layout, list, n) : FW_OK;
 }
@@ -549,7 +585,7 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
         if (b->body_J[i] > b->body_J[most]) most = i;
     const fw_verdict_arm *arm = narrowest(m, b, most);
     if (!arm) return;
-    const double most_share = b->body_J[most] / b->hinges_J;
+    const double most_share = fmin(b->body_J[most] / b->hinges_J, share);
     fw_diag_warning(
         diags, 510, m->device->body[most].place,
         "bodies are taken as rigid, and in %s%s they may give by up to %s %s what "

@@ -515,7 +515,7 @@ fw_verdict_decision fw_verdict_drying_bears(const fw_verdict_variant_verdict *v,
     return FW_INCONCLUSIVE;
 }
 
-/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower (body_loads.c) ---- */
+/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
 
 static fw_status leave_open(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
                             int number, const char *what, int body, double by, const char *unit) {
@@ -562,15 +562,15 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body,
 
 /* 1/omega^2 of the rigid bodies and of what hangs over add up at most (Dunkerley) */
 static fw_status slower(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const double *hangs = v->out_of_plane->hangs_in;
+    const fw_verdict_hung *hung = v->out_of_plane->hung;
     const char *what;
     int body = 0;
     for (int i = 1; i < v->mechanism->nbody; i++)
-        if (hangs[i] > hangs[body]) body = i;
+        if (hung[i].in_plane_s2 > hung[body].in_plane_s2) body = i;
     for (int k = 0; k < v->nrequirement && v->mechanism->nbody > 0; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_ACCEPT) continue;
-        const double low = r->low / sqrt(1 + hangs[body] * pow(FW_TURN * r->low, 2));
+        const double low = r->low / sqrt(1 + hung[body].in_plane_s2 * pow(FW_TURN * r->low, 2));
         if (!(low < r->min)) continue;
         r->decision = FW_INCONCLUSIVE;
         FW_NEED(what = fw_verdict_requirement_text(arena, r));
@@ -583,8 +583,9 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
     const fw_mechanism *m = v->mechanism;
     double *to = fw_arena_array(arena, double, (size_t)m->nbody);
     FW_NEED(to);
-    if (!v->out_of_plane || !v->out_of_plane->hangs_in) return FW_OK;
+    if (!v->out_of_plane || !v->out_of_plane->hung) return FW_OK;
     for (int i = 0; i < m->device->nscene; i++) {
+        FW_TRY(fw_verdict_shaken_bears(arena, v, i));
         FW_TRY(fw_verdict_bends_in_plane(arena, v, i, to));
         int body = 0;
         double by = 0, other = 0;

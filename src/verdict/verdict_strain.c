@@ -62,7 +62,7 @@ static void add_end(ends *to, int body, double x_m, double y_m, double known_N, 
            (to->end[first].body != body || vec_distance(to->end[first].at, at) > same_m))
         first++;
     to->end[to->n++] =
-        (fw_verdict_load_end){to->scene, body, first, x_m, y_m, at, known_N, what, id};
+        (fw_verdict_load_end){to->scene, body, first, x_m, y_m, at, known_N, what, id, NULL};
 }
 
 /* in the bar behind the fingers, or in the rotor's face: fingers bear their own shares only */
@@ -80,8 +80,10 @@ static void add_scene(ends *to, const fw_device_scene *s) {
     const double by = s->duration_s;
     for (int i = 0; i < s->nforce; i++) {
         const fw_device_force *f = &s->force[i];
+        const int before = to->n;
         add_end(to, f->body, f->x_m, f->y_m,
                 hypot(f->fx_N, f->fy_N) * fw_quantity_law_largest(f->law, by), "force", NULL);
+        if (to->n > before) to->end[before].force = f;
     }
     for (int i = 0; i < s->ntendon; i++) {
         const fw_device_tendon *t = &s->tendon[i];

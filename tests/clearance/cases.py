@@ -217,8 +217,51 @@ def folds(program):
                d["verdict"] == "inconclusive" and len(reasons(d, "FW-D295")) == 2)
 
 
+def large_boxes(program):
+    """the band of required poses is a share of what links are moved by, however large the box is; where a leg is all but
+    stretched that has no bound, and nothing is said of it"""
+    path = os.path.join(DATA, "..", "..", "..", "docs", "gallery", "reference-six-bar", "device.xml")
+    with open(path, encoding="utf-8") as f:
+        text = f.read()
+    asked = re.search(r'<workspace flow="al-masked-rie"[^>]*/>', text).group(0)
+    with tempfile.TemporaryDirectory() as directory:
+        at = os.path.join(directory, "six-bar.xml")
+
+        def box(by):
+            ends = " ".join('%s-min="%.9g %s" %s-max="%.9g %s"' % (c, -by * most, u, c, by * most, u)
+                            for c, most, u in (("x", 150, "um"), ("y", 60, "um"), ("phi", 2, "deg")))
+            with open(at, "w", encoding="utf-8") as f:
+                f.write(text.replace(asked, '<workspace flow="al-masked-rie" %s/>' % ends))
+            d = check(program, at, more=("--flow", "al-masked-rie"))
+            return d, [c for c in d["clearances"] if c["scene"] == "workspace"][0]
+
+        for by in (1, 1.2, 1.4, 1.6, 1.8, 2, 2.2):
+            d, c = box(by)
+            up, down = c["high_m"] - c["drawn_m"], c["drawn_m"] - c["low_m"]
+            expect("a box %g times as large has a band of %.3g um to either side" % (by, 1e6 * up),
+                   8e-6 < up < 25e-6 and abs(up - down) < 0.1 * up)
+            expect("and is decided by it", c["verdict"] == "accept" and not reasons(d, "FW-D294"))
+        d, c = box(2.294)
+        said = [r for r in reasons(d, "FW-D295") if "come within" in r["text"]]
+        expect("at the limit of reach it is not known", c["verdict"] == "inconclusive" and c["low_m"] is None and
+               c["high_m"] is None and len(said) == 1 and "not bounded" in said[0]["text"] and "inf" not in said[0]["text"])
+
+
+def thin_posts(program):
+    """a tether is no part that its own body may meet, however thick that is where the tether ends"""
+    with open(os.path.join(DATA, "post.xml"), encoding="utf-8") as f:
+        text = f.read()
+    with tempfile.TemporaryDirectory() as directory:
+        for width in (24, 29, 29.5, 30, 30.5, 31, 36, 50):
+            at = os.path.join(directory, "post.xml")
+            with open(at, "w", encoding="utf-8") as f:
+                f.write(text.replace('width="30 um"', 'width="%g um"' % width))
+            d = check(program, at)
+            expect("a post %g um thick meets nothing" % width, not reasons(d, "FW-D294"))
+
+
 def main():
-    for case in (jaws, eyelets, as_made, corners, roots, jumps, lane, beads, riders, folds):
+    for case in (jaws, eyelets, as_made, corners, roots, jumps, lane, beads, riders, folds, large_boxes, thin_posts):
         case(sys.argv[1])
     return 1 if FAULTS else 0
 

@@ -516,6 +516,90 @@ class NearAFold(unittest.TestCase):
         self.assertEqual(decision, "inconclusive")
 
 
+class SlenderArms(unittest.TestCase):
+    """Bodies are rigid in the motion. What an arm gives where something presses on its end, and whether it bears that, was not in any
+    verdict but of displacements and gaps. Numbers are those of beams with large turns, each a leaf's and the arm's elements."""
+
+    def judged(self, name, *settings, corners="none"):
+        done = run("check", ROOT / f"tests/data/arms/{name}.xml", "--corners", corners, "--advice", "none", "--json",
+                   *(w for s in settings for w in ("--set", s)))
+        said = json.loads(done.stdout)
+        return said["verdict"], said, {r["code"] for r in said["reasons"]}
+
+    def holds(self, name, value, *settings):
+        decision, said, _ = self.judged(name, *settings)
+        low, high = said["requirements"][0]["band"]
+        self.assertTrue(low < value < high, (name, settings, low, value, high))
+        return decision, low, high
+
+    def test_slender_arms_press_less(self):
+        decision, low, high = self.holds("grips", 359e-6)
+        self.assertEqual(decision, "inconclusive")
+        self.assertGreater(low, 200e-6)
+        self.assertLess(high, 485e-6)  # and by no more: rigid ones press with 472
+        self.holds("grips", 185e-6, "kw=30 N/m", "arm=60 um")
+        self.holds("grips", 728e-6, "kw=20 N/m", "arm=100 um", "gap=20 um")
+        decision, low, _ = self.holds("grips", 472e-6, "arm=400 um", "gripmin=200 uN")
+        self.assertEqual(decision, "accept")
+
+    def test_slender_arms_are_soft_at_their_ends(self):
+        self.assertEqual(self.holds("stiff", 1.33)[0], "inconclusive")
+        _, low, high = self.holds("stiff", 1.98, "arm=40 um")
+        self.assertGreater(low, 1.9)
+        text = (ROOT / "tests/data/arms/stiff.xml").read_text().replace('probe="ktip" min="1.7 N/m"', 'probe="ctip" max="0.8 m/N"')
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            device.write_text(text)
+            done = run("check", device, "--corners", "none", "--advice", "none", "--json")
+        low, high = json.loads(done.stdout)["requirements"][0]["band"]
+        self.assertTrue(low < 1 / 2.281 and 1 / 1.33 < high < 0.85, (low, high))
+
+    def test_no_arm_is_lost_between_cells(self):
+        """of the grid on which ways are looked for, 24 um of a body of 2.6 mm: the thinner one was accepted, and the thicker one not"""
+        text = (ROOT / "tests/data/arms/ends.xml").read_text()
+        for y, arm in ((0, 16), (3, 16), (9, 16), (15, 12), (21, 20), (9, 3), (9, 2)):
+            with tempfile.TemporaryDirectory() as place:
+                device = pathlib.Path(place, "device.xml")
+                device.write_text(text.replace('"9 um"', f'"{y} um"'))
+                done = run("check", device, "--corners", "none", "--advice", "none", "--json", "--set", f"arm={arm} um")
+            said = json.loads(done.stdout)
+            self.assertIn("FW-D538", {r["code"] for r in said["reasons"]}, (y, arm))
+            self.assertEqual(said["verdict"], "inconclusive", (y, arm))
+        decision, said, codes = self.judged("stops")  # rigid 5 %, and 134 % with an arm that bends
+        self.assertEqual(decision, "inconclusive")
+        self.assertIn("FW-D538", codes)
+
+    def test_a_force_in_the_open_is_told(self):
+        """which no material carries: what the body gives by it was taken along the nearest way, and nothing said so"""
+        for y, told in (("9 um", False), ("300 um", True)):
+            text = (ROOT / "tests/data/arms/ends.xml").read_text().replace('<force on="lever" x="2.4500 mm" y="9 um"', f'<force on="lever" x="2.4500 mm" y="{y}"')
+            with tempfile.TemporaryDirectory() as place:
+                device = pathlib.Path(place, "device.xml")
+                device.write_text(text)
+                done = run("check", device, "--corners", "none", "--advice", "none")
+            self.assertEqual("draw nothing of lever at (2450, 300) um" in done.stdout, told, done.stdout[:600])
+
+    def test_electrodes_on_arms(self):
+        """pull-in at 37.4 V, and at 27.9 V with the arm (36 um: 67.8 and 50.9), all without fringe fields"""
+        for arm, leaf, snaps, holds in ((24, 20, 28, 18), (36, 30, 51, 34)):
+            width = f"flexure[leaf]/@width={leaf} um"
+            decision, _, codes = self.judged("pulled", f"arm={arm} um", f"v={snaps} V", width)
+            self.assertEqual(decision, "inconclusive", arm)
+            self.assertIn("FW-D248", codes)
+            self.assertEqual(self.judged("pulled", f"arm={arm} um", f"v={holds} V", width)[0], "accept", arm)
+
+    def test_pads_on_arms_are_shaken(self):
+        """1049 MPa at the arm's root, of 667 that are allowed; at 1720 Hz the pad swings on its arm, which rigid bodies do at 3655"""
+        decision, _, codes = self.judged("shaken")
+        self.assertEqual(decision, "inconclusive")
+        self.assertIn("FW-D538", codes)
+        self.assertEqual(self.judged("shaken", "acc=3000 m/s^2")[0], "accept")
+        decision, said, codes = self.judged("sung")
+        self.assertEqual(decision, "inconclusive")
+        self.assertIn("FW-D538", codes)
+        self.assertGreater(said["hinges"][0]["utilisation_band"][1], 5 * said["hinges"][0]["utilisation"])
+
+
 class Resonance(unittest.TestCase):
     """a mode whose frequency is known to some per cent, and a shaker near it"""
 

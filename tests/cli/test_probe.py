@@ -106,6 +106,50 @@ class Probe(unittest.TestCase):
         self.near(about["soft"]["value"], LEVER ** 2 / K, 1e-10)
         self.near(about["f1"]["value"], math.sqrt(K / J) / (2 * math.pi), 1e-10)
 
+    def test_a_velocity_is_not_that_of_equilibria(self):
+        """a load that grows evenly for hundreds of periods: the point goes to and fro about the even speed, between 0 and twice that
+        without damping; as made and in a study alike. A scene without such a probe stays a sequence of equilibria"""
+        load, rise = 1e-7, 2.0
+        even = load * LEVER ** 2 / K / rise
+        text = (PADDLE % ("", '<probe id="v" kind="velocity" on="arm" x="0.5 mm" direction="90 deg"/>%s')).replace(
+            '"20 ms"><force on="arm" x="0.5 mm" fy="0.1 mN"', '"2 s"><force on="arm" x="0.5 mm" fy="0.1 uN" law="ramp" rise="2 s"')
+        found = self.answer(text % "", "simulate")
+        self.assertNotEqual(found["method"], "quasi-static")
+        ledger = {e["id"]: e for e in found["effects"]}["inertia"]
+        self.assertTrue(ledger["active"])
+        self.assertIn("probe v goes by velocities", ledger["reason"])
+        v = {p["id"]: p for p in found["probes"]}["v"]
+        self.near(v["maximum"], 2 * even, 1e-3)
+        self.assertLess(abs(v["minimum"]), 1e-3 * even)
+        self.near(max(row["v.velocity_m_per_s"] for row in self.rows(text % "")), 2 * even, 2e-2)
+        found = self.answer((text % "").replace('"velocity"', '"displacement"'), "simulate")
+        self.assertEqual(found["method"], "quasi-static")
+        less = run("simulate", self.file(text % ""), "--effects", "none")
+        self.assertIn("FW-D254", less.stderr)
+        self.assertIn("goes by velocities", less.stderr)
+
+    def test_a_required_velocity_of_a_slow_load_is_judged_with_inertia(self):
+        """material damping eta of one mode: the first swing about the even speed is smaller by exp(-pi eta/2); every measure knows it.
+        Slow enough that the deflection alone would be taken as a sequence of equilibria"""
+        text = """<device xmlns="urn:flexwright:device:1" name="lever"><parameter name="rise" value="200 ms"/>
+<material ref="silicon-100" thickness="50 um" youngs-modulus="160 GPa" poisson="0.22" strength="1 GPa"/>
+<flexure id="leaf" kind="leaf" length="300 um" width="20 um"/><mechanism>
+<body id="head" x="0 mm" y="0.8 mm" mass="1 mg" inertia="0.1 mg mm^2"/>
+<revolute id="A" a="ground" b="head" b-y="-0.8 mm" hinge="leaf" axis="90 deg"/></mechanism>
+<probe id="v" kind="velocity" on="head" direction="0 deg"/><probe id="x" kind="displacement" on="head" direction="0 deg"/>
+%s<scene name="press" duration="300 ms"><force on="head" fx="20 uN" law="ramp" rise="rise"/><material-damping loss-factor="0.05"/></scene>%s</device>"""
+        check = ("check", "--corners", "none", "--advice", "none")
+        judged = self.answer(text % ('<require probe="v" max="1 m/s"/><require probe="x" measure="final" min="0 m"/>', ""), *check)
+        speed, way = judged["requirements"]
+        even = way["value"] / 0.2
+        self.near(speed["value"], even * (1 + math.exp(-math.pi * 0.025)), 2e-2)
+        between = self.answer(text % ('<require probe="v" max="%.6g m/s"/>' % (1.5 * even), ""), *check)
+        self.assertEqual(between["verdict"], "reject")
+        for measure, bound in (("minimum", 'min="%.6g m/s"' % (-0.5 * even)), ("peak-to-peak", 'max="%.6g m/s"' % (2 * even))):
+            self.assertEqual(self.answer(text % (f'<require probe="v" measure="{measure}" {bound}/>', ""), *check)["verdict"], "reject", measure)
+        self.assertEqual(self.answer(text % ('<require probe="v" measure="settling-time" band="%.6g m/s" max="201 ms"/>' % (0.5 * even), ""),
+                                     *check)["verdict"], "reject")
+
     def test_a_paddle_that_swings(self):
         """energy: J w^2/2 = F LEVER sin a - K a^2/2, largest at rest's angle; at 0 again beyond"""
         found = self.probes(PADDLE % ("", PROBES), "simulate")
@@ -208,6 +252,8 @@ class Probe(unittest.TestCase):
         ('<probe id="a" kind="displacement"/>', None, "FW-D320", "needs on"),
         ('<probe id="a" kind="force" on="arm" of="pin"/>', "on", "FW-D320", "no meaning"),
         ('<probe id="a" kind="torque" of="s"/>', "of", "FW-D321", "no torque"),
+        ('<probe id="a" kind="power" of="pin"/>', "of", "FW-D321", "power is what a driver, tendon or comb drive feeds in, and 'pin' is none; none here has an id"),
+        ('<probe id="a" kind="power" of="s"/>', "of", "FW-D321", "'s' is none; none here has an id"),
         ('<probe id="a" kind="stiffness" on="arm"/>', None, "FW-D320", "direction"),
         ('<probe id="a" kind="distance" a="arm" b="arm"/>', "b", "FW-D320", "same body"),
         ('<probe id="a" kind="gap" a="arm" b="arm"/>', "b", "FW-D320", "same body"),
@@ -228,6 +274,14 @@ class Probe(unittest.TestCase):
         ('<require min="1 Hz"/>', None, "FW-D322", "one of"),
         ('<probe id="a" kind="force" of="pin"/><require probe="a" min="2 uN" scene="pusch"/>', "scene", "FW-D046", "push"),
     ]
+
+    def test_power_of_a_joint_names_what_feeds_power_in(self):
+        cables = '<tendon id="T" pull="%d uN"><eyelet on="arm"/><eyelet y="5 mm"/></tendon>'
+        text = (PADDLE % ("", '<probe id="a" kind="power" of="pin"/><scene name="other" duration="1 ms">%s</scene>' % (cables % 2))).replace(
+            "</scene></device>", cables % 1 + "</scene></device>")
+        said = run("statics", self.file(text))
+        self.assertEqual(said.returncode, 3)
+        self.assertIn("and 'pin' is none; name one of those there are: tendon 'T' [FW-D321]", said.stderr)
 
     def test_mistakes_are_reported_at_their_place(self):
         spring = '<spring id="s" a="arm" b="ground" b-y="1 mm" stiffness="1 N/m"/>'

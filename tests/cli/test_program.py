@@ -607,6 +607,68 @@ class Simulate(InTemporary):
         self.expect(run("simulate", GALLERY, "--effects", "magic"), 2)
 
 
+class EndsEarly(InTemporary):
+    """one mode under a ramp that ends with the scene (no damping): theta = T/k (t - sin(w t)/w)/rise, and behind it it swings about T/k by
+    T/k 2 |sin(w rise/2)|/(w rise)"""
+    def look(self, duration, rise="0.5 ms"):
+        device = self.here / "device.xml"
+        device.write_text(f"""<device xmlns="urn:flexwright:device:1" name="ringer"><material ref="silicon-100" thickness="50 um" youngs-modulus="160 GPa"
+ poisson="0.22" strength="1 GPa"/><flexure id="leaf" kind="leaf" length="400 um" width="10 um"/><mechanism>
+<body id="head" x="0 mm" y="0.8 mm" mass="0.056 mg" inertia="0.0047 mg mm^2"/>
+<revolute id="A" a="ground" b="head" b-y="-0.8 mm" hinge="leaf" axis="90 deg"/></mechanism>
+<scene name="kick" duration="{duration}"><force on="head" fx="100 uN" law="ramp" rise="{rise}"/></scene></device>""", encoding="utf-8")
+        said = run("check", device, "--corners", "none", "--advice", "none")
+        data = json.loads(run("check", device, "--corners", "none", "--advice", "none", "--json").stdout)
+        return said, [line["text"] for line in data["summary"] if line["label"] == "not judged"], math.degrees(data["hinges"][0]["peak_angle_rad"])
+
+    def test_a_scene_that_ends_on_the_way_up(self):
+        said, top, short = self.look("0.5 ms")
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertEqual(len(re.findall("warning: scene kick ends at 0.5 ms with hinge A at its peak.*FW-D691", said.stderr)), 1)
+        self.assertRegex(said.stdout, r"\nnot judged: scene kick ends at 0.5 ms .* .FW-D691.")
+        (sentence,) = top
+        to, least = (float(re.search(p, sentence).group(1)) for p in ("goes on to ([0-9.]+) deg", "let the scene last ([0-9.]+) ms"))
+        long, none, whole = self.look(f"{least} ms")
+        self.assertLess(abs(to - abs(whole)), 0.02 * to)
+        self.assertGreater(to, 1.1 * abs(short))
+        self.assertEqual(none, [])
+        self.assertNotIn("FW-D691", long.stderr)
+
+    def test_nothing_is_said_where_little_comes(self):
+        for duration, rise in (("20 ms", "0.5 ms"), ("400 ms", "400 ms")):
+            said, top, _ = self.look(duration, rise)
+            self.assertNotIn("FW-D691", said.stderr + said.stdout)
+            self.assertEqual(top, [])
+
+
+class RejectedAsMade(InTemporary):
+    """a column that as drawn is pressed a little less than it bears, and as made a little more; beside it something is not known"""
+    def made(self, duration, side):
+        device = self.here / "device.xml"
+        device.write_text(f"""<device xmlns="urn:flexwright:device:1" name="column"><material ref="silicon-100" thickness="50 um"
+ youngs-modulus="160 GPa" poisson="0.22" strength="1 GPa"/><limits safety-factor="1.5"/><flow ref="al-masked-rie"/>
+<flexure id="leaf" kind="leaf" length="800 um" width="10 um"/><mechanism>
+<body id="head" x="0 mm" y="0.8 mm" plate-width="300 um" plate-height="300 um"/>
+<revolute id="A" a="ground" b="head" b-y="-0.8 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<scene name="press" duration="{duration}"><force on="head" fy="-1.21 mN" law="ramp" rise="15 ms"/><material-damping loss-factor="0.02"/></scene>
+<scene name="pull" duration="20 ms"><force on="head" fx="{side}" law="ramp" rise="15 ms"/><material-damping loss-factor="0.02"/></scene>
+<die clearance="2 mm"/></device>""", encoding="utf-8")
+        data = json.loads(run("check", device, "--advice", "none", "--json").stdout)
+        self.assertEqual((data["verdict"], data["drawn"]), ("reject", "accept"))
+        (reason,) = [r for r in data["reasons"] if r["verdict"] == "reject"]
+        return reason
+
+    def test_what_buckles_is_said_to(self):
+        reason = self.made("20 ms", "10 uN")
+        self.assertEqual(reason["code"], "FW-D238")
+        self.assertRegex(reason["text"], r"^as al-masked-rie makes it \(nominal\): scene press stays on an unstable equilibrium")
+
+    def test_a_hinge_beyond_its_limit_is_said_to_be(self):
+        reason = self.made("15.5 ms", "405 uN")
+        self.assertEqual(reason["code"], "FW-D237")
+        self.assertRegex(reason["text"], r"^as al-masked-rie makes it \(nominal\) hinge A uses 10[0-9.]+ % of its limit in pull")
+
+
 class Recipe(InTemporary):
     def test_json_of_both_flows(self):
         for flow in FLOWS:

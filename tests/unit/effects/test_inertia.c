@@ -253,6 +253,53 @@ static void expressions(void **state) {
     fw_arena_free(s.arena);
 }
 
+static const char *kept_for(lever *s) {
+    const fw_effect_case c = {s->arena, &s->m, &s->scene, &s->e, NULL};
+    const char *why = NULL;
+    assert_int_equal(fw_effect_inertia.looked_at(&c, &why), FW_OK);
+    return why;
+}
+
+/* with one probe of the device: kept for a velocity, or for a tendon's power where the scene has it, and the bound on
+   deflections stays; a damper beside a spring counts by its share in the lowest mode */
+static void what_goes_by_velocities(void **state) {
+    (void)state;
+    lever s;
+    const char *reason;
+    const double c = 3e-9;
+    lever_new(&s, c);
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 1};
+    set_torque(&s, &ramp, load);
+    s.floor = load / stiffness;
+    s.scene.duration_s = 2;
+    const double share = c * s.omega / stiffness, alone = bound_of(&s, &reason);
+    assert_true(isfinite(alone) && share > 0.01);
+    fw_device_spring spring = {.id = "s", .stiffness_N_per_m = 2, .damping_Ns_per_m = 0.01};
+    fw_device_probe probe = {.id = "v", .row = FW_PROBE_IS_displacement};
+    fw_device device = {.probe = &probe, .nprobe = 1, .spring = &spring, .nspring = 1};
+    s.m.device = &device;
+    assert_near(bound_of(&s, &reason), alone, 1e-12 * alone);
+    assert_null(kept_for(&s));
+    probe.row = FW_PROBE_IS_velocity;
+    assert_near(bound_of(&s, &reason), alone, 1e-12 * alone);
+    assert_non_null(strstr(kept_for(&s), "probe v goes by velocities"));
+    probe.row = FW_PROBE_IS_torque, probe.of = "O", probe.carrier = FW_CARRIER_REVOLUTE;
+    assert_near(bound_of(&s, &reason), alone * (1 + share), 1e-9 * alone);
+    probe.row = FW_PROBE_IS_force; /* of the joint itself */
+    assert_near(bound_of(&s, &reason), alone, 1e-12 * alone);
+    probe.of = "s", probe.carrier = FW_CARRIER_SPRING;
+    assert_near(bound_of(&s, &reason), alone * (1 + 0.005 * s.omega), 1e-9 * alone);
+    assert_null(kept_for(&s));
+    spring.stiffness_N_per_m = 0;
+    assert_non_null(kept_for(&s));
+    probe.row = FW_PROBE_IS_power, probe.of = "T", probe.carrier = FW_CARRIER_TENDON;
+    assert_null(kept_for(&s)); /* in another scene */
+    fw_device_tendon tendon = {.id = "T", .pull_N = 1, .draw_m = (double)NAN};
+    s.scene.tendon = &tendon, s.scene.ntendon = 1;
+    assert_non_null(kept_for(&s));
+    fw_arena_free(s.arena);
+}
+
 static void choices(void **state) {
     (void)state;
     lever s;
@@ -276,6 +323,7 @@ int main(void) {
         cmocka_unit_test(honest),
         cmocka_unit_test(slow_loads_leave_it_out),
         cmocka_unit_test(expressions),
+        cmocka_unit_test(what_goes_by_velocities),
         cmocka_unit_test(choices),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -285,6 +285,63 @@ static void what_hinges_take_is_said(void **state) {
     fw_arena_free(d.arena);
 }
 
+/* does a tether end at a cut of its body: end for end, and outside of what it holds? */
+static bool ends_at_body(const fw_layout *l, const fw_layout_piece *t) {
+    int cuts = 0, frame = 0;
+    for (int i = 0; i < l->npiece; i++) {
+        const fw_layout_piece *p = &l->piece[i];
+        if (p == t || p->role == FW_ROLE_TETHER) continue;
+        for (int j = 0; j < p->contour.count; j++)
+            for (int k = 0; k < t->contour.count; k++) {
+                const fw_geometry_segment *s = &p->contour.segment[j], *e = &t->contour.segment[k];
+                if (!(s->flags & e->flags & FW_SEGMENT_JOINT)) continue;
+                if (!vec_same(s->a, e->b) || !vec_same(s->b, e->a)) continue;
+                cuts += p->body == 0;
+                frame += p->role == FW_ROLE_FRAME;
+            }
+        if (p->body != 0) continue;
+        for (int k = 0; k < t->contour.count; k++) { /* nothing of it is inside of the body */
+            const fw_geometry_segment *e = &t->contour.segment[k];
+            if (!(e->flags & FW_SEGMENT_JOINT) &&
+                fw_geometry_contour_contains(&p->contour, fw_geometry_segment_point(e, 0.5)))
+                return false;
+        }
+    }
+    return cuts == 1 && frame == 1;
+}
+
+/* A finger begins 30 um below the edge that it holds: where the body was just as thick it began on the far
+   edge, and ran through the body, 20 um wide and without a neck. At all widths about that, at places whose
+   coordinates round either way, upright and lying. */
+static void tethers_end_at_thin_bars(void **state) {
+    (void)state;
+    int n = 0;
+    for (int lying = 0; lying < 2; lying++)
+        for (int place = 0; place < 6; place++)
+            for (int half_um = 40; half_um <= 120; half_um++) {
+                char mechanism[1024], at[64];
+                const double x_um = place * 17.3, to_um = 2600.0 - place * 31.7;
+                snprintf(at, sizeof at, lying ? "phi=\"-90 deg\"" : "");
+                snprintf(mechanism, sizeof mechanism,
+                         "<body id=\"jaw\" x=\"0 mm\" y=\"0 mm\" %s><plate x=\"%g um\" y=\"500 um\" "
+                         "width=\"400 um\" height=\"400 um\"/><bar x=\"%g um\" y=\"600 um\" to-x=\"%g um\" "
+                         "to-y=\"%g um\" width=\"%g um\"/></body><revolute id=\"A\" a=\"ground\" b=\"jaw\" "
+                         "b-x=\"%g um\" b-y=\"0 mm\" hinge=\"f\"/>",
+                         at, x_um, x_um, x_um, to_um, 0.5 * half_um, x_um);
+                drawn d = draw(mechanism, "<die clearance=\"1200 um\"/>");
+                for (int i = 0; i < d.layout->npiece; i++) {
+                    if (d.layout->piece[i].role != FW_ROLE_TETHER) continue;
+                    if (!ends_at_body(d.layout, &d.layout->piece[i]))
+                        fail_msg("%g um wide, place %d, lying %d: tether %d", 0.5 * half_um, place,
+                                 lying, i);
+                    n++;
+                }
+                assert_true(d.layout->ntether > 0);
+                fw_arena_free(d.arena);
+            }
+    assert_true(n > 900);
+}
+
 static void memory_runs_out(void **state) {
     (void)state;
     static char xml[16384];
@@ -313,6 +370,7 @@ int main(void) {
         cmocka_unit_test(mirrored_and_moved), cmocka_unit_test(what_stands_on_it),
         cmocka_unit_test(between_hinges),
         cmocka_unit_test(what_hinges_take_is_said),
+        cmocka_unit_test(tethers_end_at_thin_bars),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

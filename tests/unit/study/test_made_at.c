@@ -66,7 +66,7 @@ static bool edges_alone(const fw_verdict_fabrication_input *in) {
 }
 
 /* Which quantity it is that moves the edges makes no difference: response surfaces have the state of a die for their inputs
-   (study_axes.c) and not what made it. */
+   (study_made.c) and not what made it. */
 static void what_counts_is_what_is_made(void **state) {
     (void)state;
     fw_plan *plan = judged_as_drawn();

@@ -448,15 +448,17 @@ static void what_hangs_over_bends(void **state) {
         s.m.variant = &variant, s.m.shape = &shape;
         fw_mechanism_mass mass = {.mass_kg = 2330 * 20e-6 * shape.area_m2};
         s.m.body = &mass;
-        double hangs[2];
+        fw_verdict_hung hung;
         fw_verdict_line *line;
         int nline;
         assert_int_equal(fw_verdict_body_lines(s.arena, &s.layout, 0, &line, &nline), FW_OK);
-        assert_int_equal(fw_verdict_overhang(s.arena, &s.m, &s.layout, 0, line, nline, hangs), FW_OK);
+        assert_int_equal(fw_verdict_overhang(s.arena, &s.m, &s.layout, 0, line, nline, &hung), FW_OK);
         const double bends = 1.5 * 2330 * pow((l - 0.015) * 1e-3, 4) / (150e9 * 20e-6 * 20e-6);
-        assert_true(hangs[0] > 0.98 * bends && hangs[0] < 1.05 * bends);
+        assert_true(hung.across_s2 > 0.98 * bends && hung.across_s2 < 1.05 * bends);
         const double in_it = 1.5 * 2330 * pow((l - 0.015) * 1e-3, 4) / (150e9 * pow(w * 1e-3, 2)); /* and half of 3.2 by shear */
-        assert_true(hangs[1] > 0.98 * in_it && hangs[1] < 1.2 * in_it);
+        assert_true(hung.in_plane_s2 > 0.98 * in_it && hung.in_plane_s2 < 1.2 * in_it);
+        const double strained = 3 * 2330 * pow((l - 0.015) * 1e-3, 2) / (w * 1e-3); /* 6 M/(h w^2) at the root, M = rho h w l^2/2 */
+        assert_true(hung.Pa_per_m_s2 > 0.9 * strained && hung.Pa_per_m_s2 < 1.1 * strained);
         fw_arena_free(s.arena);
     }
 }
