@@ -20,7 +20,7 @@ double fw_verdict_load_N(const fw_verdict_load_end *end, int n, int at, const do
 }
 
 /* ---- what bodies give in series with what presses on them ----
-   A contact of stiffness k, or a cable that is drawn, acts on a place that gives c for its force (the way from there to the
+   A contact or spring of stiffness k, or a cable that is drawn, acts on a place that gives c for its force (the way from there to the
    body's middle, body_arms.c; of all its bodies together, a cable's turns counted twice). With c in series
 
      it presses by at least 1/(1 + c k) of what it does on rigid bodies,
@@ -76,9 +76,26 @@ fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *m, const f
     return FW_OK;
 }
 
+static bool is_at(const fw_verdict_place *at, int body, double x_m, double y_m) {
+    const double same_m = 1e-9;
+    return body == at->body && fabs(x_m - at->x_m) < same_m && fabs(y_m - at->y_m) < same_m;
+}
+
+static void find_spring(fw_verdict_place *at, const fw_effects_loads *loads) {
+    at->spring = NULL;
+    for (int i = 0; at->id && i < loads->nspring && !at->spring; i++) {
+        const fw_device_spring *k = &loads->spring[i];
+        const bool first = is_at(at, k->body_a, k->ax_m, k->ay_m),
+                   second = is_at(at, k->body_b, k->bx_m, k->by_m);
+        if (k->id && strcmp(k->id, at->id) == 0 && (first || second))
+            at->spring = k, at->second = !first;
+    }
+    if (at->spring && at->m_per_N * at->spring->stiffness_N_per_m > hardly_gives)
+        at->stiff_N_per_m = at->spring->stiffness_N_per_m;
+}
+
 /* what acts there in this run: an element of that name with a port at the place; does it go by how the place goes? */
 static void find_element(fw_verdict_place *at, const fw_effects_loads *loads) {
-    const double same_m = 1e-9;
     at->element = NULL, at->stiff_N_per_m = 0;
     for (int i = 0; at->id && i < loads->nelement && !at->element; i++) {
         const fw_effects_force_element *e = &loads->element[i];
@@ -86,12 +103,31 @@ static void find_element(fw_verdict_place *at, const fw_effects_loads *loads) {
             e->ports > PORTS_SEEN || e->switches > PORTS_SEEN)
             continue;
         for (int k = 0; k < e->ports && !at->element; k++)
-            if (e->port[k].body == at->body && fabs(e->port[k].x_m - at->x_m) < same_m &&
-                fabs(e->port[k].y_m - at->y_m) < same_m)
+            if (is_at(at, e->port[k].body, e->port[k].x_m, e->port[k].y_m))
                 at->element = e, at->port = k;
     }
     if (at->element && at->m_per_N * at->element->size_N_per_m > hardly_gives)
         at->stiff_N_per_m = at->element->size_N_per_m;
+}
+
+static fw_geometry_vec2 place_now(const double *q, int body, double x_m, double y_m) {
+    const fw_geometry_vec2 own = {x_m, y_m};
+    if (body == FW_GROUND) return own;
+    return vec_add((fw_geometry_vec2){q[3 * body], q[3 * body + 1]},
+                   fw_geometry_vec_rotate(own, q[3 * body + 2]));
+}
+
+static void spring_acts(const fw_verdict_place *at, const double *q, double acts[3],
+                        double *stored_J) {
+    const fw_device_spring *k = at->spring;
+    const fw_geometry_vec2 along = vec_sub(place_now(q, k->body_b, k->bx_m, k->by_m),
+                                           place_now(q, k->body_a, k->ax_m, k->ay_m));
+    const double length = vec_length(along), stretch = length - k->length_m,
+                 pull = k->cable && stretch < 0 ? 0 : k->stiffness_N_per_m * stretch;
+    if (!(length > 0)) return;
+    acts[0] = (at->second ? -1 : 1) * pull * along.x / length;
+    acts[1] = (at->second ? -1 : 1) * pull * along.y / length;
+    if (stored_J) *stored_J += 0.5 * pull * stretch;
 }
 
 /* force and couple that act on a place now, N, N, N m, world */
@@ -105,6 +141,7 @@ static void acts_on(const fw_verdict_place *at, const fw_dynamics_instant *now, 
         if (at->force->law) fw_quantity_law_value(at->force->law, now->t_s, now->piece_s, law);
         acts[0] = at->force->fx_N * law[0], acts[1] = at->force->fy_N * law[0];
     }
+    if (at->spring) spring_acts(at, now->q, acts, stored_J);
     if (!e) return;
     fw_effects_element_place_ports(e, now->q, NULL, p, w);
     const fw_effects_port_state seen = {.t_s = now->t_s,
@@ -121,10 +158,11 @@ static void acts_on(const fw_verdict_place *at, const fw_dynamics_instant *now, 
     if (stored_J && e->class_->energy) *stored_J += e->class_->energy(e, &seen);
 }
 
-/* of the places of one element the first that counts */
+/* of the places of one element or spring the first that counts */
 static bool is_first(const fw_verdict_bending *b, int place) {
     for (int i = 0; i < place; i++)
-        if (b->place[i].element == b->place[place].element && b->place[i].stiff_N_per_m > 0)
+        if (b->place[i].element == b->place[place].element &&
+            b->place[i].spring == b->place[place].spring && b->place[i].stiff_N_per_m > 0)
             return false;
     return true;
 }
@@ -136,8 +174,10 @@ void fw_verdict_places_record(fw_verdict_bending *b, const fw_dynamics_instant *
             b->place[i].force_N = 0;
         return;
     }
-    for (int i = 0; now->loads != b->loads && i < b->nplace; i++)
+    for (int i = 0; now->loads != b->loads && i < b->nplace; i++) {
         find_element(&b->place[i], now->loads);
+        find_spring(&b->place[i], now->loads);
+    }
     b->loads = now->loads;
     double stored_J = 0;
     for (int i = 0; i < b->nplace; i++) {
@@ -157,7 +197,8 @@ static double in_series(const fw_verdict_bending *b, const char *id, double *sto
     for (int i = 0; i < b->nplace; i++) {
         const fw_verdict_place *at = &b->place[i];
         if (!(at->force_N > 0) || strcmp(at->id, id) != 0) continue;
-        const double passes = at->port > 0 && at->port + 1 < at->element->ports ? 4 : 1;
+        const double passes =
+            at->element && at->port > 0 && at->port + 1 < at->element->ports ? 4 : 1;
         share += passes * at->m_per_N * at->stiff_N_per_m;
         *stored_J += 0.5 * at->force_N * at->force_N * at->m_per_N;
     }
@@ -198,21 +239,24 @@ double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device
     if (probe->row == FW_PROBE_IS_velocity) return b->stated_J / b->hinges_J;
     if (!probe->of || !first_of(b, probe->of)) return 0;
     for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].force_N > 0 && b->place[i].element->class_->pressing &&
+        if (b->place[i].force_N > 0 &&
+            (b->place[i].spring || b->place[i].element->class_->pressing) &&
             strcmp(b->place[i].id, probe->of) != 0)
             return 0; /* what one contact does not bear another one may */
     const double all_J = fw_verdict_bending_all_J(b);
     return fmax(all_J - b->places_J, 0) / (b->hinges_J + b->springs_J) - all_J / b->hinges_J;
 }
 
-bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N) {
+bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N,
+                             double *high_N) {
     const fw_verdict_bending *b = seen_by(motion);
     double left = 1, stored_J;
-    if (!b || !id || !first_of(b, id) || !(*low_N > 0)) return false;
+    if (!b || !id || !first_of(b, id)) return false;
     for (int i = 0; i < b->nplace; i++)
         if (b->place[i].force_N > 0 && first_of(b, b->place[i].id) == &b->place[i])
             left /= 1 + in_series(b, b->place[i].id, &stored_J);
-    *low_N *= left;
+    if (*low_N > 0) *low_N *= left;
+    if (*high_N < 0) *high_N *= left; /* a spring that is pressed */
     return left < 1;
 }
 

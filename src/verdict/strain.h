@@ -242,6 +242,9 @@ typedef struct fw_verdict_place {
     double force_N;                          /* largest so far; infinite: not known */
     const fw_effects_force_element *element; /* of this run; NULL: none goes by the place */
     int port;
+    const fw_device_spring
+        *spring; /* or a spring, which acts on its second body there (second) or its first */
+    bool second;
     const fw_device_force *force; /* or what is stated */
 } fw_verdict_place;
 
@@ -317,9 +320,10 @@ void fw_verdict_places_end(fw_verdict_bending *bending);
 double fw_verdict_bending_all_J(const fw_verdict_bending *bending);
 /* Relative error of a probe beside fw_verdict_bending_share: of a speed what bodies give under the loads that the scene states; of
    the force of what acts on a place the part of that share that goes with it alone, which is none of its errors, less.
-   *low_N less what such a force loses at most; false: nothing changes */
+   *low_N and *high_N with what such a force loses at most; false: nothing changes */
 double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe);
-bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N);
+bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N,
+                             double *high_N);
 /* what the body of a probed stiffness or compliance gives at its place along its direction at most, m/N; 0: not known */
 fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, const fw_device_probe *probe,

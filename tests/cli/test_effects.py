@@ -541,6 +541,15 @@ class SlenderArms(unittest.TestCase):
         self.holds("grips", 728e-6, "kw=20 N/m", "arm=100 um", "gap=20 um")
         decision, low, _ = self.holds("grips", 472e-6, "arm=400 um", "gripmin=200 uN")
         self.assertEqual(decision, "accept")
+        text = (ROOT / "tests/data/arms/grips.xml").read_text()  # a spring in place of the workpiece: 2.53 mN rigid, of which 0.76 are left
+        text = re.sub(r'<contact id="work".*?/>', "", text, flags=re.S).replace("</mechanism>", '''<spring id="work" a="lever" a-x="2.8 mm"
+a-y="0 mm" b="ground" b-x="2.8 mm" b-y="0.5 mm" stiffness="kw" length="0.5 mm" damping="0 N s/m"/></mechanism>''')
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            device.write_text(text)
+            done = run("check", device, "--corners", "none", "--advice", "none", "--json")
+        low, high = json.loads(done.stdout)["requirements"][0]["band"]
+        self.assertTrue(-2.6e-3 < low < -2.53e-3 < -1.93e-3 < high < -1.1e-3, (low, high))
 
     def test_slender_arms_are_soft_at_their_ends(self):
         self.assertEqual(self.holds("stiff", 1.33)[0], "inconclusive")
