@@ -457,8 +457,7 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
         if (end[k].scene != scene || !arm->known) continue;
         const double load_N =
             isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
-        const double unit = sudden * load_N / b->stiff_N,
-                     goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        const double unit = sudden * load_N / b->stiff_N, goes = fw_verdict_arm_goes(arm);
         if (!(unit * goes > hardly_m)) continue;
         FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
         by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);

@@ -19,6 +19,11 @@ double fw_verdict_load_N(const fw_verdict_load_end *end, int n, int at, const do
     return known + rest_N[end[at].body];
 }
 
+double fw_verdict_arm_goes(const fw_verdict_arm *arm) {
+    const double *g = arm->give;
+    return 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+}
+
 /* ---- what bodies give in series with what presses on them ----
    A contact or spring of stiffness k, or a cable that is drawn, acts on a place that gives c for its force (the way from there to the
    body's middle, body_arms.c; of all its bodies together, a cable's turns counted twice). With c in series
@@ -40,9 +45,8 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scen
     FW_NEED(b->place = fw_arena_array(arena, fw_verdict_place, (size_t)n));
     for (int k = 0; k < n; k++) {
         const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
-        const double *g = arm->give;
         if (end[k].scene != scene || !arm->known) continue;
-        const double goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        const double goes = fw_verdict_arm_goes(arm);
         if (isfinite(end[k].known_N))
             b->stated_J += 0.5 * end[k].known_N * end[k].known_N * goes / b->stiff_N;
         b->place[b->nplace++] = (fw_verdict_place){.body = end[k].body,
@@ -297,9 +301,9 @@ fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_ver
     if (!v->arm || v->straight || !p->q || !motion || !motion->loads) return FW_OK;
     FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
     for (int k = 0; k < n; k++) {
-        const double *g = v->arm[2 * m->nhinge + k].give;
-        if (end[k].scene != scene || !end[k].id || !v->arm[2 * m->nhinge + k].known) continue;
-        const double goes = 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        const fw_verdict_arm *arm = &v->arm[2 * m->nhinge + k];
+        if (end[k].scene != scene || !end[k].id || !arm->known) continue;
+        const double goes = fw_verdict_arm_goes(arm);
         for (int i = 0; i < motion->loads->nelement; i++)
             if (motion->loads->element[i].id &&
                 strcmp(motion->loads->element[i].id, end[k].id) == 0)

@@ -348,7 +348,7 @@ static fw_status worst_of(fw_arena *arena, const fw_mechanism *m, const fw_verdi
         double *to = *worst + 3 * (i / 2);
         to[0] += g[0];
         to[1] += 2 * hypot(g[1], g[2]);
-        to[2] += 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+        to[2] += fw_verdict_arm_goes(&arm[i]);
     }
     return FW_OK;
 }
