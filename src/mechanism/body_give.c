@@ -12,7 +12,7 @@
    than a tenth: what one load does at another's place is in no motion. In: outlines of the layout in the drawn pose.
    Error: between meshes, and the directions of a crystal; stated as `off`.
    Range: bodies that nothing but flexures, and no joint or guide, holds; to first order. Cost: none where nothing gives;
-   else some 0.05 s a body. Test: test_body_give.c. */
+   else some 0.05 s a body. Test: test_effects.py SlenderArms. */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "maths/dense.h"
