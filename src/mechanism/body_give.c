@@ -333,8 +333,11 @@ static fw_status solid_of_body(fw_arena *arena, held *h, const fw_mechanism_load
             h->end[h->n++] = (fw_mechanism_solid_end){.pin = end[k].at, .root = end[k].at};
         }
     FW_TRY(fw_mechanism_body_lines(arena, m->layout, h->body, &line, &nline));
-    const fw_mechanism_solid_mesh as = {
-        .middle = middle, .narrow_m = narrow_m, .edge_m = m->layout->edge_m, .close = true};
+    const fw_mechanism_solid_mesh as = {.middle = middle,
+                                        .narrow_m = narrow_m,
+                                        .edge_m = m->layout->edge_m,
+                                        .area_m2 = m->layout->body[h->body].area_m2,
+                                        .close = true};
     FW_TRY(fw_mechanism_solid_of(arena, line, nline, &as, h->end, h->n, &h->solid));
     FW_NEED(h->wrench = fw_arena_array(arena, double, 6 * (size_t)h->n));
     h->other = h->wrench + 3 * (size_t)h->n;

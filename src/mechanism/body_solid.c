@@ -19,7 +19,7 @@
 
    holds for any sum of them. In: outlines of the layout in the drawn pose. Error: from a second mesh with cells
    twice as large; crystals count as isotropic, 15 % (fw_mechanism_solid_energy_J). Cost: of 6000 cells and 6 ends about
-   0.1 s. Range: NARROW cells across the narrowest place as far as CELLS allow it; not known where that is narrower than a
+   0.1 s. Range: NARROW cells across the narrowest place as far as CELLS of material and a GRID of so many places allow it; not known where that is narrower than a
    cell. Of a motion what else acts on a body does so in its middle (wrenches_of). Test: test_body_solid.c */
 #include "base/sort.h"
 #include "geometry/segment.h"
@@ -29,7 +29,15 @@
 #include <math.h>
 #include <string.h>
 
-enum { CELLS = 12000, ACROSS = 80, NARROW = 4, SAMPLES = 5, CLOSE = 16 };
+enum {
+    CELLS = 12000,
+    CLOSELY = 4500,
+    GRID = 200000,
+    ACROSS = 80,
+    NARROW = 4,
+    SAMPLES = 5,
+    CLOSE = 16
+};
 static const double fw_hardly_there = 0.05; /* a share of material below that is none */
 
 typedef struct grid {
@@ -439,8 +447,10 @@ fw_status fw_mechanism_solid_of(fw_arena *arena, const fw_mechanism_line *line, 
     s.edge_m = as->edge_m, s.close = as->close;
     const double narrow_m = as->narrow_m;
     const double wide = s.box.x1 - s.box.x0, high = s.box.y1 - s.box.y0,
-                 cell_m = fmax(fmin(fmax(wide, high) / ACROSS, narrow_m / NARROW),
-                               sqrt(wide * high / CELLS));
+                 material = as->area_m2 > 0 ? as->area_m2 : wide * high,
+                 least_m =
+                     fmax(sqrt(material / (as->close ? CLOSELY : CELLS)), sqrt(wide * high / GRID)),
+                 cell_m = fmax(fmin(fmax(wide, high) / ACROSS, narrow_m / NARROW), least_m);
     if (!(cell_m > 0) || (narrow_m > 0 && !(cell_m < narrow_m))) return FW_OK;
     const size_t size = 9 * (size_t)n * (size_t)n;
     FW_NEED(out->fine = fw_arena_array(arena, double, 2 * size));
