@@ -8,7 +8,7 @@
    -df/dp = K X, and what damps acts through the arm as well: X^T f_damp(X w), -df/dw = X^T D X,
    so that power is balanced as that of the element is. Springs between points become such elements. In: SI. Error: that
    of c (fw_mechanism_give.off); the mass of what gives stays where it is, so that what rings with it does not, and what
-   other loads bend is in no motion. Cost: 48000 instructions, damped, with two ports. Source: series of elastic parts; Castigliano.
+   other loads bend is in no motion. Cost: 21500 instructions, damped, with two ports. Source: series of elastic parts; Castigliano.
    Theory: docs/theory/effects/body-compliance.md. Test: test_body_compliance.c. */
 #include "effects/effect.h"
 #include "maths/dense.h"
@@ -545,7 +545,7 @@ const fw_effect_row fw_effect_body_compliance = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 48100,
+    .cost = 21500,
     .count = count,
     .kept = true,
     .passive = true,
