@@ -12,6 +12,7 @@
 #include "flexure/flexure.h"
 #include "flexure/limit.h"
 #include "flexure/path.h"
+#include "geometry/segment.h"
 #include "layout/layout.h"
 
 typedef struct fw_mechanism_below { /* what is below a device that the flow has set free */
@@ -119,6 +120,14 @@ typedef struct fw_mechanism_hinge { /* a pin that is a flexure */
     bool damping_stated; /* and the damping: no loss factor is asked for */
 } fw_mechanism_hinge;
 
+/* what a body gives where something acts on it beside its hinges (body_give.c) */
+typedef struct fw_mechanism_give {
+    int body;
+    double x_m, y_m; /* local to it */
+    double c[9];     /* (3 x 3) by (M, Fx, Fy) of (turn, x, y), SI, axes of the body */
+    double off;      /* relative error of it */
+} fw_mechanism_give;
+
 typedef struct fw_mechanism {
     /* the description with the frames of all bodies at their centres of mass: what it says of a point
        of a body, here and in its scenes, goes with poses of centres of mass */
@@ -137,7 +146,13 @@ typedef struct fw_mechanism {
     const fw_layout *layout; /* what it was built from; NULL: nothing is drawn */
     /* (nbody) the bodies there, wherever assembly has moved `body` */
     const fw_mechanism_mass *drawn;
+    fw_mechanism_give *give; /* (ngive) where contacts, springs and cables that are drawn act */
+    int ngive;
 } fw_mechanism;
+
+/* at a place of a body; NULL: nothing, or nothing that is known */
+const fw_mechanism_give *fw_mechanism_give_at(const fw_mechanism *mechanism, int body, double x_m,
+                                              double y_m);
 
 /* the same scene of the mechanism's own description, whose points go with centres of mass; a scene
    that is not of `device` stays what it is */
@@ -205,6 +220,89 @@ fw_status fw_mechanism_build_hinges(fw_arena *arena, const fw_device *device,
                                     const fw_layout *shown, const fw_mechanism_variant *variant,
                                     fw_diags *diags, const fw_mechanism **mechanism);
 
+/* ---- bodies as drawn, and what they give: body_solid.c, body_give.c ---- */
+
+/* Where something acts on a body in one of the flow's scenes, or, scene FW_NONE, a stiffness is probed. known_N: how large it becomes, where the scene says so;
+   NaN: it follows from the motion. what, id: "eyelet of tendon", "T1"; id NULL: it has none */
+typedef struct fw_mechanism_load_end {
+    int scene, body;
+    int first;           /* the first of all that acts at this place: they have one way */
+    double x_m, y_m;     /* local to the body */
+    fw_geometry_vec2 at; /* world, as drawn */
+    double known_N;
+    double
+        stiff_N_per_m; /* of what acts there by how the place goes; a cable's turns twice from either side; 0: nothing does */
+    const char *what, *id;
+    const fw_device_force *force; /* that acts there; NULL: something else does */
+} fw_mechanism_load_end;
+fw_status fw_mechanism_load_ends(fw_arena *arena, const fw_mechanism *mechanism,
+                                 fw_mechanism_load_end **end, int *n);
+typedef struct fw_mechanism_line { /* a chord of a body's outlines, world */
+    fw_geometry_vec2 a, b;
+    bool edge; /* of the material; else a joint between two pieces */
+    int piece;
+} fw_mechanism_line;
+/* a piece of the layout that is the body's material */
+bool fw_mechanism_is_of(const fw_layout_piece *piece, int body);
+/* the chords of all of them: (n) */
+fw_status fw_mechanism_body_lines(fw_arena *arena, const fw_layout *layout, int body,
+                                  fw_mechanism_line **line, int *n);
+/* ---- body_solid.c: what a body gives under all that acts on it together ---- */
+
+/* of a hinge; of what else acts pin and root are one place. nearest: in place of its root it acts on what is full of
+   material and nearest to the body's middle */
+typedef struct fw_mechanism_solid_end {
+    fw_geometry_vec2 pin, root;
+    bool nearest;
+    double reach_m; /* nodes nearer than that bear it; 0, or too few: those of the nearest cells */
+} fw_mechanism_solid_end;
+/* fine, coarse: (3n x 3n) C of two meshes, energy w^T C w/(2 E h) of wrenches w = (M, Fx, Fy) about the pins, world axes
+   of the drawn pose; the body's inertia balances what they are not in balance by themselves */
+typedef struct fw_mechanism_solid {
+    bool known;
+    int n,
+        nhinge; /* ends; those of hinges stand first, then the middle, then those of loads, or none of them */
+    double *fine, *coarse;
+    const fw_mechanism_solid_end *end; /* (n) */
+} fw_mechanism_solid;
+typedef struct fw_mechanism_solid_mesh {
+    fw_geometry_vec2 middle;
+    double narrow_m; /* its narrowest place; 0: not known, cells are as small as can be */
+    double edge_m;   /* by which edges stand out as made */
+    double area_m2;  /* of its material, by which cells are counted; 0: of the box about it */
+    bool close; /* what edges cut is neither softer nor stiffer than it is; else softer: a bound */
+} fw_mechanism_solid_mesh;
+fw_status fw_mechanism_solid_of(fw_arena *arena, const fw_mechanism_line *line, int nline,
+                                const fw_mechanism_solid_mesh *as,
+                                const fw_mechanism_solid_end *end, int n, fw_mechanism_solid *out);
+/* w (3n), at most: what two meshes differ by, and what a crystal's directions may, is added */
+double fw_mechanism_solid_energy_J(const fw_mechanism_solid *solid, double stiff_N,
+                                   const double *w);
+/* how far an end turns and goes against the body's middle: rad, m, m */
+void fw_mechanism_solid_goes(const fw_mechanism_solid *solid, double stiff_N, const double *w,
+                             int end, double to[3]);
+
+/* ---- straight ways through a body ---- */
+
+typedef struct fw_mechanism_edges { /* of one body, and those near to where one looks */
+    int body;
+    fw_geometry_lines all, near; /* near: those no farther than `reach` from `centre` */
+    fw_geometry_vec2 centre;
+    double reach;
+    double *off; /* squares of distances from a place */
+} fw_mechanism_edges;
+fw_status fw_mechanism_edges_of(fw_arena *arena, const fw_layout *layout, int body,
+                                fw_mechanism_edges *edges);
+/* a piece of the way around `at`, `from` to `until`, as a strip: it bears no more than the body does there */
+typedef struct fw_mechanism_walker {
+    void (*add)(void *to, fw_geometry_vec2 at, fw_geometry_vec2 from, fw_geometry_vec2 until,
+                double wide_m);
+    void *to;
+} fw_mechanism_walker;
+/* from the root of a pin, or a place, straight to the body's middle, as far as circles inside the body touch; false: they do not */
+bool fw_mechanism_walk(const fw_layout *layout, fw_mechanism_edges *edges, fw_geometry_vec2 pin,
+                       fw_geometry_vec2 root, const fw_mechanism_walker *walker);
+
 /* ---- what the parts of fw_mechanism_build share; private to mechanism/ ---- */
 
 typedef struct fw_mechanism_builder {
@@ -224,6 +322,8 @@ fw_geometry_vec2 fw_mechanism_body_point(const fw_mechanism_mass *body, fw_geome
 fw_status fw_mechanism_build_spring(const fw_mechanism_builder *b, int i);
 fw_status fw_mechanism_build_joint(const fw_mechanism_builder *b, int i);
 fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i);
+/* body_give.c: m->give; all else is built */
+fw_status fw_mechanism_find_gives(fw_arena *arena, fw_mechanism *mechanism);
 void fw_mechanism_tell_turned(const fw_mechanism_builder *b, const fw_device_revolute *from,
                               const fw_mechanism_pin *pin);
 

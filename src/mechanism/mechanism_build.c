@@ -544,6 +544,7 @@ fw_status fw_mechanism_build(fw_arena *arena, const fw_device *device, const fw_
         status = keep_going(status, fw_mechanism_build_joint(&b, i));
     for (int i = 0; i < m->ndriver; i++)
         status = keep_going(status, fw_mechanism_build_driver(&b, i));
+    if (status == FW_OK) status = fw_mechanism_find_gives(arena, m);
     if (status == FW_OK) *mechanism = m;
     return status;
 }

@@ -159,7 +159,7 @@ fw_plan_compose fw_plan_numbers_parameters, fw_plan_numbers_scenes, fw_plan_numb
     fw_plan_numbers_flow_hinges, fw_plan_numbers_flows, fw_plan_numbers_governing,
     fw_plan_numbers_clearances, fw_plan_numbers_requirements, fw_plan_numbers_probes,
     fw_plan_numbers_motion_probes;
-/* arrays_motion.c */
+/* arrays.c */
 fw_plan_compose fw_plan_numbers_motion, fw_plan_numbers_peaks, fw_plan_numbers_modes,
     fw_plan_numbers_statics, fw_plan_numbers_load_path, fw_plan_numbers_assembly,
     fw_plan_numbers_workspace;

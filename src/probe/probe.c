@@ -22,16 +22,17 @@ static const char *effect_of(fw_device_carrier carrier) {
         return "comb-drive";
     case FW_CARRIER_CONTACT:
         return "contact";
+    case FW_CARRIER_SPRING: /* one that acts on what gives is an element (effects/body_compliance.c) */
+        return "point-spring";
     case FW_CARRIER_REVOLUTE:
     case FW_CARRIER_JOINT:
     case FW_CARRIER_DRIVER:
-    case FW_CARRIER_SPRING:
         break;
     }
     return NULL;
 }
 
-/* of a scene's tendon, comb drive or contact by its id; of a revolute that is not a constraint */
+/* of a scene's tendon, comb drive, contact or spring by its id; of a revolute that is not a constraint */
 static const fw_effects_force_element *element_of(const fw_probe *p) {
     const fw_device_probe *a = p->asked;
     const char *effect = effect_of(a->carrier);

@@ -247,6 +247,11 @@ static double line(const fw_probe *p, const fw_probe_state *s, int a, double ax,
 
 static double force_of_spring(const fw_probe *p, const fw_probe_state *s) {
     double unit[2], rate;
+    fw_effects_port_state seen;
+    if (element_forces(p, s, &seen)) { /* on its first point, towards the second */
+        const double pull = hypot(p->f[0], p->f[1]);
+        return p->f[0] * (p->p[3] - p->p[0]) + p->f[1] * (p->p[4] - p->p[1]) < 0 ? -pull : pull;
+    }
     if (p->spring == FW_NONE) return 0;
     const fw_device_spring *k = &p->loads.spring[p->spring];
     double length =

@@ -354,7 +354,7 @@ static double turned_at(const fw_verdict_pierced *body, fw_geometry_vec2 root,
 }
 
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                              int body, const fw_verdict_line *line, int nline,
+                              int body, const fw_mechanism_line *line, int nline,
                               fw_verdict_hung *hung) {
     fw_verdict_pierced outline = {.line = line, .n = nline};
     fw_geometry_vec2 *held;
@@ -403,22 +403,22 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
    What shaking and weight do to what reaches farther: arm_rims.c. Test: test_out_of_plane.py InThePlane */
 
 static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
-                                const fw_verdict_load_end *end, double *beyond_m) {
+                                const fw_mechanism_load_end *end, double *beyond_m) {
     const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
                            off = vec_sub(end->at, middle);
-    fw_verdict_line *line;
+    fw_mechanism_line *line;
     int n;
     *beyond_m = 0;
     if (!(vec_length(off) > 0)) return FW_OK;
     const fw_geometry_vec2 along = vec_unit(off);
-    FW_TRY(fw_verdict_body_lines(arena, m->layout, end->body, &line, &n));
+    FW_TRY(fw_mechanism_body_lines(arena, m->layout, end->body, &line, &n));
     for (int i = 0; i < n; i++)
         *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
     return FW_OK;
 }
 
 /* what all loads bend that act on the same side of a body's middle as this one */
-static double on_one_side(const fw_mechanism *m, const fw_verdict_load_end *end, const double *by,
+static double on_one_side(const fw_mechanism *m, const fw_mechanism_load_end *end, const double *by,
                           int n, int k) {
     const fw_geometry_vec2 middle = {m->drawn[end[k].body].x_m, m->drawn[end[k].body].y_m},
                            off = vec_sub(end[k].at, middle);
@@ -438,7 +438,7 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
     const fw_device_scene *s = &m->device->scene[scene];
     const double sudden = 2, hardly_m = 1e-9;
     double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
-    fw_verdict_load_end *end;
+    fw_mechanism_load_end *end;
     int n;
     for (int i = 0; i < m->nbody; i++)
         to[i] = 0;
@@ -448,7 +448,7 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
                   fw_quantity_law_largest(s->base[i].law, s->duration_s);
     for (int i = 0; i < m->nbody; i++)
         to[i] = shaken > 0 ? v->out_of_plane->hung[i].in_plane_s2 * shaken : 0;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
     FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
     FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
     for (int k = 0; k < n; k++) {

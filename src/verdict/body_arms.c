@@ -24,7 +24,7 @@ static const double fw_least_cell = 2e-6;
 
 typedef struct grid {
     fw_arena *arena;
-    fw_verdict_line *line;
+    fw_mechanism_line *line;
     int nline;
     fw_geometry_box box;
     double cell;
@@ -41,7 +41,7 @@ typedef struct grid {
 } grid;
 
 static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
-    FW_TRY(fw_verdict_body_lines(g->arena, layout, body, &g->line, &g->nline));
+    FW_TRY(fw_mechanism_body_lines(g->arena, layout, body, &g->line, &g->nline));
     for (int i = 0; i < g->nline; i++) {
         fw_geometry_vec2 a = g->line[i].a, b = g->line[i].b;
         fw_geometry_box box = {fw_lesser(a.x, b.x), fw_lesser(a.y, b.y), fw_greater(a.x, b.x),
@@ -139,7 +139,7 @@ static void step_from(const eight *next, eight *row, int n) {
 
 static void mark_edges(const grid *g, short *off, int wide) {
     for (int i = 0; i < g->nline; i++) {
-        const fw_verdict_line *l = &g->line[i];
+        const fw_mechanism_line *l = &g->line[i];
         int steps = 1 + (int)(2 * vec_distance(l->a, l->b) / g->cell);
         for (int k = 0; l->edge && k <= steps; k++) {
             fw_geometry_vec2 p = vec_along(l->a, (double)k / steps, vec_sub(l->b, l->a));
@@ -353,7 +353,7 @@ static fw_status edges_new(const grid *g, edges *to) {
     FW_NEED(to->off =
                 fw_arena_array(g->arena, double, (size_t)g->nline + FW_GEOMETRY_LINES_TOGETHER));
     for (int i = 0; i < g->nline; i++) {
-        const fw_verdict_line *l = &g->line[i];
+        const fw_mechanism_line *l = &g->line[i];
         if (l->edge) fw_geometry_lines_add(&to->all, l->a.x, l->a.y, l->b.x, l->b.y);
     }
     return FW_OK;
@@ -544,9 +544,9 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
                                fw_verdict_arm **arm) {
     size_t n = 2 * (size_t)m->nhinge;
-    fw_verdict_load_end *load;
+    fw_mechanism_load_end *load;
     int nload;
-    FW_TRY(fw_verdict_load_ends(arena, m, &load, &nload));
+    FW_TRY(fw_mechanism_load_ends(arena, m, &load, &nload));
     const fw_device *d = m->device;
     const double pitch = d ? d->release_pitch_m : 0;
     const double drawn_m = pitch > 0 ? d->release_hole_m : 0;

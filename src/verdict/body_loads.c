@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-double fw_verdict_load_N(const fw_verdict_load_end *end, int n, int at, const double *rest_N) {
+double fw_verdict_load_N(const fw_mechanism_load_end *end, int n, int at, const double *rest_N) {
     double known = 0;
     if (isfinite(end[at].known_N)) return fmax(end[at].known_N, rest_N[end[at].body]);
     for (int k = 0; k < n; k++)
@@ -37,25 +37,35 @@ double fw_verdict_arm_goes(const fw_verdict_arm *arm) {
 enum { PORTS_SEEN = 16 };
 static const double hardly_gives = 0.002; /* c k */
 
+/* What the motion has of a place (effects/body_compliance.c) is in it; what that may be off by is left */
+static double left_of(const fw_mechanism_give *g) {
+    const double *c = g->c;
+    return g->off * (0.5 * (c[4] + c[8]) + hypot(0.5 * (c[4] - c[8]), c[5]));
+}
+
 fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scene,
                                 fw_verdict_bending *b) {
-    fw_verdict_load_end *end;
+    fw_mechanism_load_end *end;
     int n;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
     FW_NEED(b->place = fw_arena_array(arena, fw_verdict_place, (size_t)n));
     for (int k = 0; k < n; k++) {
         const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
         if (end[k].scene != scene || !arm->known) continue;
         const double goes = fw_verdict_arm_goes(arm);
+        const fw_mechanism_give *given =
+            fw_mechanism_give_at(m, end[k].body, end[k].x_m, end[k].y_m);
         if (isfinite(end[k].known_N))
             b->stated_J += 0.5 * end[k].known_N * end[k].known_N * goes / b->stiff_N;
-        b->place[b->nplace++] = (fw_verdict_place){.body = end[k].body,
-                                                   .force = end[k].force,
-                                                   .x_m = end[k].x_m,
-                                                   .y_m = end[k].y_m,
-                                                   .id = end[k].id,
-                                                   .arm = arm,
-                                                   .m_per_N = goes / b->stiff_N};
+        b->place[b->nplace++] =
+            (fw_verdict_place){.body = end[k].body,
+                               .force = end[k].force,
+                               .x_m = end[k].x_m,
+                               .y_m = end[k].y_m,
+                               .id = end[k].id,
+                               .arm = arm,
+                               .given = given,
+                               .m_per_N = given ? left_of(given) : goes / b->stiff_N};
     }
     return FW_OK;
 }
@@ -63,11 +73,11 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scen
 fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
                                  const fw_device_probe *probe, double *m_per_N) {
     const double x = cos(probe->direction_rad), y = sin(probe->direction_rad);
-    fw_verdict_load_end *end;
+    fw_mechanism_load_end *end;
     int n;
     *m_per_N = 0;
     if (!arm || fw_device_probe_kinds[probe->row].takes != FW_PROBE_TANGENT) return FW_OK;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
     for (int k = 0; k < n; k++) {
         const fw_verdict_arm *way = &arm[2 * m->nhinge + k];
         if (end[k].scene != FW_NONE || end[k].id != probe->id) continue;
@@ -203,7 +213,8 @@ static double in_series(const fw_verdict_bending *b, const char *id, double *sto
         if (!(at->force_N > 0) || strcmp(at->id, id) != 0) continue;
         const double passes =
             at->element && at->port > 0 && at->port + 1 < at->element->ports ? 4 : 1;
-        share += passes * at->m_per_N * at->stiff_N_per_m;
+        const double own = passes * at->m_per_N * at->stiff_N_per_m;
+        share += at->given ? own / (1 + own / at->given->off) : own; /* d ln F = d(c k)/(1 + c k) */
         *stored_J += 0.5 * at->force_N * at->force_N * at->m_per_N;
     }
     return share;
@@ -237,6 +248,11 @@ static const fw_verdict_bending *seen_by(const fw_dynamics_motion *motion) {
     return saw ? &saw->bending : NULL;
 }
 
+/* one that the motion has with what gives there */
+static bool is_spring(const fw_effects_force_element *e) {
+    return strcmp(e->class_->effect, "point-spring") == 0;
+}
+
 double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe) {
     const fw_verdict_bending *b = seen_by(motion);
     if (!b || !(b->hinges_J > 0)) return 0;
@@ -244,7 +260,8 @@ double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device
     if (!probe->of || !first_of(b, probe->of)) return 0;
     for (int i = 0; i < b->nplace; i++)
         if (b->place[i].force_N > 0 &&
-            (b->place[i].spring || b->place[i].element->class_->pressing) &&
+            (b->place[i].spring || is_spring(b->place[i].element) ||
+             b->place[i].element->class_->pressing) &&
             strcmp(b->place[i].id, probe->of) != 0)
             return 0; /* what one contact does not bear another one may */
     const double all_J = fw_verdict_bending_all_J(b);
@@ -254,13 +271,17 @@ double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device
 bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N,
                              double *high_N) {
     const fw_verdict_bending *b = seen_by(motion);
-    double left = 1, stored_J;
+    double left = 1, more = 1, stored_J;
     if (!b || !id || !first_of(b, id)) return false;
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].force_N > 0 && first_of(b, b->place[i].id) == &b->place[i])
-            left /= 1 + in_series(b, b->place[i].id, &stored_J);
-    if (*low_N > 0) *low_N *= left;
-    if (*high_N < 0) *high_N *= left; /* a spring that is pressed */
+    for (int i = 0; i < b->nplace; i++) {
+        const fw_verdict_place *at = &b->place[i];
+        if (!(at->force_N > 0) || first_of(b, at->id) != at) continue;
+        const double share = in_series(b, at->id, &stored_J);
+        left /= 1 + share;
+        if (at->given) more *= 1 + share;
+    }
+    *low_N *= *low_N > 0 ? left : more; /* below 0: a spring that is pressed */
+    *high_N *= *high_N > 0 ? more : left;
     return left < 1;
 }
 
@@ -295,11 +316,11 @@ fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_ver
                                    const fw_statics_pull_in *p, double *gives) {
     const fw_mechanism *m = v->mechanism;
     const fw_dynamics_motion *motion = v->motion[scene];
-    fw_verdict_load_end *end;
+    fw_mechanism_load_end *end;
     int n;
     *gives = 0;
     if (!v->arm || v->straight || !p->q || !motion || !motion->loads) return FW_OK;
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
     for (int k = 0; k < n; k++) {
         const fw_verdict_arm *arm = &v->arm[2 * m->nhinge + k];
         if (end[k].scene != scene || !end[k].id || !arm->known) continue;
@@ -371,11 +392,11 @@ typedef struct solids {
 /* where loads act on a body, in any scene; 0 where one of them is narrower than the body's hinges and their ways, or there are
    too many: then all acts in the middle */
 static fw_status add_loads(fw_arena *arena, const solids *s, int body, double narrow_m,
-                           fw_verdict_solid_end **end, int *n) {
+                           fw_mechanism_solid_end **end, int *n) {
     enum { LOADS = 16 };
-    fw_verdict_load_end *load;
+    fw_mechanism_load_end *load;
     int nload, first = *n;
-    FW_TRY(fw_verdict_load_ends(arena, s->m, &load, &nload));
+    FW_TRY(fw_mechanism_load_ends(arena, s->m, &load, &nload));
     FW_NEED(*end =
                 fw_arena_grow(arena, *end, (size_t)*n, (size_t)*n + (size_t)nload, sizeof **end));
     for (int k = 0; k < nload; k++) {
@@ -385,38 +406,38 @@ static fw_status add_loads(fw_arena *arena, const solids *s, int body, double na
             *n = first;
             return FW_OK;
         }
-        (*end)[(*n)++] = (fw_verdict_solid_end){.pin = load[k].at, .root = load[k].at};
+        (*end)[(*n)++] = (fw_mechanism_solid_end){.pin = load[k].at, .root = load[k].at};
     }
     return FW_OK;
 }
 
 /* hinge ends in the order of hinges and sides, then the middle, then where loads act, if that is known */
-static fw_status make_solid(fw_arena *arena, const solids *s, int body,
-                            fw_verdict_body_solid *out) {
+static fw_status make_solid(fw_arena *arena, const solids *s, int body, fw_mechanism_solid *out) {
     const fw_mechanism *m = s->m;
-    fw_verdict_line *line;
+    fw_mechanism_line *line;
     int nline, n = 0;
     double narrow = HUGE_VAL;
-    fw_verdict_solid_end *end =
-        fw_arena_array(arena, fw_verdict_solid_end, 2 * (size_t)m->nhinge + 1);
+    fw_mechanism_solid_end *end =
+        fw_arena_array(arena, fw_mechanism_solid_end, 2 * (size_t)m->nhinge + 1);
     FW_NEED(end);
     for (int i = 0; i < 2 * m->nhinge; i++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
         if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
         const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, i % 2),
                                root = i % 2 ? pin->root_b_m : pin->root_a_m;
-        end[n++] = (fw_verdict_solid_end){
+        end[n++] = (fw_mechanism_solid_end){
             .pin = at, .root = vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
         if (s->arm[i].known) narrow = fmin(narrow, s->arm[i].narrow_m);
     }
     const int nhinge = n;
     const fw_geometry_vec2 middle = s->layout->body[body].centroid;
-    end[n++] = (fw_verdict_solid_end){.pin = middle, .root = middle, .nearest = true};
+    end[n++] = (fw_mechanism_solid_end){.pin = middle, .root = middle, .nearest = true};
     FW_TRY(add_loads(arena, s, body, narrow, &end, &n));
-    FW_TRY(fw_verdict_body_lines(arena, s->layout, body, &line, &nline));
-    FW_TRY(fw_verdict_body_solid_of(arena, line, nline, middle, narrow, end, n, out));
+    FW_TRY(fw_mechanism_body_lines(arena, s->layout, body, &line, &nline));
+    const fw_mechanism_solid_mesh as = {.middle = middle, .narrow_m = narrow};
+    FW_TRY(fw_mechanism_solid_of(arena, line, nline, &as, end, n, out));
     if (!out->known && n > nhinge + 1)
-        FW_TRY(fw_verdict_body_solid_of(arena, line, nline, middle, narrow, end, nhinge + 1, out));
+        FW_TRY(fw_mechanism_solid_of(arena, line, nline, &as, end, nhinge + 1, out));
     out->nhinge = nhinge, out->end = end;
     return FW_OK;
 }
@@ -424,7 +445,7 @@ static fw_status make_solid(fw_arena *arena, const solids *s, int body,
 /* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose, and in its middle, `about`, all else: what
    loads, and inertia, bend beyond that is another bound (theory, 5a). placed: what acts at places is there, and not in the middle */
 static void wrenches_of(const solids *s, const fw_verdict_bending *b, int body,
-                        const fw_verdict_body_solid *of, const double *instant, bool placed,
+                        const fw_mechanism_solid *of, const double *instant, bool placed,
                         fw_geometry_vec2 about, double *w) {
     const fw_mechanism *m = s->m;
     const double turn = instant[3 * m->nhinge + body], *acts = instant + 3 * m->nhinge + m->nbody;
@@ -471,11 +492,11 @@ typedef struct stored {
 } stored;
 
 /* how far the end of a hinge goes over its width, or turns over its limit, against the middle of a solid */
-static double end_goes(const solids *s, const fw_verdict_body_solid *of, const double *w, int end,
+static double end_goes(const solids *s, const fw_mechanism_solid *of, const double *w, int end,
                        const fw_mechanism_hinge *h, fw_geometry_vec2 arm) {
     double to[3], middle[3];
-    fw_verdict_solid_goes(of, s->stiff_N, w, end, to);
-    fw_verdict_solid_goes(of, s->stiff_N, w, of->nhinge, middle);
+    fw_mechanism_solid_goes(of, s->stiff_N, w, end, to);
+    fw_mechanism_solid_goes(of, s->stiff_N, w, of->nhinge, middle);
     const double far =
         hypot(to[1] - middle[1] + middle[0] * arm.y, to[2] - middle[2] - middle[0] * arm.x);
     return fmax(far / h->input.width_m, fabs(to[0] - middle[0]) / h->closed_form.limit_angle_rad);
@@ -483,7 +504,7 @@ static double end_goes(const solids *s, const fw_verdict_body_solid *of, const d
 
 /* of one body: adds to what all store at the instant */
 static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
-                        const fw_verdict_body_solid *of, const double *instant, double *w,
+                        const fw_mechanism_solid *of, const double *instant, double *w,
                         stored *most, double sum[3]) {
     const fw_mechanism *m = s->m;
     const double rad = instant[3 * m->nhinge + body];
@@ -505,18 +526,18 @@ static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
         if (s->arm[i].known)
             beam += fw_verdict_arm_energy_J(&s->arm[i], s->stiff_N, -on[0], on[1], on[2], &turn);
     }
-    const double one = of->known ? fw_verdict_solid_energy_J(of, s->stiff_N, w) : beam;
+    const double one = of->known ? fw_mechanism_solid_energy_J(of, s->stiff_N, w) : beam;
     double acted = one;
     if (of->known && of->n > of->nhinge + 1) {
         wrenches_of(s, b, body, of, instant, true, about, w);
-        acted = fw_verdict_solid_energy_J(of, s->stiff_N, w);
+        acted = fw_mechanism_solid_energy_J(of, s->stiff_N, w);
     }
     most->beam_J[body] = fmax(most->beam_J[body], beam);
     most->solid_J[body] = fmax(most->solid_J[body], one);
     sum[0] += beam, sum[1] += one, sum[2] += acted;
 }
 
-static fw_status take_solids(fw_arena *arena, const solids *s, const fw_verdict_body_solid *solid,
+static fw_status take_solids(fw_arena *arena, const solids *s, const fw_mechanism_solid *solid,
                              fw_verdict_bending *b) {
     const fw_mechanism *m = s->m;
     const size_t bodies = (size_t)m->nbody;
@@ -538,7 +559,7 @@ static fw_status take_solids(fw_arena *arena, const solids *s, const fw_verdict_
     if (!(most.beams_J > 0)) return FW_OK;
     bool acted = true;
     for (int i = 0; i < b->nplace; i++) {
-        const fw_verdict_body_solid *of = &solid[b->place[i].body];
+        const fw_mechanism_solid *of = &solid[b->place[i].body];
         acted = acted && (!(b->place[i].force_N > 0) || (of->known && of->n > of->nhinge + 1));
     }
     if (acted) b->acted_J = b->bodies_J * most.acted_J / most.beams_J;
@@ -557,7 +578,7 @@ static fw_status by_solids(fw_arena *arena, const fw_layout *layout, fw_verdict_
     solids s = {.m = m, .layout = layout, .arm = b->arm, .stiff_N = b->stiff_N};
     if (!b->kept || b->kept->n == 0 || !(b->bodies_J > fw_verdict_bending_told * b->hinges_J))
         return FW_OK;
-    fw_verdict_body_solid *solid = fw_arena_array(arena, fw_verdict_body_solid, (size_t)m->nbody);
+    fw_mechanism_solid *solid = fw_arena_array(arena, fw_mechanism_solid, (size_t)m->nbody);
     FW_NEED(solid);
     for (int i = 0; i < m->nbody; i++) {
         if (v->solid) solid[i] = v->solid[i];

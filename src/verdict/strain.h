@@ -45,22 +45,9 @@ typedef struct fw_verdict_arm {
     fw_geometry_vec2 rim;
 } fw_verdict_arm;
 
-/* Where something acts on a body in one of the flow's scenes, or, scene FW_NONE, a stiffness is probed. known_N: how large it becomes, where the scene says so;
-   NaN: it follows from the motion. what, id: "eyelet of tendon", "T1"; id NULL: it has none */
-typedef struct fw_verdict_load_end {
-    int scene, body;
-    int first;           /* the first of all that acts at this place: they have one way */
-    double x_m, y_m;     /* local to the body */
-    fw_geometry_vec2 at; /* world, as drawn */
-    double known_N;
-    const char *what, *id;
-    const fw_device_force *force; /* that acts there; NULL: something else does */
-} fw_verdict_load_end;
-fw_status fw_verdict_load_ends(fw_arena *arena, const fw_mechanism *mechanism,
-                               fw_verdict_load_end **end, int *n);
 /* body_loads.c: how large load `at` of those (n) becomes: of one that follows from the motion what hinges put on the body
    (rest_N), and what its other loads may balance */
-double fw_verdict_load_N(const fw_verdict_load_end *end, int n, int at, const double *rest_N);
+double fw_verdict_load_N(const fw_mechanism_load_end *end, int n, int at, const double *rest_N);
 /* stress at most over what is allowed of a hinge's material, of the strip along a way that bears a moment and a force
    at its end alone. along_N: the largest of the force along x and along y as the body is drawn, NULL where that is not
    known. Three times (Kirsch) that of a beam, for what holes and corners do to it; walls that the flow puts
@@ -84,23 +71,13 @@ double fw_verdict_arm_rims_bear(const fw_mechanism *mechanism, int hinge, const 
    Test: test_body_arms.c */
 fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_layout *layout, fw_verdict_arm **arm);
-typedef struct fw_verdict_line { /* a chord of a body's outlines, world */
-    fw_geometry_vec2 a, b;
-    bool edge; /* of the material; else a joint between two pieces */
-    int piece;
-} fw_verdict_line;
-/* a piece of the layout that is the body's material */
-bool fw_verdict_is_of(const fw_layout_piece *piece, int body);
-/* the chords of all of them: (n) */
-fw_status fw_verdict_body_lines(fw_arena *arena, const fw_layout *layout, int body,
-                                fw_verdict_line **line, int *n);
 /* a piece of the way around `at`, `from` to `until`, as a strip of width w: added to the arm of a pin (world, m) */
 void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w);
 /* a body with holes, cut straight across: its lines (n), where its hinges are (nhinge), and the end that is asked */
 enum { FW_VERDICT_RUN = 16, FW_VERDICT_WIDE = 256 };
 typedef struct fw_verdict_pierced {
-    const fw_verdict_line *line;
+    const fw_mechanism_line *line;
     /* around every FW_VERDICT_RUN and every FW_VERDICT_WIDE of them, which lie beside each other; NULL: all are looked at */
     const fw_geometry_box *run, *wide;
     int n, nhinge,
@@ -127,40 +104,12 @@ typedef struct fw_verdict_hung {
     double across_s2, in_plane_s2, Pa_per_m_s2;
 } fw_verdict_hung;
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
-                              const fw_layout *layout, int body, const fw_verdict_line *line,
+                              const fw_layout *layout, int body, const fw_mechanism_line *line,
                               int nline, fw_verdict_hung *hung);
 /* plates on flexures with what bodies may give at most (verdict_out_of_plane.c) */
 struct fw_mechanism_plates;
 fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, struct fw_mechanism_plates *soft);
-/* ---- body_solid.c: what a body gives under all that acts on it together ---- */
-
-/* of a hinge; of what else acts pin and root are one place. nearest: in place of its root it acts on what is full of
-   material and nearest to the body's middle */
-typedef struct fw_verdict_solid_end {
-    fw_geometry_vec2 pin, root;
-    bool nearest;
-} fw_verdict_solid_end;
-/* fine, coarse: (3n x 3n) C of two meshes, energy w^T C w/(2 E h) of wrenches w = (M, Fx, Fy) about the pins, world axes
-   of the drawn pose; the body's inertia balances what they are not in balance by themselves */
-typedef struct fw_verdict_body_solid {
-    bool known;
-    int n,
-        nhinge; /* ends; those of hinges stand first, then the middle, then those of loads, or none of them */
-    double *fine, *coarse;
-    const fw_verdict_solid_end *end; /* (n) */
-} fw_verdict_body_solid;
-fw_status fw_verdict_body_solid_of(fw_arena *arena, const fw_verdict_line *line, int nline,
-                                   fw_geometry_vec2 middle, double narrow_m,
-                                   const fw_verdict_solid_end *end, int n,
-                                   fw_verdict_body_solid *out);
-/* w (3n), at most: what two meshes differ by, and what a crystal's directions may, is added */
-double fw_verdict_solid_energy_J(const fw_verdict_body_solid *solid, double stiff_N,
-                                 const double *w);
-/* how far an end turns and goes against the body's middle: rad, m, m */
-void fw_verdict_solid_goes(const fw_verdict_body_solid *solid, double stiff_N, const double *w,
-                           int end, double to[3]);
-
 typedef struct fw_verdict_turn { /* of a body since it was drawn */
     double rad, cosine, sine;
 } fw_verdict_turn;
@@ -236,7 +185,8 @@ typedef struct fw_verdict_place {
     double x_m, y_m; /* local to it */
     const char *id;  /* of what acts there */
     const fw_verdict_arm *arm;
-    double m_per_N; /* what the body gives there at most */
+    const fw_mechanism_give *given; /* what of that the motion has; NULL: nothing */
+    double m_per_N;                 /* what the body gives there at most, beside that */
     double
         stiff_N_per_m; /* of what acts there; 0: it is not known yet, or acts whatever the place does */
     double force_N;                          /* largest so far; infinite: not known */

@@ -419,7 +419,7 @@ static void take_weak(weak *worst, double share, const fw_verdict_arm *arm, int 
 
 static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
                             const fw_verdict_bending *b, weak *worst) {
-    fw_verdict_load_end *end;
+    fw_mechanism_load_end *end;
     int n;
     for (int i = 0; !b->cut_N_per_m && i < 2 * m->nhinge; i++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
@@ -429,7 +429,7 @@ static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
                                        b->along_N ? b->along_N + 2 * i : NULL),
                   &b->arm[i], i % 2 ? pin->body_b : pin->body_a, "hinge", pin->id);
     }
-    FW_TRY(fw_verdict_load_ends(arena, m, &end, &n));
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
     for (int k = 0; k < n; k++)
         for (int i = 0; end[k].scene == scene && i < 2 * m->nhinge; i++) {
             const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];

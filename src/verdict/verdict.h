@@ -298,12 +298,12 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     int nreason;
     /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */
     const struct fw_verdict_arm *arm;
-    const struct fw_verdict_body_solid *solid; /* (nbody) those that were asked; NULL: none */
-    bool straight;                             /* those of straight ways alone */
-    fw_verdict_out_of_plane *out_of_plane;     /* NULL: nobody asked, as of a trial */
-    const fw_verdict_stiction *stiction;       /* NULL: no flow dries it, or nobody asked */
-    const fw_clearance_things *things;         /* NULL: nothing is drawn */
-    fw_verdict_clearance *clearance;           /* (nclearance) none of what is not drawn */
+    const struct fw_mechanism_solid *solid; /* (nbody) those that were asked; NULL: none */
+    bool straight;                          /* those of straight ways alone */
+    fw_verdict_out_of_plane *out_of_plane;  /* NULL: nobody asked, as of a trial */
+    const fw_verdict_stiction *stiction;    /* NULL: no flow dries it, or nobody asked */
+    const fw_clearance_things *things;      /* NULL: nothing is drawn */
+    fw_verdict_clearance *clearance;        /* (nclearance) none of what is not drawn */
     int nclearance;
     fw_wiring_moved
         *stator; /* (nstator) every stator in every scene, as drawn; low_m: at all corners */

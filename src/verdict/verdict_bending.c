@@ -385,105 +385,34 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
 }
 
 /* ---- plain ways ----
-   As those of body_arms.c, from the root straight to the middle: a bound, too, for a tenth of its cost and without
-   the grid, where the way stays inside and the bodies give little. */
+   As those of body_arms.c, from the root straight to the middle (mechanism/body_give.c): a bound, too, for a tenth of their
+   cost and without the grid, where the way stays inside and the bodies give little. */
 
-enum { WALK_STEPS = 200 };
+typedef struct straight_way {
+    fw_verdict_arm *arm;
+    fw_geometry_vec2 pin;
+} straight_way;
 
-typedef struct edges {
-    fw_geometry_lines all, near; /* near: those no farther than `reach` from `centre` */
-    fw_geometry_vec2 centre;
-    double reach;
-    double *off; /* squares of distances from a place */
-} edges;
-
-static fw_status edges_of(fw_arena *arena, const fw_layout *layout, int body, edges *to) {
-    fw_verdict_line *line;
-    int n;
-    FW_TRY(fw_verdict_body_lines(arena, layout, body, &line, &n));
-    FW_TRY(fw_geometry_lines_new(arena, n, &to->all));
-    FW_TRY(fw_geometry_lines_new(arena, n, &to->near));
-    FW_NEED(to->off = fw_arena_array(arena, double, (size_t)n + FW_GEOMETRY_LINES_TOGETHER));
-    for (int i = 0; i < n; i++)
-        if (line[i].edge)
-            fw_geometry_lines_add(&to->all, line[i].a.x, line[i].a.y, line[i].b.x, line[i].b.y);
-    return FW_OK;
+static void add_to_arm(void *to, fw_geometry_vec2 at, fw_geometry_vec2 from, fw_geometry_vec2 until,
+                       double wide_m) {
+    const straight_way *s = to;
+    fw_verdict_arm_add(s->arm, s->pin, at, from, until, wide_m);
 }
 
-static bool is_inside(const fw_layout *layout, int body, fw_geometry_vec2 at) {
-    for (int i = 0; i < layout->npiece; i++)
-        if (fw_verdict_is_of(&layout->piece[i], body) &&
-            fw_geometry_contour_contains(&layout->piece[i].contour, at))
-            return true;
-    return false;
-}
-
-static void look_around(edges *e, fw_geometry_vec2 at) {
-    const double free = sqrt(fw_geometry_lines_least_square(&e->all, at, e->off));
-    e->centre = at, e->reach = 4 * free, e->near.n = 0;
-    for (int i = 0; i < e->all.n; i++)
-        if (e->off[i] <= e->reach * e->reach)
-            fw_geometry_lines_add(&e->near, e->all.ax[i], e->all.ay[i], e->all.bx[i], e->all.by[i]);
-}
-
-/* distance to the nearest edge, and the direction away from it */
-static double free_at(edges *e, fw_geometry_vec2 at, fw_geometry_vec2 *away) {
-    double least = fw_geometry_lines_least_square(&e->near, at, e->off), t;
-    if (!(sqrt(least) + vec_distance(at, e->centre) < e->reach)) {
-        look_around(e, at);
-        least = fw_geometry_lines_least_square(&e->near, at, e->off);
-    }
-    int i = 0;
-    while (i + 1 < e->near.n && e->off[i] != least)
-        i++;
-    const fw_geometry_vec2 a = {e->near.ax[i], e->near.ay[i]}, b = {e->near.bx[i], e->near.by[i]};
-    *away = vec_unit(vec_sub(at, vec_line_foot(a, b, at, &t)));
-    return sqrt(least);
-}
-
-/* From circle to circle towards the middle and away from the nearest edge, each begun inside the one before, so that
-   no edge lies between them */
-static bool walk(const fw_layout *layout, int body, edges *edge, fw_geometry_vec2 pin,
+static bool walk(const fw_layout *layout, fw_mechanism_edges *edges, fw_geometry_vec2 pin,
                  fw_geometry_vec2 root, fw_verdict_arm *arm) {
-    const double step = 0.7, sideways = 0.7;
-    const fw_geometry_vec2 middle = layout->body[body].centroid;
-    fw_geometry_vec2 at = root, away;
-    double free = free_at(edge, root, &away), left = vec_distance(root, middle);
-    const double length = left,
-                 begins = 0.02 * length; /* the flexure's own root is in its closed form */
-    double gone = 0;
-    *arm = (fw_verdict_arm){.known = length > 0, .narrow_m = HUGE_VAL};
-    away = vec_unit(vec_sub(root, pin));
-    for (int i = 0; arm->known && left > 0; i++) {
-        const fw_geometry_vec2 to_middle = vec_scale(1 / left, vec_sub(middle, at)),
-                               way = vec_unit(vec_add(to_middle, vec_scale(sideways, away)));
-        const bool last = left < step * free;
-        fw_geometry_vec2 to = last ? middle : vec_along(at, step * free, way), beside;
-        double there = free_at(edge, to, &away);
-        if (there < free && !last) { /* off the crest */
-            const fw_geometry_vec2 on = vec_along(to, 0.6 * (free - there), away);
-            const double more = free_at(edge, on, &beside);
-            if (more > there) to = on, there = more, away = beside;
-        }
-        arm->known =
-            i < WALK_STEPS && there > 1e-3 * length && (i > 0 || is_inside(layout, body, to));
-        const fw_geometry_vec2 half = vec_along(at, 0.5, vec_sub(to, at));
-        if (gone > begins) {
-            fw_verdict_arm_add(arm, pin, at, at, half, 2 * free);
-            fw_verdict_arm_add(arm, pin, to, half, to, 2 * there);
-        }
-        gone += vec_distance(at, to);
-        at = to, free = there, left = last ? 0 : vec_distance(at, middle);
-    }
-    return arm->known;
+    straight_way s = {arm, pin};
+    const fw_mechanism_walker walker = {add_to_arm, &s};
+    *arm = (fw_verdict_arm){.narrow_m = HUGE_VAL};
+    return arm->known = fw_mechanism_walk(layout, edges, pin, root, &walker);
 }
 
 static fw_status straight_arms(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
                                fw_verdict_arm *arm, bool *known) {
     *known = true;
     for (int body = 0; *known && body < m->nbody; body++) {
-        edges edge = {.reach = 0};
-        FW_TRY(edges_of(arena, layout, body, &edge));
+        fw_mechanism_edges edge;
+        FW_TRY(fw_mechanism_edges_of(arena, layout, body, &edge));
         for (int i = 0; *known && i < 2 * m->nhinge; i++) {
             const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
             if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
@@ -491,7 +420,7 @@ static fw_status straight_arms(fw_arena *arena, const fw_mechanism *m, const fw_
                                    at = fw_mechanism_pin_place(m, pin, i % 2);
             *known =
                 edge.all.n > 0 &&
-                walk(layout, body, &edge, at,
+                walk(layout, &edge, at,
                      vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad)), &arm[i]);
         }
     }
@@ -504,9 +433,9 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, con
     if (v->straight && !straight) v->arm = NULL, v->straight = false;
     if (v->arm || !layout || !layout->drawn) return FW_OK;
     if (straight) {
-        fw_verdict_load_end *load;
+        fw_mechanism_load_end *load;
         int nload;
-        FW_TRY(fw_verdict_load_ends(arena, m, &load, &nload)); /* their ways stay unknown */
+        FW_TRY(fw_mechanism_load_ends(arena, m, &load, &nload)); /* their ways stay unknown */
         FW_NEED(arm = fw_arena_array(arena, fw_verdict_arm, 2 * (size_t)m->nhinge + (size_t)nload));
         FW_TRY(straight_arms(arena, m, layout, arm, &v->straight));
     }

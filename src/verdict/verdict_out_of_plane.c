@@ -236,9 +236,9 @@ static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdic
     FW_NEED(to->hung = fw_arena_array(arena, fw_verdict_hung, (size_t)m->nbody));
     for (int b = 0; b < m->nbody; b++) {
         fw_mark mark = fw_arena_mark(arena);
-        fw_verdict_line *line;
+        fw_mechanism_line *line;
         int nline;
-        FW_TRY(fw_verdict_body_lines(arena, m->layout, b, &line, &nline));
+        FW_TRY(fw_mechanism_body_lines(arena, m->layout, b, &line, &nline));
         FW_TRY(fw_verdict_overhang(arena, m, m->layout, b, line, nline, &to->hung[b]));
         fw_arena_rewind(arena, mark);
         to->hangs = fmax(to->hangs, to->hung[b].across_s2);

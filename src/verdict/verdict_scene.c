@@ -489,7 +489,7 @@ static bool is_on_body(const fw_mechanism *m, const fw_layout *layout, const fw_
     if (f->body == FW_GROUND) return true;
     *at = fw_mechanism_local_place(m, f->body, f->x_m, f->y_m);
     for (int i = 0; i < layout->npiece; i++)
-        if (fw_verdict_is_of(&layout->piece[i], f->body) &&
+        if (fw_mechanism_is_of(&layout->piece[i], f->body) &&
             fw_geometry_contour_contains(&layout->piece[i].contour, *at))
             return true;
     return fw_verdict_comes_near(layout, f->body, *at, hardly_m);

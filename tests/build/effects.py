@@ -48,6 +48,7 @@ SCENES = [
     ("free", "rubbing", ["--still"]),  # sticks
     ("pulled", "pulled", []),  # tendons
     ("pulled", "rubbed", []),
+    ("arms", "pulled", []),
     ("drawn", "comb", []),
     ("drawn", "plate", []),
     ("giving", "plain", []),  # hinges that give
@@ -87,6 +88,7 @@ COSTS = [
     ("friction", "stated", "rubbing-twice", ["--pins"], "joint of two that slip"),
     ("tendon", "pulled", "pulled", [], "pull over two eyelets"),
     ("eyelet-friction", "pulled", "rubbed", [], "in no motion: nothing"),
+    ("body-compliance", "arms", "pulled", [], "spring on an arm"),
     ("comb-drive", "drawn", "comb", ["--off", "fringe-field"], "comb, constant voltage"),
     ("comb-drive", "drawn", "driven", ["--off", "fringe-field"], "comb, voltage with a law"),
     ("comb-drive", "drawn", "plate", ["--off", "fringe-field"], "plate, constant voltage"),

@@ -533,10 +533,9 @@ class SlenderArms(unittest.TestCase):
         return decision, low, high
 
     def test_slender_arms_press_less(self):
-        decision, low, high = self.holds("grips", 359e-6)
-        self.assertEqual(decision, "inconclusive")
-        self.assertGreater(low, 200e-6)
-        self.assertLess(high, 485e-6)  # and by no more: rigid ones press with 472
+        decision, low, high = self.holds("grips", 359e-6)  # rigid ones press with 472
+        self.assertEqual(decision, "reject")
+        self.assertLess(high - low, 0.08 * 359e-6)
         self.holds("grips", 185e-6, "kw=30 N/m", "arm=60 um")
         self.holds("grips", 728e-6, "kw=20 N/m", "arm=100 um", "gap=20 um")
         decision, low, _ = self.holds("grips", 472e-6, "arm=400 um", "gripmin=200 uN")
@@ -549,7 +548,29 @@ a-y="0 mm" b="ground" b-x="2.8 mm" b-y="0.5 mm" stiffness="kw" length="0.5 mm" d
             device.write_text(text)
             done = run("check", device, "--corners", "none", "--advice", "none", "--json")
         low, high = json.loads(done.stdout)["requirements"][0]["band"]
-        self.assertTrue(-2.6e-3 < low < -2.53e-3 < -1.93e-3 < high < -1.1e-3, (low, high))
+        self.assertTrue(-2.05e-3 < low < -1.93e-3 < high < -1.8e-3, (low, high))
+
+    def test_arms_are_in_every_motion(self):
+        """the force of a motion and of an equilibrium are one, the ledger says that arms give; two things on one
+        arm stay a bound"""
+        device = ROOT / "tests/data/arms/grips.xml"
+        moved = json.loads(run("simulate", device, "--scene", "press", "--json").stdout)
+        rests = json.loads(run("statics", device, "--scene", "press", "--json").stdout)
+        force = [next(p for p in said["probes"] if p["id"] == "grip") for said in (moved, rests)]
+        self.assertAlmostEqual(force[0]["final"] / force[1]["value"], 1, delta=1e-3, msg=force)
+        effects = {e["id"]: e for e in moved["effects"]}
+        self.assertTrue(effects["body-compliance"]["active"])
+        text = device.read_text()
+        both = text.replace("<material-damping", '<contact id="second" a="lever" a-x="2.7 mm" a-y="arm/2" b="ground" b-x="2.7 mm" '
+                            'b-y="arm/2 + 300 um" side="outside" distance="50 um" stiffness="kw" undrawn="placed"/><material-damping')
+        self.assertNotEqual(both, text)
+        with tempfile.TemporaryDirectory() as place:
+            other = pathlib.Path(place, "device.xml")
+            other.write_text(both)
+            said = json.loads(run("check", other, "--corners", "none", "--advice", "none", "--json").stdout)
+        low, high = said["requirements"][0]["band"]
+        self.assertEqual(said["verdict"], "inconclusive")
+        self.assertTrue(low < 359e-6 < high, (low, high))
 
     def test_slender_arms_are_soft_at_their_ends(self):
         self.assertEqual(self.holds("stiff", 1.33)[0], "inconclusive")
@@ -576,7 +597,7 @@ a-y="0 mm" b="ground" b-x="2.8 mm" b-y="0.5 mm" stiffness="kw" length="0.5 mm" d
             self.assertEqual(said["verdict"], "inconclusive", (y, arm))
         decision, said, codes = self.judged("stops")  # rigid 5 %, and 134 % with an arm that bends
         self.assertEqual(decision, "inconclusive")
-        self.assertIn("FW-D538", codes)
+        self.assertTrue({"FW-D538", "FW-D242"} & codes, codes)
 
     def test_a_force_in_the_open_is_told(self):
         """which no material carries: what the body gives by it was taken along the nearest way, and nothing said so"""

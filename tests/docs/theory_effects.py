@@ -283,6 +283,13 @@ def fringe(m, w):
     return ((2 * (ln - log(x)) + ln / x) / pi, -ln / (pi * x * x * w), (2 * ln / x - 2 / (1 + 2 * x)) / (pi * x * x * w * w))
 
 
+def effect_body_compliance(g):
+    second = g["h"] * g["w"] ** 3 / 12
+    bent = g["L"] ** 3 / (3 * g["E"] * second)
+    sheared = 1.2 * g["L"] * 2 * (1 + g["nu"]) / (g["E"] * g["w"] * g["h"])
+    return {"bent": bent, "sheared": sheared, "left": 1 / (1 + (bent + sheared) * g["k"])}
+
+
 def effect_finger_bending(g):
     c11, c12 = 165.7e9, 63.9e9
     E = (c11 - c12) * (c11 + 2 * c12) / (c11 + c12)

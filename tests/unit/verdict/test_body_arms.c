@@ -449,9 +449,9 @@ static void what_hangs_over_bends(void **state) {
         fw_mechanism_mass mass = {.mass_kg = 2330 * 20e-6 * shape.area_m2};
         s.m.body = &mass;
         fw_verdict_hung hung;
-        fw_verdict_line *line;
+        fw_mechanism_line *line;
         int nline;
-        assert_int_equal(fw_verdict_body_lines(s.arena, &s.layout, 0, &line, &nline), FW_OK);
+        assert_int_equal(fw_mechanism_body_lines(s.arena, &s.layout, 0, &line, &nline), FW_OK);
         assert_int_equal(fw_verdict_overhang(s.arena, &s.m, &s.layout, 0, line, nline, &hung), FW_OK);
         const double bends = 1.5 * 2330 * pow((l - 0.015) * 1e-3, 4) / (150e9 * 20e-6 * 20e-6);
         assert_true(hung.across_s2 > 0.98 * bends && hung.across_s2 < 1.05 * bends);
