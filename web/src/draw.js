@@ -451,6 +451,7 @@ export class Draw {
         this.drag = null;
         if (!d?.handle) return;
         this.#clear();
+        if (d.held.size && ![...d.held.keys()].some((path) => path in state.set)) return this.#refresh(); // it was taken while it was held
         await this.#commit(d.handle, d.now, d.wanted, d.places);
     }
 

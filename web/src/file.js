@@ -2,7 +2,7 @@
 // The file on disk: read at the start, followed while another program edits it, saved. Nothing that somebody wrote is
 // lost without a word: what was not saved is kept (drafts.js), and where two have written, both sides are shown.
 import { get, post } from "./api.js";
-import { taken } from "./design.js";
+import { anyHeld, taken } from "./design.js";
 import { openDialog } from "./dialog.js";
 import { bothSides } from "./diff.js";
 import { announce, button, h } from "./dom.js";
@@ -25,8 +25,8 @@ const written = (text) => (state.file?.eol === "\r\n" ? text.replaceAll("\n", "\
 /** The text is another one than the file's. */
 const changed = () => state.text !== (state.file === null ? state.base : state.file.text);
 
-/** There is something here that is nowhere else, be it in the text or still in a field. */
-export const unsaved = () => changed() || state.entered.size > 0 || state.edits.length > 0;
+/** There is something here that is nowhere else, be it in the text, still in a field or held by hand. */
+export const unsaved = () => changed() || state.entered.size > 0 || state.edits.length > 0 || anyHeld();
 
 // ---- start ----
 
