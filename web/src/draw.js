@@ -14,7 +14,7 @@ import { makeMirrored, removing, sidesOf } from "./making.js";
 import { heldBy, plan } from "./moving.js";
 import { arcOver, elementAt, far, handlesOf, Places } from "./places.js";
 import { gridStep, snap } from "./snapping.js";
-import { inputKey, requestKey } from "./belong.js";
+import { inputKey, ofAnother, requestKey } from "./belong.js";
 import { emit, lookAt, on, state } from "./store.js";
 import { TOOLS } from "./tools.js";
 
@@ -123,10 +123,10 @@ export class Draw {
         this.#panel();
     }
 
-    /** Where the last answer has no picture, what is drawn stands for it; until the next answer it stays so. */
+    /** Where the last answer has no picture, or is of another device, what is drawn stands for it; until the next answer it stays so. */
     #stands() {
         const nothing = state.answered === inputKey() && !isPresent();
-        if (nothing || !state.preview) this.alone = true;
+        if (nothing || !state.preview || ofAnother(state.previewOf)) this.alone = true;
         else if (isPresent()) this.alone = false;
         this.stage.classList.toggle("sketch-only", this.alone);
         this.shownOf.take(this.alone ? null : state.previewOf);

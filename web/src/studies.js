@@ -2,7 +2,7 @@
 // The studies of the description: run, stopped, gone on with, looked at; and the best device of one put into the text. A
 // study is a job of the server, the command `flexwright study`; what it has judged stays when it is stopped.
 import { get } from "./api.js";
-import { begin, inputKey, mayChange, requestKey, Shown } from "./belong.js";
+import { begin, inputKey, mayChange, ofAnother, requestKey, Shown } from "./belong.js";
 import { edit, taken } from "./design.js";
 import { announce, button, h, icon, say, select } from "./dom.js";
 import { duration, number, percent, si } from "./format.js";
@@ -140,7 +140,8 @@ export class Studies {
 
     #fill({ name, kind, element }) {
         const card = [...this.list.children].find((e) => e.dataset.name === name);
-        const mine = this.kept.get(name);
+        const kept = this.kept.get(name);
+        const mine = kept && !kept.control && ofAnother(kept.of) ? undefined : kept; // a study of another device may have the same name
         const present = mine?.of === this.#key(name);
         const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
         const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
