@@ -330,11 +330,6 @@ static fw_status tell_governing(fw_study *study, const fw_plan *plan, int kinds,
     return tell(study, f, &text);
 }
 
-static void value_of(fw_text *out, double value, const char *unit) {
-    fw_text_number(out, value, 5);
-    if (unit && *unit && strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
-}
-
 /* a limit of a response that it misses; where all hold, one that it is at and its goal does not lead away from */
 static fw_status tell_responses(fw_study *study, fw_study_found *f) {
     for (int k = 0; k < study->nresponse; k++) {
@@ -347,9 +342,9 @@ static fw_status tell_responses(fw_study *study, fw_study_found *f) {
         fw_text text = fw_text_new(study->arena);
         if (!low && !high) continue;
         fw_text_printf(&text, "%s is ", q->name);
-        value_of(&text, value, study->response[k].unit);
+        fw_study_response_text(&text, &study->response[k], value);
         fw_text_add(&text, low ? ", and at least " : ", and at most ");
-        value_of(&text, low ? q->min : q->max, study->response[k].unit);
+        fw_study_response_text(&text, &study->response[k], low ? q->min : q->max);
         fw_text_add(&text, " is asked for");
         FW_TRY(tell(study, f, &text));
     }

@@ -62,6 +62,7 @@ typedef struct fw_study_response {
     int document;     /* index into the table of documents, study_response.c */
     const char *path; /* behind the document's name */
     const char *unit; /* of the key, "m"; "" for pure numbers */
+    bool share;       /* of a limit, of 1; texts and pictures have it in %, as verdicts do */
     double now;       /* of the description as it stands */
 } fw_study_response;
 
@@ -197,6 +198,14 @@ fw_status fw_study_slurm(fw_study *study, fw_study_cluster *cluster);
 
 fw_status fw_study_json(const fw_study *study, fw_text *out);
 fw_status fw_study_text(const fw_study *study, fw_text *out);
+/* A value of a response as people read it, with the unit: of shares of a limit in %, in the digits of a verdict. */
+void fw_study_response_text(fw_text *out, const fw_study_response *response, double value);
+/* likewise a difference of two values */
+void fw_study_change_text(fw_text *out, const fw_study_response *response, double change);
+/* a value in the unit that pictures have it in */
+double fw_study_response_drawn(const fw_study_response *response, double value);
+const char *fw_study_response_drawn_in(const fw_study_response *response);
+
 /* study.json, study.csv, study.html and pictures/ into the output directory, each whole or not at all */
 fw_status fw_study_write(fw_study *study);
 

@@ -63,6 +63,13 @@ static void last_key(const char *path, const char **key, size_t *n) {
     }
 }
 
+/* "utilisation", "utilisation_band": of a limit */
+static bool is_share(const char *key, size_t n) {
+    static const char used[] = "utilisation";
+    const size_t length = sizeof used - 1;
+    return n >= length && strncmp(key, used, length) == 0 && (n == length || key[length] == '_');
+}
+
 static bool well_formed(const char *path) {
     if (!*path || *path == '.' || *path == '[') return false;
     for (const char *at = path; *at;) {
@@ -119,7 +126,38 @@ fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *aske
                              "elements of lists in brackets: hinges[C].utilisation",
                              asked->name, response->path);
     last_key(response->path, &key, &n);
+    response->share = is_share(key, n);
     return unit_of_key(arena, key, n, &response->unit);
+}
+
+static void value_text(fw_text *out, const fw_study_response *response, double value,
+                       const char *percent) {
+    const char *unit = response->unit;
+    char text[32];
+    if (isnan(value)) {
+        fw_text_add(out, "no value");
+    } else if (response->share) {
+        fw_text_printf(out, "%s%s", fw_percent_text(text, sizeof text, value), percent);
+    } else {
+        fw_text_number(out, value, 5);
+        if (*unit && strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
+    }
+}
+
+void fw_study_response_text(fw_text *out, const fw_study_response *response, double value) {
+    value_text(out, response, value, " %");
+}
+
+void fw_study_change_text(fw_text *out, const fw_study_response *response, double change) {
+    value_text(out, response, change, " percentage points");
+}
+
+double fw_study_response_drawn(const fw_study_response *response, double value) {
+    return response->share ? 100 * value : value;
+}
+
+const char *fw_study_response_drawn_in(const fw_study_response *response) {
+    return response->share ? "%" : response->unit;
 }
 
 /* ---- the way through a document ---- */

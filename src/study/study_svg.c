@@ -26,8 +26,8 @@ typedef struct points { /* of the samples that are drawn */
     long every, met; /* which of them; rows so far */
     int n;
     double *x;     /* (DRAWN_MOST x ninput) listed ones: which of the list */
-    double *y;     /* (DRAWN_MOST x nresponse) */
-    double *used;  /* (DRAWN_MOST) */
+    double *y;     /* (DRAWN_MOST x nresponse) as they are drawn: shares of a limit in % */
+    double *used;  /* (DRAWN_MOST) % */
     int *decision; /* (DRAWN_MOST) */
 } points;
 
@@ -48,9 +48,10 @@ static fw_status collect(void *context, const fw_study_sample *s) {
             in->ntext > 0 ? which_listed(in, s->text[k])
                           : fw_quantity_unit_from_si(&in->unit, s->value[k]);
     }
-    memcpy(p->y + at * (size_t)study->nresponse, s->response,
-           (size_t)study->nresponse * sizeof *p->y);
-    p->used[at] = s->used;
+    for (int r = 0; r < study->nresponse; r++)
+        p->y[at * (size_t)study->nresponse + (size_t)r] =
+            fw_study_response_drawn(&study->response[r], s->response[r]);
+    p->used[at] = 100 * s->used;
     p->decision[at] = s->decision;
     return FW_OK;
 }
@@ -90,6 +91,12 @@ static void labels(fw_text *out, const char *x, const char *x_unit, const char *
         0.5 * (LEFT + RIGHT), BOTTOM + 44.0, x, *x_unit ? " (" : "", x_unit, *x_unit ? ")" : "");
     fw_svg_put(out, "text x='{c}' y='{c}' font-size='12' fill='#1f2328'>{s}{s}{s}{s}\n", 16.0,
                TOP - 6.0, y, *y_unit ? " (" : "", y_unit, *y_unit ? ")" : "");
+}
+
+/* a drawn value of a response; NULL: of an input */
+static const char *number_of(char text[32], const fw_study_response *response, double drawn) {
+    return response && response->share ? fw_percent_text(text, 32, drawn / 100)
+                                       : fw_number_text(text, 32, drawn, 3);
 }
 
 static void limit_line(fw_text *out, const fw_svg_axes *a, double value, const char *what) {
@@ -181,7 +188,8 @@ static fw_status pair(fw_study_sheet *s, const points *p, int r, int k) {
         x[i] = p->x[(size_t)i * (size_t)study->ninput + (size_t)k];
     if (!fit(x, 1, p->y + r, study->nresponse, p->n, &a)) return FW_OK;
     /* a limit that is near is shown */
-    const double bound[2] = {q->asked->min, q->asked->max};
+    const double bound[2] = {fw_study_response_drawn(q, q->asked->min),
+                             fw_study_response_drawn(q, q->asked->max)};
     for (int b = 0; b < 2; b++)
         if (!isnan(bound[b]) && fabs(bound[b] - 0.5 * (a.y0 + a.y1)) < 2 * (a.y1 - a.y0))
             a.y0 = fmin(a.y0, bound[b]), a.y1 = fmax(a.y1, bound[b]);
@@ -198,9 +206,10 @@ static fw_status pair(fw_study_sheet *s, const points *p, int r, int k) {
         if (isfinite(x[i]) && isfinite(y))
             dot(out, fw_svg_axes_x(&a, x[i]), fw_svg_axes_y(&a, y), p->decision[i]);
     }
-    limit_line(out, &a, q->asked->min, "at least");
-    limit_line(out, &a, q->asked->max, "at most");
-    labels(out, in->what, in->ntext > 0 ? "of the list" : in->unit_text, q->asked->name, q->unit);
+    limit_line(out, &a, bound[0], "at least");
+    limit_line(out, &a, bound[1], "at most");
+    labels(out, in->what, in->ntext > 0 ? "of the list" : in->unit_text, q->asked->name,
+           fw_study_response_drawn_in(q));
     if (judged(p)) legend(out);
     fw_svg_end(out);
     return fw_text_end(out);
@@ -263,8 +272,8 @@ static fw_status map(fw_study_sheet *s, const points *p, int r) {
                    HEIGHT - 20.0, colour);
     }
     fw_svg_put(out, "text x='{c}' y='{c}' font-size='11' fill='#57606a'>{s} to {s} {s}\n",
-               LEFT + 174.0, HEIGHT - 11.0, fw_number_text(number[0], 32, least, 3),
-               fw_number_text(number[1], 32, most, 3), q->unit);
+               LEFT + 174.0, HEIGHT - 11.0, number_of(number[0], q, least),
+               number_of(number[1], q, most), fw_study_response_drawn_in(q));
     if (judged(p)) legend(out);
     fw_svg_end(out);
     return fw_text_end(out);
@@ -331,7 +340,8 @@ static fw_status tornados(fw_study_sheet *s) {
             FW_NEED(b);
             for (int k = 0; k < study->ninput; k++) {
                 size_t at = (size_t)r * (size_t)study->ninput + (size_t)k;
-                double d = study->result->derivative[at].spread;
+                double d = fw_study_response_drawn(&study->response[r],
+                                                   study->result->derivative[at].spread);
                 double i = study->result->index ? study->result->index[at].total : (double)NAN;
                 b[k] = (bar){study->input[k].what,
                              share      ? 0
@@ -348,7 +358,8 @@ static fw_status tornados(fw_study_sheet *s) {
                                               : "What half the range of each input makes of %s",
                                         of),
                         share ? "share of the variance, with all interactions (total Sobol' index)"
-                              : study->response[r].unit,
+                        : study->response[r].share ? "percentage points"
+                                                   : study->response[r].unit,
                         b, study->ninput));
         }
     return FW_OK;
@@ -383,14 +394,14 @@ static fw_status histogram(fw_study_sheet *s, const points *p) {
                y = fw_svg_axes_y(&a, count[i]);
         fw_svg_put(out, "rect x='{c}' y='{c}' width='{c}' height='{c}' fill='{r}'\n", x, y,
                    (RIGHT - LEFT) / (double)BARS - 1, BOTTOM - y,
-                   from >= 1 ? colour_of(1) : colour_of(0));
+                   from >= 100 ? colour_of(1) : colour_of(0));
     }
-    if (least < 1 && most > 1)
+    if (least < 100 && most > 100)
         fw_svg_put(
             out,
             "path d='M{c} {c}V{c}' stroke='#d1242f' stroke-width='1.3' stroke-dasharray='6 4'\n",
-            fw_svg_axes_x(&a, 1), (double)TOP, (double)BOTTOM);
-    labels(out, "largest share of a limit that is used", "", "devices", "");
+            fw_svg_axes_x(&a, 100), (double)TOP, (double)BOTTOM);
+    labels(out, "largest share of a limit that is used", "%", "devices", "");
     fw_svg_end(out);
     return fw_text_end(out);
 }
@@ -431,16 +442,19 @@ static fw_status parallel(fw_study_sheet *s, const points *p) {
         }
     for (int k = 0; k < n; k++) {
         double x = 60 + 500.0 * k / (n - 1);
+        const fw_study_response *q = k < study->ninput ? NULL : &study->response[k - study->ninput];
         char text[2][32];
-        const char *name = k < study->ninput ? study->input[k].what
-                                             : study->response[k - study->ninput].asked->name;
+        const char *name = q ? q->asked->name : study->input[k].what,
+                   *percent = q && q->share ? " %" : "";
         fw_svg_put(out, "path d='M{c} {c}V{c}' stroke='#57606a'\n", x, TOP + 20.0, (double)BOTTOM);
         fw_svg_put(out,
-                   "text x='{c}' y='{c}' font-size='10' text-anchor='middle' fill='#57606a'>{s}\n",
-                   x, TOP + 14.0, fw_number_text(text[0], 32, high[k], 3));
+                   "text x='{c}' y='{c}' font-size='10' text-anchor='middle' "
+                   "fill='#57606a'>{s}{s}\n",
+                   x, TOP + 14.0, number_of(text[0], q, high[k]), percent);
         fw_svg_put(out,
-                   "text x='{c}' y='{c}' font-size='10' text-anchor='middle' fill='#57606a'>{s}\n",
-                   x, BOTTOM + 14.0, fw_number_text(text[1], 32, low[k], 3));
+                   "text x='{c}' y='{c}' font-size='10' text-anchor='middle' "
+                   "fill='#57606a'>{s}{s}\n",
+                   x, BOTTOM + 14.0, number_of(text[1], q, low[k]), percent);
         fw_svg_put(out,
                    "text x='{c}' y='{c}' font-size='11' text-anchor='middle' fill='#1f2328'>{s}\n",
                    x, BOTTOM + (k % 2 ? 44.0 : 30.0), name);
@@ -471,10 +485,13 @@ static fw_status front(fw_study_sheet *s, const points *p) {
         const double *y = study->result->found[i].response;
         fw_svg_put(
             out, "circle cx='{c}' cy='{c}' r='6' fill='none' stroke='#1f2328' stroke-width='1.6'\n",
-            fw_svg_axes_x(&a, y[goal[0]]), fw_svg_axes_y(&a, y[goal[1]]));
+            fw_svg_axes_x(&a, fw_study_response_drawn(&study->response[goal[0]], y[goal[0]])),
+            fw_svg_axes_y(&a, fw_study_response_drawn(&study->response[goal[1]], y[goal[1]])));
     }
-    labels(out, study->response[goal[0]].asked->name, study->response[goal[0]].unit,
-           study->response[goal[1]].asked->name, study->response[goal[1]].unit);
+    labels(out, study->response[goal[0]].asked->name,
+           fw_study_response_drawn_in(&study->response[goal[0]]),
+           study->response[goal[1]].asked->name,
+           fw_study_response_drawn_in(&study->response[goal[1]]));
     legend(out);
     fw_svg_end(out);
     return fw_text_end(out);

@@ -83,7 +83,7 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
     for (int r = 0; r < study->nresponse; r++) {
         const fw_study_response *q = &study->response[r];
         fw_text_printf(out, "  %-24s %s, now ", q->asked->name, q->asked->value);
-        number(out, q->now, q->unit);
+        fw_study_response_text(out, q, q->now);
         fw_text_add(out, "\n");
     }
     return fw_text_end(out);
@@ -180,15 +180,15 @@ static void say_ranges(fw_text *out, const fw_study *study) {
         const fw_study_response *q = &study->response[r];
         const fw_study_extreme *e = &study->result->extreme[r];
         fw_text_printf(out, "  %-24s ", q->asked->name);
-        number(out, e->least, q->unit);
+        fw_study_response_text(out, q, e->least);
         fw_text_printf(out, " (number %ld) to ", e->least_at);
-        number(out, e->largest, q->unit);
+        fw_study_response_text(out, q, e->largest);
         fw_text_printf(out, " (number %ld)", e->largest_at);
         if (e->n < study->result->run + study->result->failed)
             fw_text_printf(out, ", in %ld devices", e->n);
         if (study->result->fitted && study->result->fitted->told > 0) {
             fw_text_add(out, "; told ones to within ");
-            number(out, study->result->fitted->off[r], q->unit);
+            fw_study_change_text(out, q, study->result->fitted->off[r]);
         }
         fw_text_add(out, "\n");
     }
@@ -200,7 +200,7 @@ static void say_ends(fw_text *out, const fw_study *study) {
             const fw_study_end *end = &study->result->end[2 * r + e];
             fw_text_printf(out, "  %-24s %s ", study->response[r].asked->name,
                            e == 0 ? "least" : "largest");
-            number(out, end->known ? end->value : (double)NAN, study->response[r].unit);
+            fw_study_response_text(out, &study->response[r], end->known ? end->value : (double)NAN);
             if (end->known) fw_text_add(out, " at"), settings(out, study, end->text);
         }
 }
@@ -229,13 +229,13 @@ static void say_sensitivity(fw_text *out, const fw_study *study) {
     for (int r = 0; r < study->nresponse; r++) {
         const fw_study_response *q = &study->response[r];
         fw_text_printf(out, "  %s, now ", q->asked->name);
-        number(out, q->now, q->unit);
+        fw_study_response_text(out, q, q->now);
         fw_text_add(out, "\n");
         for (int k = 0; k < study->ninput; k++) {
             size_t at = (size_t)r * (size_t)study->ninput + (size_t)k;
             const fw_study_derivative *d = &result->derivative[at];
             fw_text_printf(out, "    %-22s half its range changes it by ", study->input[k].what);
-            number(out, d->spread, q->unit);
+            fw_study_change_text(out, q, d->spread);
             if (result->index && isnan(result->index[at].total)) {
                 fw_text_add(out, "; at the accuracy asked it does not vary over the ranges");
             } else if (result->index) {
@@ -254,7 +254,7 @@ static void say_found(fw_text *out, const fw_study *study, const fw_study_found 
     fw_text_add(out, " ");
     for (int r = 0; r < study->nresponse; r++) {
         fw_text_printf(out, "%s %s ", r ? "," : "", study->response[r].asked->name);
-        number(out, f->response[r], study->response[r].unit);
+        fw_study_response_text(out, &study->response[r], f->response[r]);
     }
     fw_text_add(out, "\n   ");
     settings(out, study, f->text);

@@ -120,6 +120,7 @@ static void responses_json(fw_json *j, const fw_study *study) {
         fw_json_text(j, "name", q->asked->name);
         fw_json_text(j, "value", q->asked->value);
         fw_json_text(j, "unit", q->unit);
+        fw_json_truth(j, "share", q->share);
         fw_json_real(j, "min", q->asked->min);
         fw_json_real(j, "max", q->asked->max);
         fw_json_real(j, "now", q->now);
@@ -344,13 +345,12 @@ static void text(fw_text *out, const char *before, const char *content, const ch
     fw_text_add(out, behind);
 }
 
-static void number(fw_text *out, double value, const char *unit) {
+static void number(fw_text *out, const fw_study_response *response, double value) {
     fw_text_add(out, "<td>");
     if (isnan(value))
         fw_text_add(out, "&ndash;");
     else
-        fw_text_number(out, value, 5);
-    if (!isnan(value) && *unit) text(out, " ", unit, "");
+        fw_study_response_text(out, response, value);
     fw_text_add(out, "</td>");
 }
 
@@ -385,11 +385,11 @@ static void response_table(const fw_study *study, fw_text *out) {
         const fw_study_extreme *e = &study->result->extreme[r];
         text(out, "<tr><td>", q->asked->name, "</td>");
         text(out, "<td><code>", q->asked->value, "</code></td>");
-        number(out, q->now, q->unit);
-        number(out, e->least, q->unit);
-        number(out, e->largest, q->unit);
-        number(out, q->asked->min, q->unit);
-        number(out, q->asked->max, q->unit);
+        number(out, q, q->now);
+        number(out, q, e->least);
+        number(out, q, e->largest);
+        number(out, q, q->asked->min);
+        number(out, q, q->asked->max);
         fw_text_add(out, "</tr>\n");
     }
     fw_text_add(out, "</table></div>\n");
@@ -399,7 +399,7 @@ static void response_table(const fw_study *study, fw_text *out) {
 static void design(const fw_study *study, const fw_study_found *f, fw_text *out) {
     fw_text_add(out, "<tr>");
     for (int r = 0; r < study->nresponse; r++)
-        number(out, f->response[r], study->response[r].unit);
+        number(out, &study->response[r], f->response[r]);
     fw_text_add(out, "<td><code>flexwright check ");
     fw_text_escaped(out, study->device_path);
     for (int k = 0; k < study->nvary; k++) {

@@ -586,6 +586,12 @@ class Study(unittest.TestCase):
         self.run_study(self.write(study("g", "sweep", grid).replace("<study", '<study as="drawn"')), "grid")
         tried = [float(r["angle"]) for r in self.rows("grid") if r["state"] == "accept" and float(r["U"]) <= 0.7]
         is_ = {r["name"]: r["value"] for r in found[0]["responses"]}
+        # shares of a limit are in %, in the digits of a verdict, wherever somebody reads them
+        page, share = (self.place / "size/study.html").read_text(), f"{100 * is_['U']:.3g} %"
+        self.assertIn(f"U {share}, angle ", page)
+        self.assertIn(f"<td>{share}</td>", page)
+        self.assertIn("<td>70 %</td>", page)
+        self.assertRegex((self.place / "size/pictures/U-arc.svg").read_text(), r">U \(%\)<")
         drawn = (self.place / "size/pictures/design-1.svg").read_text()
         used = max(float(u) for u in re.findall(r"</tspan>\s([\d.]+)\s%</text>", drawn))
         self.assertAlmostEqual(used, 100 * is_["U"], delta=0.06)  # the hinge that uses most, as the drawing writes it
@@ -600,7 +606,7 @@ class Study(unittest.TestCase):
         done = self.run_study(self.write(study("s", "size", none).replace("<study", '<study as="drawn" samples="20"')),
                               "none", status=1)
         self.assertIn("no device was found", done.stdout)
-        self.assertRegex(done.stdout, r"in the way: U is 0\.\d+, and at most 0\.1 is asked for")
+        self.assertRegex(done.stdout, r"in the way: U is [\d.]+ %, and at most 10 % is asked for")
         nearest = json.loads((self.place / "none/study.json").read_text())["nearest"]
         self.assertEqual([t.split(" ")[0] for t in nearest["limits"]], ["U", "arc"])
 

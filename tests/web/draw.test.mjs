@@ -296,6 +296,24 @@ describe("what is there is dragged", () => {
         assert.equal(await text(page), xml);
     });
 
+    test("what is dragged is saved as it is shown, and goes on from there", async () => {
+        const xml = await load("free-form-gripper");
+        const span = (mm) => xml.replace('name="span" value="0.6 mm"', `name="span" value="${mm} mm"`);
+        await drag(page, [-600, 0], [-700, 0], { release: false });
+        await page.waitForFunction(() => /^700 um|^0.7 mm/.test(globalThis.flexwright.state.set.span ?? ""));
+        const [saved] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Control+s")]);
+        assert.equal(readFileSync(await saved.path(), "utf8"), span(0.7));
+        assert.equal(await text(page), span(0.7));
+        const [x, y] = await pixels(page, [-650, 0]);
+        await page.mouse.move(x, y);
+        await page.waitForFunction(() => globalThis.flexwright.state.set.span);
+        const held = await page.evaluate(() => globalThis.flexwright.state.set.span);
+        await changed(page, () => page.mouse.up());
+        assert.equal(await text(page), span(Number(held.replace(" mm", ""))));
+        for (let i = 0; i < 2; i++) await page.click("#undo");
+        assert.equal(await text(page), xml);
+    });
+
     test("a notice that comes meanwhile does not move what is dragged", async () => {
         const xml = await load("free-form-gripper");
         await drag(page, [-600, 0], [-700, 0], { release: false });

@@ -259,6 +259,24 @@ describe("studies", () => {
         assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present");
     });
 
+    test("what is used of a limit is in %, in its words, its page and its pictures, as in the verdict", async () => {
+        const { used, value } = await page.evaluate(() => {
+            const { result } = globalThis.flexwright.parts.explore.studies.kept.get("size").job;
+            return { used: result.found[0].responses[0].value, value: result.responses[0].value };
+        });
+        assert.equal(value, "governing.utilisation");
+        const said = (await page.locator(`${card} .study-device`).first().textContent()).match(/\(used (.*?)\)/)[1];
+        assert.equal(said, `${Number((100 * used).toPrecision(3))} %`);
+        const whole = await (await page.request.get(new URL(await page.locator(`${card} a:has-text("Study page")`).getAttribute("href"), page.url()).href)).text();
+        assert.ok(whole.includes(`<td>${said}</td>`) && whole.includes("used (%)"));
+        const sources = await page.locator(`${card} .study-pictures img`).evaluateAll((list) => list.map((i) => i.src).filter((x) => /used-/.test(x)));
+        assert.ok(sources.length > 0);
+        for (const x of sources) {
+            const ticks = [...(await (await page.request.get(x)).text()).matchAll(/text-anchor="end">([\d.]+)<\/text>/g)].map((m) => Number(m[1]));
+            assert.ok(Math.min(...ticks) <= 100 * used + 20 && Math.max(...ticks) >= 100 * used - 20, `the axis of ${x} has ${ticks} where ${said} are used`);
+        }
+    });
+
     test("its page opens, its pictures are shown, its files are saved", async () => {
         const href = await page.locator(`${card} a:has-text("Study page")`).getAttribute("href");
         const answer = await page.request.get(new URL(href, page.url()).href);

@@ -190,6 +190,61 @@ describe("text and file", () => {
             await page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
             assert.equal(onDisk(), "13 uN");
         });
+
+        test("a slider that is held is saved as it is shown, and goes on from there", async () => {
+            const slider = page.locator('[data-parameter="push"]');
+            let b;
+            const to = (share) => page.mouse.move(b.x + b.width * share, b.y + b.height / 2, { steps: 4 });
+            const press = async (share) => { // what is said of its values moves it
+                b = await slider.boundingBox();
+                await to(share);
+                await page.mouse.down();
+            };
+            const ready = () => page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml");
+            const before = onDisk();
+            await press(0.2);
+            await to(0.6);
+            const held = await field().inputValue();
+            assert.notEqual(held, before);
+            assert.match(await page.textContent("#file-state"), /changed/);
+            assert.equal(await asks(), true);
+            await page.keyboard.press("Control+s");
+            await ready();
+            assert.equal(onDisk(), held); // and it is pressed still
+            assert.equal(await field().inputValue(), held);
+            await to(0.8);
+            const later = await field().inputValue();
+            assert.notEqual(later, held);
+            assert.match(await page.textContent("#file-state"), /changed/);
+            await page.mouse.up();
+            await page.waitForFunction((v) => globalThis.flexwright.state.text.includes(`name="push" value="${v}"`), later);
+            // taken and taken back while it is held: letting go writes nothing
+            await press(0.8);
+            await to(0.5);
+            await page.keyboard.press("Control+s");
+            await ready();
+            await page.keyboard.press("Control+z");
+            await page.waitForFunction((v) => globalThis.flexwright.state.text.includes(`name="push" value="${v}"`), later);
+            await page.mouse.up();
+            await banner("present");
+            assert.match(await text(page), new RegExp(`name="push" value="${later}"`));
+            // what the program refuses is not called saved
+            const saved = onDisk();
+            await page.route("**/api/edit", (r) => r.fulfill({ json: { status: "invalid", diagnostics: [{ message: "no such parameter" }] } }));
+            await press(0.8);
+            await to(0.3);
+            await page.keyboard.press("Control+s");
+            await page.waitForSelector('.notice.bad:has-text("Not saved: what was entered is not taken: no such parameter")');
+            assert.equal(onDisk(), saved);
+            await page.mouse.up();
+            await page.unroute("**/api/edit");
+            await page.waitForFunction(() => Object.keys(globalThis.flexwright.state.set).length === 0);
+            for (const x of await page.$$(".notice.bad button, .notice.warn button")) await x.click();
+            await field().fill("13 uN");
+            await field().press("Enter");
+            await page.waitForFunction(() => /name="push" value="13 uN"/.test(globalThis.flexwright.state.text));
+            await banner("present");
+        });
     });
 
     test("the server ends and is started anew: the text survives, the page goes on", async () => {

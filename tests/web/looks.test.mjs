@@ -175,6 +175,42 @@ describe("rules and looks", () => {
         await page.emulateMedia({ media: "screen", colorScheme: "light" });
     });
 
+    test("on paper the whole picture, and nothing over anything else; of what is entered the words alone", async () => {
+        await view(page, "motion");
+        const size = page.viewportSize();
+        // paper is laid out without anybody being told, as this is in one go: no frame comes between
+        await page.emulateMedia({ media: "print" });
+        const outside = await page.evaluate(() => {
+            dispatchEvent(new Event("beforeprint"));
+            const stage = document.querySelector("#panel-motion .stage");
+            stage.style.width = "330px";
+            const [paper, parts] = [stage, stage.querySelector(".world")].map((e) => e.getBoundingClientRect());
+            stage.style.width = "";
+            dispatchEvent(new Event("afterprint"));
+            return [parts.left - paper.left, paper.right - parts.right, paper.bottom - parts.bottom].filter((v) => v < -1);
+        });
+        assert.deepEqual(outside, []);
+        await page.setViewportSize({ width: 718, height: 1000 }); // A4 less its margins
+        await laidOut(page);
+        const over = await page.evaluate(() => {
+            const parts = [...document.querySelectorAll("#panel-motion :is(.stage, .plot), #panel-motion .run-stats, #right > *")].filter((e) => e.getClientRects().length && !e.hidden);
+            const boxes = parts.map((e) => [e.className || e.id, e.getBoundingClientRect()]).filter(([, b]) => b.width > 1 && b.height > 1);
+            return boxes.flatMap(([a, p], i) => boxes.slice(i + 1).filter(([, q]) => Math.min(p.right, q.right) - Math.max(p.left, q.left) > 2 && Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top) > 2).map(([b]) => `${a} and ${b}`));
+        });
+        assert.deepEqual(over, []);
+        const cut = await page.evaluate(() => [...document.querySelectorAll("#panel-motion .plot")].filter((e) => e.getClientRects().length && e.querySelector("canvas")?.getBoundingClientRect().bottom > e.parentElement.getBoundingClientRect().bottom + 1).length);
+        assert.equal(cut, 0);
+        await page.emulateMedia({ media: "screen" });
+        await page.setViewportSize(size);
+        await view(page, "recipe");
+        await page.evaluate(() => document.querySelectorAll("details.laboratory, details.as-run").forEach((e) => (e.open = true)));
+        await page.emulateMedia({ media: "print" });
+        assert.deepEqual(await page.locator("#panel-recipe :is(.log-form, button, a.button)").evaluateAll((list) => list.filter((e) => e.getClientRects().length).map((e) => e.outerHTML.slice(0, 80))), []);
+        await page.emulateMedia({ media: "screen" });
+        await page.evaluate(() => document.querySelectorAll("details.laboratory, details.as-run").forEach((e) => (e.open = false)));
+        await view(page, "motion");
+    });
+
     /** Options of a view, of Draw with every tool, for which the help has no sentence. */
     const unexplained = async (id) => {
         const out = [];

@@ -5,7 +5,7 @@ import { spawnSync } from "node:child_process";
 import { join } from "node:path";
 import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
-import { answered, close, finish, open, program, serve, setText, source, text, verdict } from "./helper.mjs";
+import { answered, close, finish, open, program, serve, setText, SMALL, source, text, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -91,5 +91,132 @@ describe("hinges too close to each other", () => {
         await shot(other, "marked-hinges.png");
         await close(other);
         await again.stop();
+    });
+});
+
+describe("what is of another input looks so", () => {
+    const LONG = 120000;
+    const VIEWS = ["motion", "draw", "modes", "assembly", "masks", "recipe", "explore", "workspace", "accuracy"];
+    let server, page;
+    const settled = (jobs = true) => page.waitForFunction((j) => globalThis.flexwright.settled(j), jobs, { timeout: LONG });
+    /** What can be seen that is marked in one of these ways, and what says that something is old. */
+    const seen = (...ways) => page.evaluate((list) => {
+        const visible = (e) => e.checkVisibility({ visibilityProperty: true });
+        const marked = [...document.querySelectorAll("[data-of]")].filter((e) => list.includes(e.dataset.of) && visible(e)).map((e) => `${e.dataset.of}: ${e.className} ${e.textContent.replace(/\s+/g, " ").slice(0, 80)}`);
+        const said = [...document.querySelectorAll(".job-message, .study-said, .old-note")].filter((e) => visible(e) && /former/.test(e.textContent)).map((e) => e.textContent);
+        return [...marked, ...said];
+    }, ways);
+    const explored = () => page.waitForFunction(() => globalThis.flexwright.parts.explore.whole && globalThis.flexwright.parts.explore.showing.of === globalThis.flexwright.parts.explore.key, null, { timeout: LONG });
+    const begin = async (name) => {
+        await page.click("#new");
+        await page.locator(".template", { has: page.locator(`strong:text-is("${name}")`) }).click();
+    };
+    before(async () => {
+        server = await serve("leaf-four-bar");
+        page = await open(server, SMALL);
+        await page.waitForSelector(".as-drawn:text-is('as it will be made')", { timeout: LONG });
+        for (const id of VIEWS) {
+            await view(page, id);
+            await page.waitForTimeout(600); // what begins by itself begins when nothing has changed for a while
+            await settled();
+        }
+        await view(page, "explore");
+        await explored();
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("Explore: typed in a field, a mistake, a held slider: grey and said, and gone again with it", async () => {
+        const body = page.locator(".explore-body");
+        const old = async (why) => {
+            await page.waitForFunction(() => document.querySelector(".explore-body").classList.contains("old"));
+            assert.equal(await body.getAttribute("data-of"), "former", why);
+            assert.match(await body.evaluate((e) => getComputedStyle(e).filter), /grayscale\(1\)/, why);
+            assert.match(await page.textContent("#panel-explore .job-message"), /of the former input|of \d+ devices/, why);
+        };
+        const present = async (why) => {
+            await explored();
+            assert.equal(await body.getAttribute("data-of"), "present", why);
+            assert.equal(await body.evaluate((e) => getComputedStyle(e).filter), "none", why);
+            assert.match(await page.textContent("#panel-explore .job-message"), /^\d+ devices in/, why);
+        };
+        await present("as it stands");
+        const field = page.locator('.slider[data-name="width"] input.value');
+        await field.fill("9 um");
+        await old("typed");
+        await field.press("Escape");
+        await present("taken back");
+        await answered(page, () => setText(page, ['kind="leaf"', 'kind="leef"']));
+        await old("a mistake");
+        await page.waitForTimeout(700); // of a mistake nothing is explored
+        await old("still a mistake");
+        await answered(page, () => page.click("#undo"));
+        await present("undone");
+        const slider = page.locator('input[data-parameter="leaf"]');
+        const written = (await text(page)).match(/name="leaf" value="([^"]*)"/)[1];
+        await page.route("**/api/explore", () => {}); // nothing comes that could take its place
+        await slider.evaluate((e) => {
+            e.value = 520;
+            e.dispatchEvent(new Event("input"));
+        });
+        await old("held");
+        await answered(page, () => slider.evaluate((e, v) => {
+            e.value = parseFloat(v);
+            e.dispatchEvent(new Event("input"));
+            e.dispatchEvent(new Event("change"));
+        }, written));
+        await page.unroute("**/api/explore");
+        await present("back where it was");
+    });
+
+    test("New…: of the device before nothing is left in any view, before the first answer and after it; undone, it is there again", async () => {
+        const before = await text(page);
+        let release;
+        const gate = new Promise((resolve) => (release = resolve));
+        const never = [/\/api\/jobs$/, /\/api\/explore$/];
+        await page.route("**/api/preview", async (r) => (await gate, r.continue()));
+        for (const x of never) await page.route(x, () => {}); // no job of the new one begins
+        await begin("Gripper");
+        await page.waitForTimeout(300); // what is old looks so by now
+        for (const id of VIEWS) {
+            await view(page, id);
+            assert.deepEqual(await seen("former", "another"), [], `${id}, before the first answer`);
+        }
+        await view(page, "draw"); // what is drawn is of the text alone, and shown whole
+        assert.equal(await page.locator("#panel-draw :is(.flexure, .attached-tags text, .hinge-tag)").evaluateAll((list) => list.filter((e) => e.getClientRects().length).length), 0);
+        const inside = await page.evaluate(() => {
+            const stage = document.querySelector(".draw-stage").getBoundingClientRect();
+            return [...document.querySelectorAll(".sketch-shape")].every((e) => { const b = e.getBoundingClientRect(); return b.left >= stage.left && b.right <= stage.right; });
+        });
+        assert.ok(inside, "the new device is in the picture");
+        release();
+        await page.unroute("**/api/preview");
+        await verdict(page, "accept");
+        await settled(false);
+        for (const id of VIEWS) {
+            await view(page, id);
+            assert.deepEqual(await seen("former", "another"), [], `${id}, after the first answer`);
+        }
+        assert.equal(await page.getAttribute("#banner", "data-of"), "present");
+        await page.evaluate(() => globalThis.flexwright.parts.editor.undo());
+        assert.equal(await text(page), before);
+        await page.waitForFunction(() => document.querySelector("#banner").dataset.of === "present");
+        for (const x of never) await page.unroute(x);
+        await view(page, "masks");
+        await page.waitForFunction(() => document.querySelector("#panel-masks .job-content").dataset.of === "present", null, { timeout: LONG });
+        await view(page, "explore");
+        await explored();
+    });
+
+    test("a text with a mistake after New… is of the new device: its answer is grey, and not gone", async () => {
+        await begin("Gripper");
+        await verdict(page, "accept");
+        await settled(false);
+        await answered(page, () => setText(page, ['kind="csfh"', 'kind="xxxx"']));
+        await page.waitForSelector("#banner.old:visible");
+        assert.equal(await page.getAttribute("#banner", "data-of"), "former");
+        await page.waitForSelector('.old-note:has-text("Grey: of the last input that had an answer")');
     });
 });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is shown and which input it belongs to. The input is the whole of it: the text, values that are held by a
 // slider, what is typed in a field or changed and in no text yet, and the options. Every part of the page that shows a result says of which input it is (`take`); whatever
-// is not of the present input is marked, by this file alone: `data-of` is "present", "former" or "nothing" at once,
+// is not of the present input is marked, by this file alone: `data-of` is "present", "former", "another" (of another device: hidden) or "nothing" at once,
 // and what has been former for OLD_MS is visibly old (class "old": grey, with words). While somebody moves a slider
 // answers come faster than that, and nothing flickers.
 import { emit, on, state } from "./store.js";
@@ -23,6 +23,22 @@ function numberOf(text) {
     if (texts.size > TEXTS_MOST) texts.delete(texts.keys().next().value);
     return n;
 }
+
+// A device that is begun anew, or opened: what is known of the one before is no former answer to it, and nothing of that is
+// left to see (`data-of` "another"). Texts from its first one on are of it, as their numbers tell; undone, all is as it was.
+const begun = [];
+
+/** The text that the editor gets next is of another device than the one there is. */
+export function anotherDevice(text) {
+    if (text === state.text) return;
+    texts.delete(text); // it is no text of before, though it may be the same
+    begun.push(numberOf(text));
+}
+
+const deviceOf = (text) => begun.filter((first) => first <= text).length;
+
+/** What belongs to this input is of a device that is no longer there. */
+export const ofAnother = (of) => begun.length > 0 && deviceOf(Number(/^\[(\d+)/.exec(of)?.[1])) !== deviceOf(numberOf(state.text));
 
 /** What a request of now is of, or of which parts of the state a result depends: with other options, of a job. */
 export const requestKey = (options = state.options) => JSON.stringify([numberOf(state.text), ordered(state.set), ordered(options), ...Object.entries(state.lab).map(([name, text]) => [name, numberOf(text)])]);
@@ -54,6 +70,11 @@ export class Shown {
 
     get former() {
         return this.of !== null && this.of !== this.now;
+    }
+
+    /** What is shown is of a device that is no longer there. */
+    get another() {
+        return this.former && ofAnother(this.of);
     }
 }
 
@@ -102,12 +123,13 @@ function look() {
 function mark(element, time) {
     const some = element.shown.filter((x) => x.of !== null);
     const former = some.filter((x) => x.former);
-    const of = former.length ? "former" : some.length ? "present" : "nothing";
+    const another = former.some((x) => x.another);
+    const of = another ? "another" : former.length ? "former" : some.length ? "present" : "nothing";
     if (element.dataset.of !== of) element.dataset.of = of;
     const age = Math.max(...former.map((x) => time - (left.get(x.of) ?? 0)), -Infinity);
-    const old = age >= OLD_MS;
+    const old = age >= OLD_MS && !another;
     if (old !== element.classList.contains("old")) element.classList.toggle("old", old);
-    return former.length && !old ? OLD_MS - age + 1 : Infinity;
+    return former.length && !old && !another ? OLD_MS - age + 1 : Infinity;
 }
 
 for (const event of ["text", "change", "options", "entered"]) on(event, look);

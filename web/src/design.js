@@ -65,22 +65,28 @@ export function refuse(message) {
     return message;
 }
 
-/** What is typed in a field is taken, as when it is left, and all changes are in the text. Whoever makes something of the
- *  text that stays (a file, a job, a version) waits for it. Throws where something that is entered was refused. */
+/** What is typed in a field is taken, as when it is left, what is held as when it is let go, and all changes are in the text.
+ *  Whoever makes something of the text that stays (a file, a job, a version) waits for it. Throws where something of it was
+ *  refused. */
 export async function taken() {
     const asked = takeEntered();
+    if (anyHeld()) asked.push(letGoTogether(new Map(Object.entries(state.set)), "what is held is taken"));
     while (state.edits.length) await changes;
     const wrong = (await Promise.all(asked)).find((why) => why !== null);
     if (wrong) throw new Error(`what was entered is not taken: ${wrong}`);
 }
 
-/** A slider that is held: the value counts at once, the text gets it when it is let go. */
+/** Something is held by hand, by a slider or in the picture. */
+export const anyHeld = () => Object.keys(state.set).length > 0;
+
+/** A slider that is held: the value counts at once, the text gets it when it is let go, or taken before. */
 export function hold(name, value) {
     state.set[name] = value;
     emit("change");
 }
 
 export async function letGo(name, value) {
+    if (state.set[name] === undefined) return; // it was taken, and is not moved since
     const why = await edit([{ path: name, value }]);
     if (state.set[name] !== value) return; // it is held again
     delete state.set[name];

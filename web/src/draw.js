@@ -14,7 +14,7 @@ import { makeMirrored, removing, sidesOf } from "./making.js";
 import { heldBy, plan } from "./moving.js";
 import { arcOver, elementAt, far, handlesOf, Places } from "./places.js";
 import { gridStep, snap } from "./snapping.js";
-import { inputKey, requestKey } from "./belong.js";
+import { inputKey, ofAnother, requestKey } from "./belong.js";
 import { emit, lookAt, on, state } from "./store.js";
 import { TOOLS } from "./tools.js";
 
@@ -123,10 +123,10 @@ export class Draw {
         this.#panel();
     }
 
-    /** Where the last answer has no picture, what is drawn stands for it; until the next answer it stays so. */
+    /** Where the last answer has no picture, or is of another device, what is drawn stands for it; until the next answer it stays so. */
     #stands() {
         const nothing = state.answered === inputKey() && !isPresent();
-        if (nothing || !state.preview) this.alone = true;
+        if (nothing || !state.preview || ofAnother(state.previewOf)) this.alone = true;
         else if (isPresent()) this.alone = false;
         this.stage.classList.toggle("sketch-only", this.alone);
         this.shownOf.take(this.alone ? null : state.previewOf);
@@ -451,6 +451,7 @@ export class Draw {
         this.drag = null;
         if (!d?.handle) return;
         this.#clear();
+        if (d.held.size && ![...d.held.keys()].some((path) => path in state.set)) return this.#refresh(); // it was taken while it was held
         await this.#commit(d.handle, d.now, d.wanted, d.places);
     }
 

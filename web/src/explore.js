@@ -383,9 +383,10 @@ export class Explore {
         const { why } = this.table ? this.#spec() : { why: "" };
         this.button.disabled = why !== undefined;
         this.progress.value = Math.min(this.asked / this.inAll, 1);
-        this.button.classList.toggle("primary", this.showing.of === null || this.showing.former);
+        const nothing = this.showing.of === null || this.showing.another;
+        this.button.classList.toggle("primary", nothing || this.showing.former);
         this.message.textContent = busy ? `${this.asked} of ${this.inAll} devices · ${((performance.now() - this.begun) / 1e3).toFixed(1)} s`
-            : why !== undefined ? `${why}${this.showing.of === null ? "" : " What stands below is of the former input."}` : this.showing.of === null ? "" : this.showing.former ? "of the former input: something has changed since"
+            : why !== undefined ? `${why}${nothing ? "" : " What stands below is of the former input."}` : nothing ? "" : this.showing.former ? "of the former input: something has changed since"
                 : `${this.done.size} devices in ${number(this.seconds, 3)} s${!this.whole ? "; not all of it: stopped" : this.spec.inputs.length === 1 ? ", closer where the line bends" : ""}`;
     }
 

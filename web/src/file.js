@@ -2,7 +2,8 @@
 // The file on disk: read at the start, followed while another program edits it, saved. Nothing that somebody wrote is
 // lost without a word: what was not saved is kept (drafts.js), and where two have written, both sides are shown.
 import { get, post } from "./api.js";
-import { taken } from "./design.js";
+import { anotherDevice } from "./belong.js";
+import { anyHeld, taken } from "./design.js";
 import { openDialog } from "./dialog.js";
 import { bothSides } from "./diff.js";
 import { announce, button, h } from "./dom.js";
@@ -25,8 +26,8 @@ const written = (text) => (state.file?.eol === "\r\n" ? text.replaceAll("\n", "\
 /** The text is another one than the file's. */
 const changed = () => state.text !== (state.file === null ? state.base : state.file.text);
 
-/** There is something here that is nowhere else, be it in the text or still in a field. */
-export const unsaved = () => changed() || state.entered.size > 0 || state.edits.length > 0;
+/** There is something here that is nowhere else, be it in the text, still in a field or held by hand. */
+export const unsaved = () => changed() || state.entered.size > 0 || state.edits.length > 0 || anyHeld();
 
 // ---- start ----
 
@@ -70,8 +71,6 @@ function tellGone(why) {
     gone?.remove();
     gone = notice({ kind: "warn", stay: true, text: `${state.file.name} ${why}. The text is kept here; Save writes it anew where nothing is in the way.` });
 }
-
-on("preview", () => delete document.body.dataset.another);
 
 /** event: what the server says of the file: {version}, or {version: null, why}. */
 export async function follow(editor, event) {
@@ -174,7 +173,7 @@ export function openText(editor) {
 export function replaceAll(editor, text, words) {
     const go = () => {
         state.base = text;
-        document.body.dataset.another = ""; // what is known of the former device is no former answer to this one
+        anotherDevice(text);
         editor.open(text);
     };
     if (!unsaved()) return go();

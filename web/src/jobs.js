@@ -248,17 +248,18 @@ export class JobView {
 
     #look(ms = 0) {
         const busy = Boolean(this.working);
+        const job = this.showing[0].another ? null : this.job; // of another device nothing is told
         become(this.start, { hidden: busy });
-        this.start.classList.toggle("primary", this.job === null || this.stale);
+        this.start.classList.toggle("primary", job === null || this.stale);
         for (const element of [this.progress, this.cancel]) become(element, { hidden: !busy });
-        become(this.intro, { hidden: this.job !== null || busy });
+        become(this.intro, { hidden: job !== null || busy });
         this.bar.classList.toggle("busy", busy);
         if (busy) {
             const j = this.working;
             const seconds = Math.max(j.seconds ?? 0, ms / 1000);
             say(this.message, `${j.stage ?? (j.state === "queued" ? "waiting" : "working")} · ${seconds.toFixed(1)} s`);
-        } else if (this.job) {
-            say(this.message, this.stale ? "of the former input: something has changed since" : `computed in ${duration(this.job.seconds)}`);
+        } else if (job) {
+            say(this.message, this.stale ? "of the former input: something has changed since" : `computed in ${duration(job.seconds)}`);
         } else say(this.message, "");
     }
 }

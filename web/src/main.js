@@ -36,7 +36,7 @@ const parts = {};
 
 // ---- the header ----
 
-/** What is typed in a field is in the text before. Where it is refused, that is said, and the field has the text's value again. */
+/** What is typed in a field or held by hand is in the text before. Where it is refused, that is said, and the field has the text's value again. */
 const afterTaken = (act) => taken().then(act, () => {});
 
 function header() {
@@ -131,10 +131,10 @@ document.addEventListener("keydown", (e) => {
     } else if (!inEditor && e.key.toLowerCase() === "z") {
         if (document.activeElement?.dataset.dirty) return; // a field that is being typed in undoes its own letters
         e.preventDefault();
-        parts.editor[e.shiftKey ? "redo" : "undo"]();
+        afterTaken(() => parts.editor[e.shiftKey ? "redo" : "undo"]());
     } else if (!inEditor && e.key === "y") {
         e.preventDefault();
-        parts.editor.redo();
+        afterTaken(() => parts.editor.redo());
     }
 });
 
@@ -184,7 +184,7 @@ async function start() {
     editArea();
     views();
     parts.verdict = new Verdict($("right"));
-    for (const event of ["file", "entered"]) on(event, headerState);
+    for (const event of ["file", "entered", "change"]) on(event, headerState);
     on("notice", notice);
     onConnection(connection);
     startPreviews();

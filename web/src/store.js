@@ -8,7 +8,7 @@ export const state = {
     table: null, // flexwright.table/1
     file: null, // {name, version, text (as on disk, but for line ends), eol, writable, gone: why it cannot be read}
     base: "", // without a file: the text that was opened or downloaded last
-    set: {}, // values of sliders that are held: not in the text yet
+    set: {}, // values that are held by hand, by a slider or in the picture, and not in the text yet: path -> text
     entered: new Map(), // path -> what is typed in its field and not in the text yet (entering.js)
     edits: [], // changes of the text that are under way, as /api/edit takes them
     lost: null, // status of the failure since which the server does not answer, or answers this session no more

@@ -2,7 +2,7 @@
 // The studies of the description: run, stopped, gone on with, looked at; and the best device of one put into the text. A
 // study is a job of the server, the command `flexwright study`; what it has judged stays when it is stopped.
 import { get } from "./api.js";
-import { begin, inputKey, mayChange, requestKey, Shown } from "./belong.js";
+import { begin, inputKey, mayChange, ofAnother, requestKey, Shown } from "./belong.js";
 import { edit, taken } from "./design.js";
 import { announce, button, h, icon, say, select } from "./dom.js";
 import { duration, number, percent, si } from "./format.js";
@@ -140,7 +140,8 @@ export class Studies {
 
     #fill({ name, kind, element }) {
         const card = [...this.list.children].find((e) => e.dataset.name === name);
-        const mine = this.kept.get(name);
+        const kept = this.kept.get(name);
+        const mine = kept && !kept.control && ofAnother(kept.of) ? undefined : kept; // a study of another device may have the same name
         const present = mine?.of === this.#key(name);
         const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
         const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
@@ -179,9 +180,9 @@ export class Studies {
         return [
             h("p", {}, `${n.run + n.failed} devices: ${parts.join(", ")}.`),
             ...(r.yields ?? []).map((y) => h("p", {}, `${y.flow ?? "As drawn"}: ${y.least ? `${percent(y.least.yield)} to ${percent(y.most.yield)}, as is what is only assumed,` : percent(y.yield)} hold every limit (${percent(y.sampling_interval?.[0])} to ${percent(y.sampling_interval?.[1])} by sampling alone; with the model's own band ${percent(y.yield_range?.[0])} to ${percent(y.yield_range?.[1])}).`)),
-            ...(r.found ?? []).map((f, i) => this.#device(r.found.length > 1 ? `Device ${i + 1} of the front` : "Best device", f)),
-            r.kind === "size" && !r.found?.length && r.nearest ? this.#device("No device holds every limit; the nearest", r.nearest) : null,
-            ...(r.responses ?? []).flatMap((x) => [["least", x.worst_least], ["largest", x.worst_largest]].filter(([, w]) => w?.set).map(([word, w]) => this.#device(`${x.name}, ${word}: ${x.unit ? si(w.value, x.unit) : number(w.value, 4)}`, w))),
+            ...(r.found ?? []).map((f, i) => this.#device(r.found.length > 1 ? `Device ${i + 1} of the front` : "Best device", f, r)),
+            r.kind === "size" && !r.found?.length && r.nearest ? this.#device("No device holds every limit; the nearest", r.nearest, r) : null,
+            ...(r.responses ?? []).flatMap((x) => [["least", x.worst_least], ["largest", x.worst_largest]].filter(([, w]) => w?.set).map(([word, w]) => this.#device(`${x.name}, ${word}: ${valueOf(x, w.value)}`, w, r))),
             ...(r.responses ?? []).filter((x) => x.by).map((x) => effects(x)),
             r.how ? h("p", { class: "doc" }, r.how) : null,
             h("div", { class: "study-pictures" }, (job.files ?? []).filter((f) => /^pictures\/.*\.svg$/.test(f.path)).slice(0, PICTURES_MOST).map((f) => h("a", { href: fileOf(job, f.path), target: "_blank", rel: "noopener" }, h("img", { src: fileOf(job, f.path), alt: f.path.replace(/^pictures\/|\.svg$/g, "").replaceAll("-", " ") })))),
@@ -190,17 +191,23 @@ export class Studies {
     }
 
     /** A device of the results: what it is, and the button that puts it into the text. */
-    #device(words, f) {
+    #device(words, f, result) {
         const set = f.set.map((x) => `${x.path} ${x.value}`).join(", ");
-        const values = (f.responses ?? []).map((x) => `${x.name} ${number(x.value, 4)}`).join(", ");
+        const values = (f.responses ?? []).map((x) => `${x.name} ${valueOf(result.responses.find((q) => q.name === x.name), x.value)}`).join(", ");
         return h("p", { class: "study-device" }, `${words}: ${set}${values ? ` (${values})` : ""}${f.verdict ? `, ${f.verdict}` : ""} `,
             button("Apply", { class: "small", "data-act": "apply" }, () => edit(f.set.map((x) => ({ path: x.path, value: x.value })), set)));
     }
 }
 
+/** A value of a response as people read it: shares of a limit in %, as the verdict has them. */
+const valueOf = (response, value) => (response?.share ? percent(value) : response?.unit ? si(value, response.unit, 4) : number(value, 4));
+
+/** A difference of two values of a response. */
+const changeOf = (response, change) => (response.share && Math.abs(change) < 10 ? percent(change).replace(" %", " points") : valueOf(response, change));
+
 /** What each input does to a response, the largest first. */
 function effects(x) {
     const rows = [...x.by].sort((a, b) => Math.abs(b.half_range_effect ?? 0) - Math.abs(a.half_range_effect ?? 0));
     return h("table", { class: "plain" }, h("thead", {}, h("tr", {}, [x.name, "half its range changes it by", "share of the variance alone", "with all others"].map((t) => h("th", {}, t)))),
-        h("tbody", {}, rows.map((b) => h("tr", {}, h("td", {}, b.what), h("td", { class: "n" }, number(b.half_range_effect, 3)), h("td", { class: "n" }, b.first === null || b.first === undefined ? "–" : percent(b.first, 2)), h("td", { class: "n" }, b.total === null || b.total === undefined ? "–" : percent(b.total, 2))))));
+        h("tbody", {}, rows.map((b) => h("tr", {}, h("td", {}, b.what), h("td", { class: "n" }, b.half_range_effect === null || b.half_range_effect === undefined ? "–" : changeOf(x, b.half_range_effect)), h("td", { class: "n" }, b.first === null || b.first === undefined ? "–" : percent(b.first, 2)), h("td", { class: "n" }, b.total === null || b.total === undefined ? "–" : percent(b.total, 2))))));
 }

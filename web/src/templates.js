@@ -17,6 +17,7 @@ import stagePicture from "../../docs/gallery/straight-stage/device.svg";
 import tendons from "../../docs/gallery/four-tendons/device.xml";
 import tendonsPicture from "../../docs/gallery/four-tendons/device.svg";
 import { announce, h, icon } from "./dom.js";
+import { anotherDevice } from "./belong.js";
 import { openDialog } from "./dialog.js";
 import { replaceAll } from "./file.js";
 import { emit, state } from "./store.js";
@@ -59,7 +60,7 @@ export function newDevice(editor) {
 
 function take(editor, name, text) {
     if (state.file) {
-        document.body.dataset.another = ""; // what is known of the former device is no former answer to this one
+        anotherDevice(text);
         editor.replace(text);
     } else replaceAll(editor, text, `Begin with ${name}`);
     if (text === blank) emit("show-view", "draw");

@@ -30,6 +30,12 @@ export class Viewport {
         this.tapped = null;
         this.seen = [0, 0]; // its size, as it was told last: to ask for it would have the whole page laid out
         new ResizeObserver(() => this.#resized()).observe(svg);
+        // paper has another size, and its layout tells nobody: what is seen on the screen is scaled onto it
+        addEventListener("beforeprint", () => this.size.every((v) => v > 1) && svg.setAttribute("viewBox", `0 0 ${this.size.join(" ")}`));
+        addEventListener("afterprint", () => {
+            svg.removeAttribute("viewBox");
+            this.#resized();
+        });
         svg.addEventListener("wheel", (e) => this.#wheel(e), { passive: false });
         svg.addEventListener("pointerdown", (e) => this.#down(e));
         svg.addEventListener("keydown", (e) => this.#key(e));
@@ -101,6 +107,7 @@ export class Viewport {
     }
 
     #resized() {
+        if (this.svg.hasAttribute("viewBox")) return; // on paper
         this.seen = [this.svg.clientWidth, this.svg.clientHeight];
         if (this.fitted) this.fit();
         else this.#apply();

@@ -119,6 +119,7 @@ export class Workspace {
         this.phi_rad.value = round((at.phi_rad * 180) / Math.PI, 3);
         if (this.stage.offsetParent === null) return; // not on the screen
         look();
+        if (requestKey() !== state.previewOf) return; // the picture is of another input; its preview asks again
         const body = { ...request(), flow: this.flow.value || undefined, body: this.body.value || undefined, platform: at, q: this.last };
         this.send.ask({ body, key: this.#input(requestKey), of: requestKey() });
     }

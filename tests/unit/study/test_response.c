@@ -60,6 +60,29 @@ static void paths_lead_to_numbers(void **state) {
     fw_arena_free(arena);
 }
 
+static void shares_of_a_limit_are_told_in_percent(void **state) {
+    const struct {
+        const char *path;
+        double value;
+        const char *said, *drawn_in;
+    } row[] = {{"governing.utilisation", 0.38449, "38.4 %", "%"},
+               {"hinges[A].utilisation_band[1]", 1.2, "120 %", "%"},
+               {"hinges[*].fatigue_cycles", 0.38449, "0.38449", ""},
+               {"hinges[A].peak_angle_rad", 0.38449, "0.38449 rad", "rad"}};
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_study_response r;
+        fw_text said = fw_text_new(arena);
+        assert_int_equal(parse(arena, row[i].path, FW_TAKE_ONE, &r), FW_OK);
+        fw_study_response_text(&said, &r, row[i].value);
+        assert_int_equal(fw_text_end(&said), FW_OK);
+        assert_string_equal(said.data, row[i].said);
+        assert_string_equal(fw_study_response_drawn_in(&r), row[i].drawn_in);
+    }
+    fw_arena_free(arena);
+}
+
 static void wrong_paths_say_what_there_is(void **state) {
     const struct {
         const char *value, *says;
@@ -159,6 +182,7 @@ static void the_text_is_the_value(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paths_lead_to_numbers),
+        cmocka_unit_test(shares_of_a_limit_are_told_in_percent),
         cmocka_unit_test(wrong_paths_say_what_there_is),
         cmocka_unit_test(units_are_those_of_keys),
         cmocka_unit_test(derivatives_of_polynomials_are_exact),
