@@ -66,6 +66,7 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const fw_device_flow_use *use; /* NULL: the device's own material without a flow */
     fw_mechanism_variant variant;
     fw_process_flow *flow; /* NULL: none */
+    fw_device_materials materials; /* as the flow has them; none without a flow */
     fw_mask_table *table;  /* with rows for cells on layers of their own */
     bool mask_examined;    /* mask, violated and mask_error say what the rules say */
     const fw_mask *mask;

@@ -51,15 +51,24 @@ double fw_process_flow_bond(const fw_process_flow *flow) {
     return q && !q->unknown ? fmin(fmax(q->value, 0.0), 0.99) : 0.0;
 }
 
-/* how far the foot of the walls stands outside of the drawn edges; 0 where that is not known */
+/* How far the foot of the walls stands outside of the drawn edges when the release begins: with what the walls lose from
+   then on. 0 where that is not known. */
 static double foot_of(const fw_process_flow *flow) {
     const fw_process_fixed_point *p = &flow->edges;
     double foot = p->ncls > 0 && p->solved ? p->cls[p->field].edge.bottom_m : 0.0;
-    return isfinite(foot) ? foot : 0.0;
+    return (isfinite(foot) ? foot : 0.0) + p->wear.after_m;
 }
 
 static bool is_solved(const fw_process_change *c) {
     return c->reach && c->reach->status == FW_DERIVED;
+}
+
+bool fw_process_release_solves(const fw_process_flow *flow, const fw_quantity *q) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++)
+            if (q && is_solved(&flow->step[i].change[k]) && flow->step[i].change[k].reach == q)
+                return true;
+    return false;
 }
 
 double fw_process_release_run(const fw_process_flow *flow, const fw_process_step *step,

@@ -197,6 +197,7 @@ fw_status fw_process_lint_loss(fw_arena *arena, fw_process_flow *flow, int index
 fw_status fw_process_lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
                                 const fw_process_change *change, fw_diags *diags);
 
+double fw_process_step_depth(const fw_process_step *step, double solved_m);
 /* the relative uncertainty of what is lost at a rate, the step's own or another, in a time */
 double fw_process_lost_uncertainty(bool own, double u_rate, double u_time);
 
@@ -289,6 +290,8 @@ fw_status fw_process_judge_etching(fw_process_judge *j);
 
 /* from the distances of the device's openings: the reach that frees it (judge_release.c) */
 fw_status fw_process_judge_release(fw_process_judge *j);
+/* is this a reach that the pack leaves to the mask? */
+bool fw_process_release_solves(const fw_process_flow *flow, const fw_quantity *q);
 /* fills the reaches that the pack leaves to the mask; after the edges are solved */
 void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts *facts);
 

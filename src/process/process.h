@@ -447,6 +447,8 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
 /* ... and of where the printed edge lies against the drawn one */
 #define FW_PROCESS_PRINTED_EDGE "litho.edge"
 
+/* does what a step takes of the device itself go by the reach of a release, which its drawing alone gives? */
+bool fw_process_flow_wears_by_reach(const fw_process_flow *flow);
 /* does a step etch sideways, below what stands? */
 bool fw_process_flow_releases(const fw_process_flow *flow);
 /* the step that does, and how far; NULL and NaN: none does, or nobody knows */
