@@ -183,6 +183,9 @@ fw_status fw_process_lint_reactivity(fw_process_pack *pack);
 bool fw_process_only_dries(const fw_process_hazard *h);
 fw_status fw_process_lint_warmth(fw_process_pack *pack);
 fw_status fw_process_lint_chemistry(fw_process_pack *pack); /* reactivity.c (FW-D629, FW-D632) */
+fw_status fw_process_lint_meant(fw_process_pack *pack); /* reactivity.c (FW-D669, FW-D674, FW-D675) */
+/* measurable.c (FW-D664, FW-D665) */
+fw_status fw_process_lint_corners(fw_process_pack *pack);
 
 /* what a step takes of a material that lies open, nominal and at two standard uncertainties; m, NaN
    when an input is not known */
