@@ -309,8 +309,7 @@ const fw_device_material *fw_plan_material(const fw_plan *plan, const fw_plan_fl
 static fw_status own_material(fw_plan *plan, const fw_plan_flow *pf, fw_device_material *material) {
     const fw_device *d = plan->device;
     FW_TRY(fw_plan_need_material(plan));
-    *material =
-        fw_device_material_with(fw_plan_material(plan, pf, d->material_ref), &d->material);
+    *material = fw_device_material_with(fw_plan_material(plan, pf, d->material_ref), &d->material);
     return FW_OK;
 }
 

@@ -93,9 +93,9 @@ typedef struct fw_process_edge_class { /* one width of opening, in ascending ord
         high; /* at the ends of all ranges of the pack's corners; NaN: A has none */
 } fw_process_edge_class;
 
-typedef struct fw_process_wear {   /* what the device itself loses of every open face, walls too */
-    double loss_m, uncertainty_m;  /* in all such steps: the known part */
-    double after_m;                /* of it, what is taken once a release begins */
+typedef struct fw_process_wear {  /* what the device itself loses of every open face, walls too */
+    double loss_m, uncertainty_m; /* in all such steps: the known part */
+    double after_m;               /* of it, what is taken once a release begins */
     const char *missing; /* what must be known to say how much a step takes; NULL: nothing */
     bool never; /* ... which no laboratory can state: the mask alone gives it, or nothing does */
     const struct fw_process_step *step; /* the first of them; NULL: there is none */
@@ -133,6 +133,8 @@ typedef struct fw_process_fixed_point {
 fw_status fw_process_fixed_point_solve(fw_arena *arena, const struct fw_process_flow *flow,
                                        const struct fw_process_mask_facts *facts,
                                        double thickness_m, fw_process_fixed_point *out);
+/* does what a step takes of the device itself go by the reach of a release, which its drawing alone gives? */
+bool fw_process_flow_wears_by_reach(const struct fw_process_flow *flow);
 /* is this lag (S, or c) only assumed? Then neither the step's time nor the bias contains it. */
 bool fw_process_lag_is_guess(const fw_quantity *lag);
 /* where printing leaves the edge: the plate's, less what is known of printing */

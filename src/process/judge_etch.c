@@ -223,15 +223,15 @@ static fw_status anisotropy_known(fw_process_judge *j, const fw_process_cut *c) 
             j->diags, 184, c->step->place,
             "in flow %s step %s etches the top edge of the narrowest flexure away: %s um drawn, "
             "%s um left at A = %s",
-            j->flow->id, c->step->id, fw_process_judge_um(&t, w), fw_process_judge_um(&t, top),
-            fw_process_judge_number(&t, c->anisotropy, 4));
+            j->flow->id, c->step->id, fw_process_judge_um(&t, w),
+            fw_process_judge_um(&t, fmax(top, 0.0)), fw_process_judge_number(&t, c->anisotropy, 4));
     fw_process_numbers n = {0};
     return fw_process_judge_reason(
         j, weight,
         "with A = %s and the biased mask the narrowest flexure is %s um wide at the top and "
         "%s um at the bottom: its stiffness is %s of the drawn one%s",
-        fw_process_judge_number(&n, c->anisotropy, 4), fw_process_judge_um(&n, top),
-        fw_process_judge_um(&n, bottom), fw_process_judge_number(&n, ratio, 4),
+        fw_process_judge_number(&n, c->anisotropy, 4), fw_process_judge_um(&n, fmax(top, 0.0)),
+        fw_process_judge_um(&n, fmax(bottom, 0.0)), fw_process_judge_number(&n, ratio, 4),
         weight == FW_ANSWER_NO ? "; its edge is gone. Nearest change: a wider flexure, a thinner "
                                  "layer or a more anisotropic etch"
                                : "");

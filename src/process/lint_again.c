@@ -452,8 +452,7 @@ static bool lint_run(fw_process_pack *pack, const fw_process_step *s) {
                       "alone, however far that is; write the law \"rate\" with that reach as its "
                       "thickness and its rate sideways, unknown where nobody knows it, and give a "
                       "time to plan with by --planned",
-                      s->id, s->op, reach->id,
-                      s->nargument ? s->argument[0].q->id : "its law");
+                      s->id, s->op, reach->id, s->nargument ? s->argument[0].q->id : "its law");
         return false;
     }
     return true;

@@ -183,7 +183,8 @@ fw_status fw_process_lint_reactivity(fw_process_pack *pack);
 bool fw_process_only_dries(const fw_process_hazard *h);
 fw_status fw_process_lint_warmth(fw_process_pack *pack);
 fw_status fw_process_lint_chemistry(fw_process_pack *pack); /* reactivity.c (FW-D629, FW-D632) */
-fw_status fw_process_lint_meant(fw_process_pack *pack); /* reactivity.c (FW-D669, FW-D674, FW-D675) */
+fw_status
+fw_process_lint_meant(fw_process_pack *pack); /* reactivity.c (FW-D669, FW-D674, FW-D675) */
 /* measurable.c (FW-D664, FW-D665) */
 fw_status fw_process_lint_corners(fw_process_pack *pack);
 

@@ -40,11 +40,10 @@ typedef struct fw_process_equipment {
 
 typedef struct fw_process_material { /* for the wafer's layer stack */
     const char *id, *name;
-    const char *contaminates;     /* group, "copper"; "" = none */
-    bool holes;                   /* a film that does not protect what is below it */
-    int conducts;                 /* metal can be plated on it: 1 yes, 0 no, -1: not said */
-    const fw_quantity *highest_K; /* temperature that it bears; NULL: not said */
-    const fw_quantity *density;   /* NULL: not said */
+    const char *contaminates; /* group, "copper"; "" = none */
+    bool holes;               /* a film that does not protect what is below it */
+    int conducts;             /* metal can be plated on it: 1 yes, 0 no, -1: not said */
+    const fw_quantity *highest_K, *density; /* temperature that it bears; NULL: not said */
     fw_place place;
 } fw_process_material;
 
@@ -448,8 +447,6 @@ typedef struct fw_process_mask_facts { /* what the mask hands to the flow */
 /* ... and of where the printed edge lies against the drawn one */
 #define FW_PROCESS_PRINTED_EDGE "litho.edge"
 
-/* does what a step takes of the device itself go by the reach of a release, which its drawing alone gives? */
-bool fw_process_flow_wears_by_reach(const fw_process_flow *flow);
 /* does a step etch sideways, below what stands? */
 bool fw_process_flow_releases(const fw_process_flow *flow);
 /* the step that does, and how far; NULL and NaN: none does, or nobody knows */

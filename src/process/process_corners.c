@@ -284,9 +284,9 @@ static fw_status by_rate(fw_arena *arena, const fw_process_step *s, const fw_qua
         l->missing = r->id;
     if (l->missing) return FW_OK;
     l->loss_m = r->value * T.value * (1.0 + s->overrun);
-    l->u_m = fw_process_lost_uncertainty(R == r, u_rate,
-                                         T.value > 0.0 ? T.uncertainty / T.value : 0.0) *
-             l->loss_m;
+    l->u_m =
+        fw_process_lost_uncertainty(R == r, u_rate, T.value > 0.0 ? T.uncertainty / T.value : 0.0) *
+        l->loss_m;
     return FW_OK;
 }
 

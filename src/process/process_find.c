@@ -433,8 +433,8 @@ double fw_process_step_depth(const fw_process_step *s, double solved_m) {
     for (int i = 0; i < s->nchange; i++) {
         const fw_process_change *c = &s->change[i];
         const fw_quantity *d = c->reach ? c->reach : c->thickness;
-        const double far = c->reach && c->reach->status == FW_DERIVED ? solved_m
-                                                                      : fw_process_judge_known(d);
+        const double far =
+            c->reach && c->reach->status == FW_DERIVED ? solved_m : fw_process_judge_known(d);
         if (strcmp(c->kind, "remove") == 0 && !isnan(far))
             deepest = fmax(isnan(deepest) ? 0.0 : deepest, far);
     }

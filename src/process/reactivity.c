@@ -331,9 +331,9 @@ fw_status fw_process_lint_chemistry(fw_process_pack *pack) {
 static const struct {
     const char *metal;
     double g_per_mol;
-} molar[] = {{"chromium", 51.996}, {"cobalt", 58.933},   {"copper", 63.546},   {"gold", 196.967},
-             {"indium", 114.818},  {"iron", 55.845},     {"nickel", 58.693},   {"palladium", 106.42},
-             {"platinum", 195.08}, {"rhodium", 102.906}, {"silver", 107.868},  {"tin", 118.71},
+} molar[] = {{"chromium", 51.996}, {"cobalt", 58.933},   {"copper", 63.546},  {"gold", 196.967},
+             {"indium", 114.818},  {"iron", 55.845},     {"nickel", 58.693},  {"palladium", 106.42},
+             {"platinum", 195.08}, {"rhodium", 102.906}, {"silver", 107.868}, {"tin", 118.71},
              {"zinc", 65.38}};
 
 /* the metal that a material is named for; -1: none of them, or several, as an alloy */
@@ -383,7 +383,8 @@ static fw_place place_of(const fw_quantity *q, fw_place otherwise) {
 }
 
 /* a ratio that is written as the share by which it exceeds 1, or the other way round */
-static void lint_share(fw_process_pack *pack, const fw_process_step *s, const fw_process_change *c) {
+static void lint_share(fw_process_pack *pack, const fw_process_step *s,
+                       const fw_process_change *c) {
     char is[32], meant[32];
     const fw_quantity *f = c->spread, *A = c->anisotropy;
     if (f && !f->unknown && f->value < 1.0)
