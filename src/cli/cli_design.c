@@ -46,6 +46,7 @@ static int show_marked(fw_design *design, const fw_cli_options *options, const c
 static int make(fw_design *design, const fw_cli_options *options, unsigned what,
                 const char *directory) {
     int status = fw_cli_session_target(design, directory);
+    if (status == FW_STATUS_OK) status = (int)fw_plan_check_dates(fw_plan_design_plan(design));
     if (status != FW_STATUS_OK) return status;
     status = judge(design, options);
     if (status == FW_STATUS_GEOMETRY && what == FW_DESIGN_EVERYTHING)

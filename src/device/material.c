@@ -285,18 +285,8 @@ static fw_status read_material(fw_arena *arena, const fw_xml_element *e,
     return FW_OK;
 }
 
-fw_status fw_device_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,
-                                   fw_diags *diags, fw_device_materials *materials) {
-    size_t before = diags->errors;
-    *materials = (fw_device_materials){0};
-    fw_xml_element *root;
-    fw_xml_source_text *source;
-    int nsource, count = 0;
-    FW_TRY(fw_xml_read(arena, file, xml, n, diags, &root));
-    if (fw_xml_sources_read(arena, root, diags, &source, &nsource) == FW_NOMEM) return FW_NOMEM;
-    for (const fw_xml_element *e = root->first_child; e; e = e->next)
-        count += strcmp(e->name, "material") == 0;
-    FW_NEED(materials->item = fw_arena_array(arena, fw_device_material, (size_t)count));
+static fw_status read_all(fw_arena *arena, const fw_xml_element *root, fw_diags *diags,
+                          fw_device_materials *materials) {
     for (const fw_xml_element *e = root->first_child; e; e = e->next) {
         if (strcmp(e->name, "material") != 0) continue;
         const fw_xml_attribute *id = fw_xml_attribute_of(e, "id");
@@ -306,10 +296,49 @@ fw_status fw_device_materials_read(fw_arena *arena, const char *file, const char
             fw_diag_error(diags, 45, id->place, "material '%s' is given twice; rename one",
                           id->value);
         else
-            FW_TRY(read_material(arena, e, source, nsource, diags,
+            FW_TRY(read_material(arena, e, materials->source, materials->nsource, diags,
                                  &materials->item[materials->count++]));
     }
+    return FW_OK;
+}
+
+/* the flow's sources come first: it may give one of the shared ones again */
+static fw_status join_sources(fw_arena *arena, const fw_xml_source_text *own, int nown,
+                              const fw_device_materials *shared, fw_device_materials *materials) {
+    const int more = shared ? shared->nsource : 0;
+    fw_xml_source_text *all = fw_arena_array(arena, fw_xml_source_text, (size_t)(nown + more));
+    FW_NEED(all);
+    for (int i = 0; i < nown + more; i++)
+        all[i] = i < nown ? own[i] : shared->source[i - nown];
+    materials->source = all;
+    materials->nsource = nown + more;
+    return FW_OK;
+}
+
+fw_status fw_device_materials_of_flow(fw_arena *arena, const char *file, const char *xml, size_t n,
+                                      const fw_device_materials *shared, fw_diags *diags,
+                                      fw_device_materials *materials) {
+    size_t before = diags->errors;
+    *materials = (fw_device_materials){0};
+    fw_xml_element *root;
+    fw_xml_source_text *source;
+    int nsource, count = shared ? shared->count : 0;
+    FW_TRY(fw_xml_read(arena, file, xml, n, diags, &root));
+    if (fw_xml_sources_read(arena, root, diags, &source, &nsource) == FW_NOMEM) return FW_NOMEM;
+    FW_TRY(join_sources(arena, source, nsource, shared, materials));
+    for (const fw_xml_element *e = root->first_child; e; e = e->next)
+        count += strcmp(e->name, "material") == 0;
+    FW_NEED(materials->item = fw_arena_array(arena, fw_device_material, (size_t)count));
+    FW_TRY(read_all(arena, root, diags, materials));
+    for (int i = 0; shared && i < shared->count; i++)
+        if (!fw_device_material_find(materials, shared->item[i].id))
+            materials->item[materials->count++] = shared->item[i];
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
+}
+
+fw_status fw_device_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,
+                                   fw_diags *diags, fw_device_materials *materials) {
+    return fw_device_materials_of_flow(arena, file, xml, n, NULL, diags, materials);
 }
 
 const fw_device_material *fw_device_material_find(const fw_device_materials *materials,

@@ -5,6 +5,8 @@
 #define FW_DEVICE_MATERIAL_H
 #include "quantity/quantity.h"
 
+struct fw_xml_source_text;
+
 typedef struct fw_device_limit_data { /* each unknown where the material has none */
     /* fracture: P_f = 1 - exp(-(A/A0) (sigma/sigma0)^m); the three only together */
     fw_quantity weibull_strength; /* Pa: sigma0 */
@@ -60,11 +62,17 @@ typedef struct fw_device_material_override { /* attributes of <material>; unknow
 typedef struct fw_device_materials {
     fw_device_material *item; /* (count) */
     int count;
+    const struct fw_xml_source_text *source; /* (nsource) where its numbers are from */
+    int nsource;
 } fw_device_materials;
 
 /* reads the <material> elements of a pack (base.xml) */
 fw_status fw_device_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,
                                    fw_diags *diags, fw_device_materials *materials);
+/* those of a flow: its own, and of the shared ones what it does not give again; one that it does counts as a whole */
+fw_status fw_device_materials_of_flow(fw_arena *arena, const char *file, const char *xml, size_t n,
+                                      const fw_device_materials *shared, fw_diags *diags,
+                                      fw_device_materials *materials);
 const fw_device_material *fw_device_material_find(const fw_device_materials *materials,
                                                   const char *id);
 /* the material with overrides applied; an override's source is "device file". A stated modulus

@@ -82,7 +82,9 @@ double fw_mask_layer_bias_m(const fw_mask *mask, int layer) {
 
 static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
                              fw_diags *diags) {
+    enum { TOLD = 3 }; /* one bias that is too large has as many as there are parts */
     size_t errors = diags->errors;
+    int refused = 0;
     fw_mask_shape *shape = mask->shape;
     for (int k = 0; k < mask->nshape; k++) {
         double bias_m = fw_mask_layer_bias_m(mask, shape[k].layer);
@@ -91,11 +93,13 @@ static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, fw_mask *
         int i = -1, j = -1;
         fw_status status = fw_geometry_contour_offset(arena, &shape[k].piece->contour, bias_m,
                                                       &shape[k].contour, &i, &j);
-        if (status == FW_GEOMETRY)
-            FW_TRY(refuse_bias(arena, layout, diags, &shape[k], bias_m, i, j));
-        else
+        if (status != FW_GEOMETRY)
             FW_TRY(status);
+        else if (refused++ < TOLD)
+            FW_TRY(refuse_bias(arena, layout, diags, &shape[k], bias_m, i, j));
     }
+    if (refused > TOLD)
+        fw_diag_error(diags, 143, nowhere, "%d more parts cannot take it either", refused - TOLD);
     if (diags->failed) return FW_NOMEM;
     return diags->errors > errors ? FW_INPUT : FW_OK;
 }

@@ -69,10 +69,20 @@ static fw_status of_variant(fw_plan *plan, const fw_verdict_variant_verdict *jud
     return FW_OK;
 }
 
+/* the material as that flow has it that takes it for the weakest */
+static const fw_device_material *weakest(const fw_plan *plan, const char *id) {
+    const fw_device_material *least = NULL;
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_device_material *m = fw_plan_material(plan, &plan->flow[i], id);
+        if (m && (!least || m->strength.value < least->strength.value)) least = m;
+    }
+    return least;
+}
+
 /* a strength above the pack's own is the number that the verdict rests on most: say so twice */
 static fw_status strength_override(fw_plan *plan) {
     const fw_device *d = plan->device;
-    const fw_device_material *pack = fw_device_material_find(&plan->materials, d->material_ref);
+    const fw_device_material *pack = weakest(plan, d->material_ref);
     const fw_quantity *own = &d->material.strength;
     if (!pack || own->unknown || pack->strength.unknown || own->value <= pack->strength.value)
         return FW_OK;

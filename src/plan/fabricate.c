@@ -352,7 +352,7 @@ static fw_status edges_of(fw_plan *plan, const fw_process_flow *flow, const fw_m
     e->bottom_m = field->edge.bottom_m;
     e->least_m = field->low.top_m;
     e->most_m = field->high.top_m;
-    e->known_part = p->open || p->wet_open || p->worn_open;
+    e->known_part = p->open || p->wet_open || p->wear.missing;
     FW_TRY(range_of(plan, flow, &e->range));
     double more = narrow->low.bottom_m - field->low.bottom_m;
     if (!(more > 1e-9)) return FW_OK;

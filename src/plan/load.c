@@ -300,12 +300,16 @@ fw_status fw_plan_need_material(fw_plan *plan) {
                          material_names(plan, NULL));
 }
 
-/* the variant of the description itself: what explicit masses and stiffnesses refer to */
-static fw_status own_material(fw_plan *plan, fw_device_material *material) {
+const fw_device_material *fw_plan_material(const fw_plan *plan, const fw_plan_flow *pf,
+                                           const char *id) {
+    return fw_device_material_find(pf->materials.count > 0 ? &pf->materials : &plan->materials, id);
+}
+
+/* the description's own material, as the flow has it: what explicit masses and stiffnesses refer to */
+static fw_status own_material(fw_plan *plan, const fw_plan_flow *pf, fw_device_material *material) {
     const fw_device *d = plan->device;
     FW_TRY(fw_plan_need_material(plan));
-    const fw_device_material *found = fw_device_material_find(&plan->materials, d->material_ref);
-    *material = fw_device_material_with(found, &d->material);
+    *material = fw_device_material_with(fw_plan_material(plan, pf, d->material_ref), &d->material);
     return FW_OK;
 }
 
@@ -325,14 +329,14 @@ static double orientation_of(const fw_device *d, const fw_device_flow_use *use) 
 }
 
 /* an orientation that nothing goes by is worth a word */
-static void check_orientation(fw_plan *plan, const fw_device_flow_use *use,
-                              const fw_device_material *m) {
+static void check_orientation(fw_plan *plan, const fw_plan_flow *pf, const fw_device_material *m) {
+    const fw_device_flow_use *use = pf->use;
     bool asked = use && !isnan(use->orientation_rad);
     if (fw_device_material_is_crystal(m) || (!asked && isnan(plan->device->orientation_rad)))
         return;
     if (!asked && !fw_text_same(m->id, plan->device->material_ref))
         return; /* it is not about this one */
-    const fw_device_material *pack = fw_device_material_find(&plan->materials, m->id);
+    const fw_device_material *pack = fw_plan_material(plan, pf, m->id);
     fw_diag_warning(
         &plan->diags, 210, asked ? use->place : plan->device->material_place,
         pack && fw_device_material_is_crystal(pack)
@@ -343,18 +347,20 @@ static void check_orientation(fw_plan *plan, const fw_device_flow_use *use,
         m->id);
 }
 
-static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_material *own) {
+static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf) {
     const fw_device *d = plan->device;
     const fw_device_flow_use *use = pf->use;
     fw_mechanism_variant *v = &pf->variant;
+    fw_device_material own;
+    FW_TRY(own_material(plan, pf, &own));
     fw_place place = use ? use->place : d->material_place;
     *v = (fw_mechanism_variant){.flow = use ? use->ref : NULL,
-                                .material = *own,
+                                .material = own,
                                 .substrate_expansion = {.unknown = true},
                                 .thickness_m = thickness_of(d, use, pf->flow),
                                 .orientation_rad = orientation_of(d, use)};
     if (use && use->material && !fw_text_same(use->material, d->material_ref))
-        v->material = *fw_device_material_find(&plan->materials, use->material);
+        v->material = *fw_plan_material(plan, pf, use->material);
     FW_TRY(fw_plan_find_ground(plan, pf, v));
     FW_TRY(fw_plan_find_below(plan, pf, &v->below));
     FW_TRY(fw_plan_find_drying(plan, pf, &v->drying));
@@ -370,15 +376,15 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf, const fw_device_m
             "material '%s' has no modulus, Poisson number, density or strength: it "
             "cannot be the device layer; %s",
             m->id, material_names(plan, NULL));
-    check_orientation(plan, use, m);
+    check_orientation(plan, pf, m);
     if (pf->flow && pf->flow->material && !fw_text_same(pf->flow->material, m->id))
         fw_diag_warning(&plan->diags, 227, place,
                         "flow '%s' makes devices of %s, but %s is asked for: give "
                         "material=\"%s\" on <flow>",
                         use->ref, pf->flow->material, m->id, pf->flow->material);
     double own_thickness = isnan(d->thickness_m) ? v->thickness_m : d->thickness_m;
-    double stiff = m->youngs.value * v->thickness_m / (own->youngs.value * own_thickness);
-    double mass = m->density.value * v->thickness_m / (own->density.value * own_thickness);
+    double stiff = m->youngs.value * v->thickness_m / (own.youngs.value * own_thickness);
+    double mass = m->density.value * v->thickness_m / (own.density.value * own_thickness);
     v->explicit_stiffness_scale = stiff;
     v->explicit_mass_scale = mass;
     v->explicit_damping_scale = sqrt(stiff * mass);
@@ -431,6 +437,8 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
     pf->file = name, pf->xml = xml, pf->xml_length = n;
     FW_TRY(read_flow(plan, pf, &pf->flow));
+    FW_TRY(fw_device_materials_of_flow(plan->arena, name, xml, n, &plan->materials, &plan->diags,
+                                       &pf->materials));
     name = fw_arena_printf(plan->arena, "masks/%s.xml", pf->use->ref);
     FW_NEED(name);
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
@@ -464,23 +472,21 @@ static fw_status load_flows(fw_plan *plan) {
     const fw_device *d = plan->device;
     int most = d->nflow > 0 ? d->nflow : 1;
     FW_NEED(plan->flow = fw_arena_array(plan->arena, fw_plan_flow, (size_t)most));
-    fw_device_material own;
     if (d->nflow == 0 && !d->material_ref) {
         plan->nflow = 1;
         plan->flow[0].variant = mechanism_alone();
         return FW_OK;
     }
-    FW_TRY(own_material(plan, &own));
     if (d->nflow == 0) {
         plan->nflow = 1;
-        return make_variant(plan, &plan->flow[0], &own);
+        return make_variant(plan, &plan->flow[0]);
     }
     for (int i = 0; i < d->nflow; i++) {
         if (plan->options.flow && !fw_text_same(plan->options.flow, d->flow[i].ref)) continue;
         fw_plan_flow *pf = &plan->flow[plan->nflow++];
         pf->use = &d->flow[i];
         FW_TRY(load_flow(plan, pf));
-        FW_TRY(make_variant(plan, pf, &own));
+        FW_TRY(make_variant(plan, pf));
     }
     if (plan->nflow > 0) return FW_OK;
     const char *meant;
@@ -499,13 +505,11 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,
 
 fw_status fw_plan_take_device(fw_plan *plan, const fw_device *device) {
     const fw_device *before = plan->device;
-    fw_device_material own;
     plan->device = device;
-    FW_TRY(own_material(plan, &own));
     for (int i = 0; i < plan->nflow; i++) {
         fw_plan_flow *pf = &plan->flow[i];
         if (pf->use) pf->use = &device->flow[pf->use - before->flow];
-        FW_TRY(make_variant(plan, pf, &own));
+        FW_TRY(make_variant(plan, pf));
     }
     return FW_OK;
 }

@@ -65,9 +65,10 @@ fw_plan_options fw_plan_options_default(void);
 typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, mask and recipe */
     const fw_device_flow_use *use; /* NULL: the device's own material without a flow */
     fw_mechanism_variant variant;
-    fw_process_flow *flow; /* NULL: none */
-    fw_mask_table *table;  /* with rows for cells on layers of their own */
-    bool mask_examined;    /* mask, violated and mask_error say what the rules say */
+    fw_process_flow *flow;         /* NULL: none */
+    fw_device_materials materials; /* as the flow has them; none without a flow */
+    fw_mask_table *table;          /* with rows for cells on layers of their own */
+    bool mask_examined;            /* mask, violated and mask_error say what the rules say */
     const fw_mask *mask;
     const fw_mask *violated; /* the mask where it breaks rules or nearly does, to look at; NULL: it
                                 has no findings */
@@ -156,6 +157,8 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
 /* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows, with what the masks of a
    design that is not rejected refuse */
 fw_status fw_plan_judge(fw_plan *plan);
+/* is the day stated that a schedule needs? FW_INPUT: of a loaded plan that is to be fabricated, before it is judged */
+fw_status fw_plan_check_dates(fw_plan *plan);
 /* masks with each flow's bias; a rejected design gets none unless forced */
 fw_status fw_plan_fabricate(fw_plan *plan);
 

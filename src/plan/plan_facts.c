@@ -145,6 +145,21 @@ fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_
     return name_gaps(arena, device, layout, variant->flow, facts);
 }
 
+fw_status fw_plan_edge_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_plan_flow *pf, const fw_mechanism_variant *variant,
+                             fw_process_mask_facts *facts) {
+    const fw_layout *marked = NULL;
+    const bool by_reach = layout && layout->drawn && fw_process_flow_wears_by_reach(pf->flow);
+    fw_layout_no_room no_room;
+    if (by_reach) FW_TRY(fw_mask_frame_marks(arena, pf->table, layout, &marked, &no_room));
+    FW_TRY(fw_plan_mask_facts(arena, device, layout, marked, variant, pf->table,
+                              fw_plan_insulated(pf), facts));
+    if (!by_reach) return FW_OK;
+    return fw_release_solve(arena, marked, fw_plan_insulated(pf),
+                            fw_process_flow_frees_all(pf->flow), fw_process_flow_bond(pf->flow),
+                            &facts->release);
+}
+
 /* ---- marks on the frame ----
    Plates of a flow that prints several are put on each other by marks in the uprights of every frame. Where they find no
    room there, the device is drawn again with a wider frame, and where that does not help with a taller die, until

@@ -565,8 +565,8 @@ static fw_status find(fw_plan *plan, fw_plan_flow *pf, const fw_verdict_variant_
     fw_process_mask_facts of_verdict, of_times;
     fw_process_flow *flow;
     if (judged_drawn)
-        FW_TRY(fw_plan_mask_facts(plan->arena, plan->device, layout, NULL, &pf->variant, pf->table,
-                                  fw_plan_insulated(pf), &of_verdict));
+        FW_TRY(
+            fw_plan_edge_facts(plan->arena, plan->device, layout, pf, &pf->variant, &of_verdict));
     FW_TRY(facts_of(plan, pf, &of_times));
     FW_TRY(fw_plan_flow_again(plan, pf, &flow));
     const fw_measuring_request request = {.device = plan->device,

@@ -19,8 +19,7 @@ static fw_status fabricated_of(void *context, fw_arena *arena, const fw_device *
     const fw_plan_flow *pf = &((const fw_plan *)context)->flow[i];
     fw_process_mask_facts facts;
     if (!pf->flow || !layout || !layout->drawn) return FW_OK;
-    FW_TRY(fw_plan_mask_facts(arena, device, layout, NULL, v->variant, pf->table,
-                              fw_plan_insulated(pf), &facts));
+    FW_TRY(fw_plan_edge_facts(arena, device, layout, pf, v->variant, &facts));
     return fw_process_flow_fabricated(arena, pf->flow, &facts, v->variant, &v->input, &v->ninput);
 }
 

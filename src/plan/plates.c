@@ -504,7 +504,7 @@ fw_status fw_plan_find_ground(fw_plan *plan, const fw_plan_flow *pf, fw_mechanis
                              "carrier=\"insulating\" says otherwise; leave it out",
                              pf->flow->id, carries->name);
     const char *id = carries ? carries->id : on_glass(pf) ? "glass-carrier" : "silicon-substrate";
-    const fw_device_material *of = fw_device_material_find(&plan->materials, id);
+    const fw_device_material *of = fw_plan_material(plan, pf, id);
     v->substrate_insulates = faces ? faces->conducts == 0 : !carries && on_glass(pf);
     v->substrate = of ? of->name : carries ? carries->name : NULL;
     if (of) v->substrate_expansion = of->expansion;

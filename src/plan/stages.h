@@ -36,6 +36,9 @@ fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *flow,
                                 fw_verdict_variant_verdict *v);
 /* the flow of a pack read once more, with the laboratory's values: to be changed by whoever asks */
 fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_process_flow **flow);
+/* a material as the flow has it: its own, or the shared one; NULL: there is none */
+const fw_device_material *fw_plan_material(const fw_plan *plan, const fw_plan_flow *pf,
+                                           const char *id);
 bool fw_plan_insulated(const fw_plan_flow *pf);
 /* (nlayer of its table) what layers with shrink or grow get at every edge, m; FW_INPUT (FW-D411): not a known length */
 fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double **bias_m);
@@ -53,6 +56,10 @@ fw_status fw_plan_check_hollows(fw_plan *plan, const fw_plan_flow *pf, fw_diags 
 /* the plan's drawing, which is there, with the marks of a flow on its frame: found once. no_room may be NULL */
 fw_status fw_plan_marked(fw_plan *plan, fw_plan_flow *pf, const fw_layout **marked,
                          fw_layout_no_room *no_room);
+/* what the verdict computes edges with: of one die, with its distances where what the device loses goes by them */
+fw_status fw_plan_edge_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_plan_flow *pf, const fw_mechanism_variant *variant,
+                             fw_process_mask_facts *facts);
 /* areas, edges and openings of one die, from the exact outlines; layout NULL or not drawn: zeros. marked NULL: its
    marks are found here, else it has them */
 fw_status fw_plan_mask_facts(fw_arena *arena, const fw_device *device, const fw_layout *layout,

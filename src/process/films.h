@@ -100,17 +100,13 @@ bool fw_process_step_meets(const fw_process_step *step, bool back);
 /* What wet steps take of the device itself when it stands: the removal of a seed, for example,
    takes copper from every open face. Private to process/. */
 
-typedef struct fw_process_wear {
-    double loss_m, uncertainty_m; /* of every open face, all such steps: the known part */
-    const char *missing; /* what must be known to say how much a step takes; NULL: nothing */
-    const fw_process_step *step; /* the first of them; NULL: there is none */
-    const fw_process_exposed *exposed;
-} fw_process_wear;
-
-/* does the step's chemical attack walls as it attacks tops? */
+/* does what the step works with attack walls as it attacks tops: a liquid, or a gas that runs sideways? */
 bool fw_process_step_is_wet(const fw_process_step *step);
-/* pure: from the pack's own quantities, whether or not steps were computed */
-fw_process_wear fw_process_flow_wear(const fw_process_flow *flow);
+/* Pure: from the pack's own quantities, whether or not steps were computed. way_m: from the openings to the middle of what
+   must come free, as the walls stand when all has been taken; it gives the reach of a release that is left to the mask. NaN:
+   not known */
+fw_status fw_process_flow_wear(fw_arena *arena, const fw_process_flow *flow, double way_m,
+                               fw_process_wear *wear);
 
 /* The wafer after a step, as films with heights and walls: what the <change>s of the pack make of
    it, with what the fixed point knows of edges, depths and lags. Where the walls lie on the wafer

@@ -132,9 +132,6 @@ static void read_flow(const fw_process_flow *flow, double thickness_m, fw_proces
                 read_cut(flow, s, c, depth, &p->cut[p->ncut++]);
         }
     }
-    fw_process_wear wear = fw_process_flow_wear(flow);
-    p->worn_m = wear.loss_m;
-    p->worn_open = wear.missing != NULL;
     read_corners(flow, thickness_m > 0.0 ? thickness_m : known(flow->thickness), p);
 }
 
@@ -277,7 +274,7 @@ static bool solvable(const fw_process_fixed_point *p, const double *A, double ga
     fw_process_fixed_point trial = *p;
     double m, W = fmax(reference_m(p), gap_m);
     return newton(&trial, A, gap_m, W, &m) &&
-           gap_m > 2.0 * (m + p->wet_m + p->printed_m + p->worn_m);
+           gap_m > 2.0 * (m + p->wet_m + p->printed_m + p->wear.loss_m);
 }
 
 /* by bisection: the least of x in [bad, good] that has a solution; NaN when `good` has none */
@@ -300,7 +297,7 @@ static double least(const fw_process_fixed_point *p, const double *A, double bad
 static void nearest_change(fw_process_fixed_point *p, const double *A) {
     if (p->ncls == 0) return;
     double g = p->cls[0].drawn_m,
-           widest = 1e3 * (g + 2.0 * (p->wet_m + p->worn_m + fabs(p->printed_m)));
+           widest = 1e3 * (g + 2.0 * (p->wet_m + p->wear.loss_m + fabs(p->printed_m)));
     for (int k = 0; k < p->ncut; k++)
         widest += 1e3 * p->cut[k].depth_m;
     p->least_gap_m = least(p, A, g, widest, true);
@@ -382,8 +379,20 @@ static double bias_at(const fw_process_fixed_point *p, const double *A, double g
     double m;
     for (int k = 0; k < p->ncut; k++)
         if (isnan(A[k])) return (double)NAN;
-    return newton(&other, A, gap_m, field_m, &m) ? m + p->wet_m + p->printed_m + p->worn_m
+    return newton(&other, A, gap_m, field_m, &m) ? m + p->wet_m + p->printed_m + p->wear.loss_m
                                                  : (double)NAN;
+}
+
+/* From the openings to the middle of what must come free, from the foot of the walls; m. Where walls stand does not depend
+   on what they lose afterwards, which the mask adds. NaN: nothing is drawn. */
+static double way_of(const fw_process_fixed_point *p, const fw_process_mask_facts *facts,
+                     const double *A) {
+    const fw_release *r = facts ? facts->release : NULL;
+    if (!r || r->slowest < 0 || !(r->needed_m > 0.0)) return (double)NAN;
+    if (!p->solved || p->ncls == 0) return r->needed_m;
+    const double w = p->cls[p->field].drawn_m - 2.0 * p->etch_m,
+                 foot = fw_process_fixed_point_edge(p, w, A).bottom_m;
+    return r->needed_m + (isfinite(foot) ? foot : 0.0);
 }
 
 fw_status fw_process_fixed_point_solve(fw_arena *arena, const fw_process_flow *flow,
@@ -407,7 +416,8 @@ fw_status fw_process_fixed_point_solve(fw_arena *arena, const fw_process_flow *f
         cut_at(&p->cut[k], A[k], gap, field, &slope);
         p->cut[k].mask_m = 0.0;
     }
-    p->bias_m = p->etch_m + p->wet_m + p->printed_m + p->worn_m;
+    FW_TRY(fw_process_flow_wear(arena, flow, way_of(p, facts, A), &p->wear));
+    p->bias_m = p->etch_m + p->wet_m + p->printed_m + p->wear.loss_m;
     for (int k = 0; k < p->ncut; k++)
         p->open = p->open || isnan(A[k]) || isnan(p->cut[k].etched_m);
     if (!p->solved) nearest_change(p, A);

@@ -12,6 +12,7 @@
 
 struct fw_process_flow;
 struct fw_process_step;
+struct fw_process_exposed;
 struct fw_process_mask_facts;
 
 /* of openings in the drawn layout */
@@ -92,6 +93,15 @@ typedef struct fw_process_edge_class { /* one width of opening, in ascending ord
         high; /* at the ends of all ranges of the pack's corners; NaN: A has none */
 } fw_process_edge_class;
 
+typedef struct fw_process_wear {  /* what the device itself loses of every open face, walls too */
+    double loss_m, uncertainty_m; /* in all such steps: the known part */
+    double after_m;               /* of it, what is taken once a release begins */
+    const char *missing; /* what must be known to say how much a step takes; NULL: nothing */
+    bool never; /* ... which no laboratory can state: the mask alone gives it, or nothing does */
+    const struct fw_process_step *step; /* the first of them; NULL: there is none */
+    const struct fw_process_exposed *exposed;
+} fw_process_wear;
+
 enum { FW_CUTS = 4 };
 
 typedef struct fw_process_fixed_point {
@@ -100,8 +110,7 @@ typedef struct fw_process_fixed_point {
     double printed_m;     /* against what is known of printing */
     double wet_m, etch_m; /* against isotropic etches, against cuts of known anisotropy */
     bool wet_open;        /* the depth of an isotropic etch is not known */
-    double worn_m;        /* against what wet steps take of the walls that stand */
-    bool worn_open;       /* such a step takes some, and nobody knows how much */
+    fw_process_wear wear; /* against what steps take of the walls that stand */
     bool open;            /* an anisotropy is not known (or the time of its cut) */
     double low_m, high_m; /* bias that the ends of what is assumed would ask for; NaN: none */
     double slope;         /* F' at the solution: below 1, what a plain iteration contracts by */
@@ -124,6 +133,8 @@ typedef struct fw_process_fixed_point {
 fw_status fw_process_fixed_point_solve(fw_arena *arena, const struct fw_process_flow *flow,
                                        const struct fw_process_mask_facts *facts,
                                        double thickness_m, fw_process_fixed_point *out);
+/* does what a step takes of the device itself go by the reach of a release, which its drawing alone gives? */
+bool fw_process_flow_wears_by_reach(const struct fw_process_flow *flow);
 /* is this lag (S, or c) only assumed? Then neither the step's time nor the bias contains it. */
 bool fw_process_lag_is_guess(const fw_quantity *lag);
 /* where printing leaves the edge: the plate's, less what is known of printing */

@@ -209,27 +209,6 @@ static fw_status derive_all(fw_arena *arena, fw_process_step *s) {
     return FW_OK;
 }
 
-/* the arguments of a law without its lag: the time of wide openings. `guess`: only where the lag is assumed */
-static const fw_process_argument *without_lag(const fw_process_step *s, fw_process_argument *list,
-                                              fw_quantity *none, bool guess) {
-    bool out = false;
-    const fw_process_law *law = fw_process_law_find(s->law);
-    if (!law || !law->lags || s->nargument > FW_LAW_ARGUMENTS) return s->argument;
-    for (int i = 0; i < s->nargument; i++) {
-        const fw_process_argument *a = &s->argument[i];
-        bool lag = strcmp(a->name, "probability") == 0 || strcmp(a->name, "lag") == 0;
-        list[i] = *a;
-        if (!lag || (guess && !fw_process_lag_is_guess(a->q))) continue;
-        *none = *a->q;
-        none->value = none->uncertainty = 0.0;
-        none->unknown = false;
-        none->status = FW_MEASURED; /* no part of the answer */
-        list[i].q = none;
-        out = true;
-    }
-    return out ? list : s->argument;
-}
-
 /* How much longer the step is planned than wide openings take: T/T_wide, 1. In: the step's own law, its answer. Test:
    test_lint.c, mask_lasts_as_planned. */
 static fw_status slow(fw_arena *arena, fw_process_law_use use, fw_process_step *s) {
@@ -237,7 +216,7 @@ static fw_status slow(fw_arena *arena, fw_process_law_use use, fw_process_step *
     fw_quantity none;
     fw_process_law_answer wide;
     if (!use.law->lags || !s->time.computable) return FW_OK;
-    use.argument = without_lag(s, list, &none, false);
+    use.argument = fw_process_law_wide(&use, list, &none, false);
     FW_TRY(fw_process_law_evaluate(arena, &use, &wide));
     if (wide.computable && wide.value > 0.0) s->time.slowed = s->time.nominal_s / wide.value;
     return FW_OK;
@@ -289,7 +268,8 @@ static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
     s->derived = NULL;
     s->nderived = 0;
     FW_TRY(derive_all(arena, s));
-    fw_process_law_use use = fw_process_law_of_step(s, without_lag(s, list, &none, true));
+    fw_process_law_use use = fw_process_law_of_step(s, s->argument);
+    use.argument = fw_process_law_wide(&use, list, &none, true);
     use.need = s->need, use.nneed = s->nneed;
     use.setting = s->setting, use.nsetting = s->nsetting;
     fw_process_law_answer answer;
@@ -367,7 +347,7 @@ static void fill_coupon_lines(fw_process_flow *flow) {
 static void fill_thickness(fw_process_flow *flow) {
     const double d =
         flow->thickness && !flow->thickness->unknown ? flow->thickness->value : (double)NAN;
-    fill(flow, "mask.thickness-left", d - flow->edges.worn_m, 0.0);
+    fill(flow, "mask.thickness-left", d - flow->edges.wear.loss_m, 0.0);
 }
 
 static void fill_widths(fw_process_flow *flow, const fw_process_mask_facts *facts) {

@@ -115,7 +115,7 @@ static void printed(fw_process_judge *j) {
  * thickness */
 static fw_status worn(fw_process_judge *j) {
     fw_process_numbers t = {0};
-    fw_process_wear w = fw_process_flow_wear(j->flow);
+    const fw_process_wear w = j->flow->edges.wear;
     if (!w.step) return FW_OK;
     if (w.loss_m > 0.0)
         fw_text_printf(
@@ -124,6 +124,13 @@ static fw_status worn(fw_process_judge *j) {
             "every edge, and the layer ends as much thinner",
             next(j), w.step->id, fw_process_judge_um(&t, w.loss_m));
     if (!w.missing) return FW_OK;
+    if (w.never)
+        return fw_process_judge_reason(
+            j, FW_ANSWER_NO,
+            "step %s takes %s from every open face of the device for a time that needs %s: before "
+            "the mask is made nobody can say how much, so that it is neither compensated nor "
+            "judged. Nearest change: a time or a rate of the step's own",
+            w.step->id, fw_process_flow_material_name(j->flow, w.exposed->material), w.missing);
     return fw_process_judge_reason(
         j, FW_ANSWER_OPEN,
         "step %s takes %s from every open face of the device; how much is not known "
@@ -216,15 +223,15 @@ static fw_status anisotropy_known(fw_process_judge *j, const fw_process_cut *c) 
             j->diags, 184, c->step->place,
             "in flow %s step %s etches the top edge of the narrowest flexure away: %s um drawn, "
             "%s um left at A = %s",
-            j->flow->id, c->step->id, fw_process_judge_um(&t, w), fw_process_judge_um(&t, top),
-            fw_process_judge_number(&t, c->anisotropy, 4));
+            j->flow->id, c->step->id, fw_process_judge_um(&t, w),
+            fw_process_judge_um(&t, fmax(top, 0.0)), fw_process_judge_number(&t, c->anisotropy, 4));
     fw_process_numbers n = {0};
     return fw_process_judge_reason(
         j, weight,
         "with A = %s and the biased mask the narrowest flexure is %s um wide at the top and "
         "%s um at the bottom: its stiffness is %s of the drawn one%s",
-        fw_process_judge_number(&n, c->anisotropy, 4), fw_process_judge_um(&n, top),
-        fw_process_judge_um(&n, bottom), fw_process_judge_number(&n, ratio, 4),
+        fw_process_judge_number(&n, c->anisotropy, 4), fw_process_judge_um(&n, fmax(top, 0.0)),
+        fw_process_judge_um(&n, fmax(bottom, 0.0)), fw_process_judge_number(&n, ratio, 4),
         weight == FW_ANSWER_NO ? "; its edge is gone. Nearest change: a wider flexure, a thinner "
                                  "layer or a more anisotropic etch"
                                : "");

@@ -6,7 +6,8 @@
    becomes the distance of the worst point of what moves (release/release.h), as it is drawn, and as much
    farther as the foot of the walls stands out; the step's time follows from it by the step's own law. With
    E the over-etch as a part, what must stay has to outlast r (1 + E). A rate known to u leaves at the time
-   by which the slowest has freed everything, r R / (R - k u), up to r (R + k u) / (R - k u) of the fastest.
+   by which the slowest has freed everything, r R / (R - k u), up to r (R + k u) / (R - k u) of the fastest; the planned time
+   r (1 + E) (R + k u) / R, and the stop time of the run sheet so many times as much as it is longer.
    A law with a lag gives the time of a narrow opening, t(r, S) against t(r, 0) of a wide one, from which the etch
    then has run k = t(r, S)/t(r, 0) times as far; a lag that is only assumed leaves the time that of wide openings.
    Theory: docs/theory/release.md. Test: test_judge_release.c. */
@@ -51,15 +52,24 @@ double fw_process_flow_bond(const fw_process_flow *flow) {
     return q && !q->unknown ? fmin(fmax(q->value, 0.0), 0.99) : 0.0;
 }
 
-/* how far the foot of the walls stands outside of the drawn edges; 0 where that is not known */
+/* How far the foot of the walls stands outside of the drawn edges when the release begins: with what the walls lose from
+   then on. 0 where that is not known. */
 static double foot_of(const fw_process_flow *flow) {
     const fw_process_fixed_point *p = &flow->edges;
     double foot = p->ncls > 0 && p->solved ? p->cls[p->field].edge.bottom_m : 0.0;
-    return isfinite(foot) ? foot : 0.0;
+    return (isfinite(foot) ? foot : 0.0) + p->wear.after_m;
 }
 
 static bool is_solved(const fw_process_change *c) {
     return c->reach && c->reach->status == FW_DERIVED;
+}
+
+bool fw_process_release_solves(const fw_process_flow *flow, const fw_quantity *q) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++)
+            if (q && is_solved(&flow->step[i].change[k]) && flow->step[i].change[k].reach == q)
+                return true;
+    return false;
 }
 
 double fw_process_release_run(const fw_process_flow *flow, const fw_process_step *step,
@@ -184,29 +194,49 @@ static fw_status frame(fw_process_judge *j, const fw_process_step *s, double rea
     return FW_OK;
 }
 
-/* what a rate that is known to so much alone leaves of the window */
+/* How far a rate that is known to so much alone may run: by the time as planned where it is the fastest there may be, over-etch
+   included; by when the slowest has freed everything; and by the stop time of the run sheet. m */
+typedef struct runs {
+    double planned_m, slowest_m, stop_m;
+} runs;
+
+static runs runs_of(const fw_process_flow *f, const fw_process_step *s, const fw_quantity *rate,
+                    double low, double high, double reach_m) {
+    const double faster = reach_m * f->release_wide * high / rate->value;
+    runs r = {.planned_m = faster * (1.0 + s->overrun),
+              .slowest_m = low > 0.0 ? reach_m * f->release_wide * high / low : HUGE_VAL,
+              .stop_m = faster * (1.0 + s->overrun)};
+    if (s->time.computable && s->time.nominal_s > 0.0)
+        r.stop_m = faster * s->time.stop_s / s->time.nominal_s;
+    return r;
+}
+
+/* what that leaves of the window */
 static fw_status by_time(fw_process_judge *j, const fw_process_step *s, double reach_m) {
     const fw_release *r = j->facts->release;
     const fw_quantity *rate = fw_process_step_argument(s, "rate");
     fw_process_numbers t = {0};
-    if (!rate || rate->unknown || r->weakest < 0 || j->flow->no_window) return FW_OK;
+    if (!rate || rate->unknown || !(rate->value > 0.0) || r->weakest < 0 || j->flow->no_window)
+        return FW_OK;
     double low, high, lost = r->lost_m + j->flow->release_foot_m;
     fw_process_quantity_range(rate, &low, &high);
-    double most = low > 0.0 ? reach_m * j->flow->release_wide * high / low : HUGE_VAL;
+    const runs run = runs_of(j->flow, s, rate, low, high, reach_m);
+    const double most = fmax(run.planned_m, fmax(run.slowest_m, run.stop_m));
     if (most < lost) return FW_OK;
     fw_quantity slowest = *rate, fastest = *rate;
     slowest.value = low, fastest.value = high;
+    const char *from = fw_process_judge_um(&t, reach_m), *to = fw_process_judge_um(&t, lost);
     return fw_process_judge_reason(
         j, FW_ANSWER_OPEN,
         "the time of step %s alone does not hold its window of %s to %s um: with a rate between %s "
-        "and %s %s, what is surely free by the longest time may have run %s um. Stop by the "
-        "release ladder of the test die: when its plates up to a reach of %s um are free, and none "
-        "beyond %s um",
-        s->id, fw_process_judge_um(&t, reach_m), fw_process_judge_um(&t, lost),
-        fw_process_judge_number(&t, fw_quantity_in_unit(&slowest), 3),
+        "and %s %s, the planned time, over-etch included, may have run %s um, what is surely free "
+        "by the longest time %s um, and the stop time %s um. Stop by the release ladder of the "
+        "test die: when its plates up to a reach of %s um are free, and none beyond %s um",
+        s->id, from, to, fw_process_judge_number(&t, fw_quantity_in_unit(&slowest), 3),
         fw_process_judge_number(&t, fw_quantity_in_unit(&fastest), 3), rate->unit,
-        isfinite(most) ? fw_process_judge_um(&t, most) : "any", fw_process_judge_um(&t, reach_m),
-        fw_process_judge_um(&t, lost));
+        fw_process_judge_um(&t, run.planned_m),
+        isfinite(run.slowest_m) ? fw_process_judge_um(&t, run.slowest_m) : "any",
+        fw_process_judge_um(&t, run.stop_m), from, to);
 }
 
 /* the argument of a law with a lag that says how large it is; -1: none */

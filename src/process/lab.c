@@ -347,6 +347,8 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
     for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++)
         if (flow->corner[i].aim_m > 0.0) flow->corner[i].aim_m = flow->thickness->value;
     FW_TRY(fw_process_flow_lint_values(arena, flow, diags));
+    for (int i = 0; i < flow->nstep; i++)
+        fw_process_step_overrun(&flow->step[i]);
     FW_TRY(fw_process_corners_follow(arena, flow));
     FW_TRY(fw_process_flow_waits(arena, flow)); /* their longest times are values, too */
     return diags->errors > before ? FW_INPUT : FW_OK;

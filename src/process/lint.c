@@ -235,6 +235,10 @@ static const struct {
     {"is a wafer that is in pieces handled as dies?", fw_process_lint_parted, false},
     {"do contaminated wafers stay in tools that take them?", fw_process_lint_contamination, false},
     {"does an etch take what it shall, and of the front alone?", fw_process_lint_chemistry, false},
+    {"are ratios ratios, and constants those of the metal that is plated?", fw_process_lint_meant,
+     true},
+    {"does every corner move what is made, and has what is uncertain one?", fw_process_lint_corners,
+     false},
 };
 
 fw_status fw_process_pack_lint(fw_process_pack *pack) {

@@ -431,12 +431,39 @@ static void lint_profile(fw_process_pack *pack, const fw_process_step *s) {
     }
 }
 
+/* does the time of a step go by q, by what the step derives on the way, too? */
+static bool goes_by(const fw_process_step *s, const fw_quantity *q) {
+    for (int i = 0; i < s->nargument; i++) {
+        if (s->argument[i].q == q) return true;
+        for (int k = 0; k < s->nderive; k++)
+            for (int j = 0; s->derive[k].q == s->argument[i].q && j < s->derive[k].nargument; j++)
+                if (s->derive[k].argument[j].q == q) return true;
+    }
+    return false;
+}
+
+/* an etch that runs sideways until its reach is run, whatever step does it; false: said */
+static bool lint_run(fw_process_pack *pack, const fw_process_step *s) {
+    for (int k = 0; k < s->nchange; k++) {
+        const fw_quantity *reach = s->change[k].reach;
+        if (!reach || goes_by(s, reach)) continue;
+        fw_diag_error(pack->diags, 541, s->place,
+                      "step %s (%s) runs sideways until '%s' is run, and its time goes by '%s' "
+                      "alone, however far that is; write the law \"rate\" with that reach as its "
+                      "thickness and its rate sideways, unknown where nobody knows it, and give a "
+                      "time to plan with by --planned",
+                      s->id, s->op, reach->id, s->nargument ? s->argument[0].q->id : "its law");
+        return false;
+    }
+    return true;
+}
+
 /* A layer that is etched or plated by a clock that does not know its thickness: no window, no over-etch, and no other
    time for another thickness. */
 static void lint_clock(fw_process_pack *pack, const fw_process_step *s) {
     static const char by_rate[] = "anodise dry-etch plate wet-etch";
     const fw_process_law *law = fw_process_law_find(s->law);
-    if (!law || !law->stated || !fw_words_hold(by_rate, " ", s->op)) return;
+    if (!lint_run(pack, s) || !law || !law->stated || !fw_words_hold(by_rate, " ", s->op)) return;
     for (int k = 0; k < s->nchange; k++)
         if (s->change[k].thickness || s->change[k].reach) {
             const bool current =

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "process/calibrate.h"
 #include "process/coupon.h"
+#include "process/films.h"
 #include "process/pack.h"
 #include <math.h>
 #include <string.h>
@@ -353,5 +354,142 @@ fw_status fw_process_flow_times_with(fw_arena *arena, fw_process_flow *flow,
     FW_TRY(status);
     for (int i = 0; i < flow->nstep; i++)
         time[i] = flow->step[i].time;
+    return FW_OK;
+}
+
+/* ---- do corners move what is made? ----
+   A corner is what the verdict looks at the ends of. One that names what the device is not made by is dropped there, and
+   what is uncertain and has none is taken for exact: both accept what is not known. Test: test_corners.c. */
+
+static bool is_uncertain(const fw_quantity *q) {
+    return q->unknown || q->uncertainty > 0.0;
+}
+
+/* the change by whose anisotropy q the device is cut, or what masks it; any where q is NULL */
+static const fw_process_change *cut_by(const fw_process_flow *f, const fw_quantity *q,
+                                       const fw_process_step **by) {
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (!c->anisotropy || (q && c->anisotropy != q) ||
+                !fw_process_where_is_of_device(f, c->where))
+                continue;
+            *by = &f->step[i];
+            return c;
+        }
+    return NULL;
+}
+
+/* the step that sets q, is timed with it, or makes a layer so thick */
+static const fw_process_step *taken_by(const fw_process_flow *f, const fw_quantity *q) {
+    for (int i = 0; i < f->nstep; i++) {
+        const fw_process_step *s = &f->step[i];
+        bool takes = fw_process_step_sets(s, q);
+        for (int k = 0; k < s->nargument; k++)
+            takes = takes || s->argument[k].q == q;
+        for (int k = 0; k < s->nchange; k++)
+            takes = takes || s->change[k].thickness == q;
+        if (takes) return s;
+    }
+    return NULL;
+}
+
+/* the step that makes another layer than the device's so thick; NULL: none does */
+static const fw_process_step *of_another(const fw_process_flow *f, const fw_quantity *q) {
+    for (int i = 0; i < f->nstep && q != f->thickness; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            if (f->step[i].change[k].thickness == q && f->material &&
+                strcmp(f->step[i].change[k].material, f->material) != 0)
+                return &f->step[i];
+    return NULL;
+}
+
+static void lint_corner(fw_process_pack *pack, const fw_process_corner *c) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = NULL;
+    const fw_process_change *cut;
+    switch (c->of) {
+    case FW_CORNER_ANISOTROPY:
+        if (!c->q || cut_by(f, c->q, &s)) return;
+        cut = cut_by(f, NULL, &s);
+        fw_diag_error(pack->diags, 664, c->place,
+                      "the corner '%s' names '%s', by which no step cuts the device: it moves "
+                      "nothing%s%s%s%s%s",
+                      c->name, c->q->id, cut ? "; step " : "; leave it out", cut ? s->id : "",
+                      cut ? " cuts it with '" : "", cut ? cut->anisotropy->id : "", cut ? "'" : "");
+        return;
+    case FW_CORNER_THICKNESS:
+        if (c->q && (s = of_another(f, c->q)))
+            fw_diag_error(pack->diags, 664, c->place,
+                          "the corner '%s' names '%s', which is the thickness of another layer "
+                          "(step %s): it says nothing of the device's, '%s'",
+                          c->name, c->q->id, s->id, f->thickness ? f->thickness->id : "");
+        return;
+    case FW_CORNER_EDGE:
+    case FW_CORNER_LOCAL:
+    case FW_CORNER_TAPER:
+        if (c->q && (s = taken_by(f, c->q)))
+            fw_diag_error(pack->diags, 664, c->place,
+                          "the corner '%s' names '%s', with which step %s works: it is not where "
+                          "an edge or a wall comes out; name what is measured of that, as '%s'",
+                          c->name, c->q->id, s->id, FW_PROCESS_PRINTED_EDGE);
+        return;
+    case FW_CORNER_YOUNGS:
+        return;
+    }
+}
+
+static bool has_corner(const fw_process_flow *f, const fw_quantity *q) {
+    for (int i = 0; i < f->ncorner; i++)
+        if (f->corner[i].q == q || f->corner[i].assumed == q || f->corner[i].within == q)
+            return true;
+    return false;
+}
+
+static bool has_corner_of(const fw_process_flow *f, fw_process_corner_of of, bool etched) {
+    for (int i = 0; i < f->ncorner; i++)
+        if (f->corner[i].of == of && (!etched || f->corner[i].etched)) return true;
+    return false;
+}
+
+static void lint_lacking(fw_process_pack *pack, const fw_quantity *q, fw_place place,
+                         const char *moves, const char *corner) {
+    fw_diag_warning(pack->diags, 665, place,
+                    "'%s' is not known exactly and %s, but no corner has it: the verdict takes it "
+                    "for exact; add <corner of=\"%s\" .../>",
+                    q->id, moves, corner);
+}
+
+/* ... and what of a step moves edges */
+static void lint_moving(fw_process_pack *pack, const fw_process_step *s,
+                        const fw_process_change *c) {
+    const fw_process_flow *f = pack->flow;
+    if (!fw_process_where_is_of_device(f, c->where)) return;
+    if (c->anisotropy && is_uncertain(c->anisotropy) && !has_corner(f, c->anisotropy))
+        lint_lacking(pack, c->anisotropy, c->place, "moves the walls of the device", "anisotropy");
+    const fw_quantity *rate = fw_process_step_argument(s, "rate");
+    if (c->isotropic && rate && is_uncertain(rate) && !has_corner_of(f, FW_CORNER_EDGE, true))
+        lint_lacking(pack, rate, c->place, "moves every edge as far sideways as down",
+                     "edge\" etched=\"yes");
+}
+
+fw_status fw_process_lint_corners(fw_process_pack *pack) {
+    static const char made[] = "made.";
+    const fw_process_flow *f = pack->flow;
+    for (int i = 0; i < f->ncorner; i++)
+        lint_corner(pack, &f->corner[i]);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            lint_moving(pack, &f->step[i], &f->step[i].change[k]);
+    for (int i = 0; i < f->nquantity; i++) {
+        const fw_quantity *q = f->quantity[i];
+        if (!q->id || !is_uncertain(q) || has_corner(f, q)) continue;
+        if (strcmp(q->id, FW_PROCESS_PRINTED_EDGE) == 0)
+            lint_lacking(pack, q, q->place, "moves every edge that is printed", "edge");
+        else if (strncmp(q->id, made, strlen(made)) == 0)
+            lint_lacking(pack, q, q->place, "says how the device is made", "...");
+        else if (q == f->thickness && !has_corner_of(f, FW_CORNER_THICKNESS, false))
+            lint_lacking(pack, q, q->place, "is the thickness of the device's layer", "thickness");
+    }
     return FW_OK;
 }

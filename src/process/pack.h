@@ -183,6 +183,10 @@ fw_status fw_process_lint_reactivity(fw_process_pack *pack);
 bool fw_process_only_dries(const fw_process_hazard *h);
 fw_status fw_process_lint_warmth(fw_process_pack *pack);
 fw_status fw_process_lint_chemistry(fw_process_pack *pack); /* reactivity.c (FW-D629, FW-D632) */
+fw_status
+fw_process_lint_meant(fw_process_pack *pack); /* reactivity.c (FW-D669, FW-D674, FW-D675) */
+/* measurable.c (FW-D664, FW-D665) */
+fw_status fw_process_lint_corners(fw_process_pack *pack);
 
 /* what a step takes of a material that lies open, nominal and at two standard uncertainties; m, NaN
    when an input is not known */
@@ -197,6 +201,7 @@ fw_status fw_process_lint_loss(fw_arena *arena, fw_process_flow *flow, int index
 fw_status fw_process_lint_mould(fw_arena *arena, fw_process_flow *flow, int index,
                                 const fw_process_change *change, fw_diags *diags);
 
+double fw_process_step_depth(const fw_process_step *step, double solved_m);
 /* the relative uncertainty of what is lost at a rate, the step's own or another, in a time */
 double fw_process_lost_uncertainty(bool own, double u_rate, double u_time);
 
@@ -289,6 +294,8 @@ fw_status fw_process_judge_etching(fw_process_judge *j);
 
 /* from the distances of the device's openings: the reach that frees it (judge_release.c) */
 fw_status fw_process_judge_release(fw_process_judge *j);
+/* is this a reach that the pack leaves to the mask? */
+bool fw_process_release_solves(const fw_process_flow *flow, const fw_quantity *q);
 /* fills the reaches that the pack leaves to the mask; after the edges are solved */
 void fw_process_release_fill(fw_process_flow *flow, const fw_process_mask_facts *facts);
 

@@ -40,10 +40,10 @@ typedef struct fw_process_equipment {
 
 typedef struct fw_process_material { /* for the wafer's layer stack */
     const char *id, *name;
-    const char *contaminates;     /* group, "copper"; "" = none */
-    bool holes;                   /* a film that does not protect what is below it */
-    int conducts;                 /* metal can be plated on it: 1 yes, 0 no, -1: not said */
-    const fw_quantity *highest_K; /* temperature that it bears; NULL: not said */
+    const char *contaminates; /* group, "copper"; "" = none */
+    bool holes;               /* a film that does not protect what is below it */
+    int conducts;             /* metal can be plated on it: 1 yes, 0 no, -1: not said */
+    const fw_quantity *highest_K, *density; /* temperature that it bears; NULL: not said */
     fw_place place;
 } fw_process_material;
 

@@ -427,17 +427,28 @@ double fw_process_lost_uncertainty(bool own, double u_rate, double u_time) {
     return own ? fmax(u_rate, rest) : hypot(u_rate, u_time);
 }
 
-/* d (1 + overrun) of the deepest that the step removes, as often as the time is longer than that of wide openings: R T, how
-   deep a wide opening would be etched. m; NaN: not known */
-static double wide_depth(const fw_process_step *s) {
-    const double slowed = s->time.computable ? s->time.slowed : 1.0;
+/* the farthest that the step etches: down, or sideways below what stands (solved_m where the pack leaves that to the mask) */
+double fw_process_step_depth(const fw_process_step *s, double solved_m) {
     double deepest = (double)NAN;
     for (int i = 0; i < s->nchange; i++) {
-        const fw_quantity *d = s->change[i].thickness;
-        if (strcmp(s->change[i].kind, "remove") == 0 && d && !d->unknown)
-            deepest = fmax(isnan(deepest) ? 0.0 : deepest, d->value);
+        const fw_process_change *c = &s->change[i];
+        const fw_quantity *d = c->reach ? c->reach : c->thickness;
+        const double far =
+            c->reach && c->reach->status == FW_DERIVED ? solved_m : fw_process_judge_known(d);
+        if (strcmp(c->kind, "remove") == 0 && !isnan(far))
+            deepest = fmax(isnan(deepest) ? 0.0 : deepest, far);
     }
-    return deepest * slowed * (1.0 + s->overrun);
+    return deepest;
+}
+
+/* d (1 + overrun) of that, as often as the time is longer than that of wide openings: R T, how deep a wide opening would be
+   etched. m; NaN: not known */
+static double wide_depth(const fw_process_step *s) {
+    const double slowed = s->time.computable ? s->time.slowed : 1.0;
+    double solved = (double)NAN;
+    for (int i = 0; i < s->nchange; i++)
+        if (s->change[i].reach) solved = fw_process_judge_known(s->change[i].reach);
+    return fw_process_step_depth(s, solved) * slowed * (1.0 + s->overrun);
 }
 
 /* Loss of an exposed material in a step, nominal and at two standard uncertainties:

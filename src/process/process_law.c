@@ -303,3 +303,23 @@ void fw_process_law_window(const fw_process_law_answer *answer, double k, double
     time->clear_by_s = answer->value + k * answer->uncertainty;
     time->stop_s = time->clear_by_s * (1.0 + overrun);
 }
+
+const fw_process_argument *fw_process_law_wide(const fw_process_law_use *use,
+                                               fw_process_argument *list, fw_quantity *none,
+                                               bool guess) {
+    bool out = false;
+    if (!use->law || !use->law->lags || use->nargument > FW_LAW_ARGUMENTS) return use->argument;
+    for (int i = 0; i < use->nargument; i++) {
+        const fw_process_argument a = use->argument[i];
+        bool lag = strcmp(a.name, "probability") == 0 || strcmp(a.name, "lag") == 0;
+        list[i] = a;
+        if (!lag || (guess && !fw_process_lag_is_guess(a.q))) continue;
+        *none = *a.q;
+        none->value = none->uncertainty = 0.0;
+        none->unknown = false;
+        none->status = FW_MEASURED; /* no part of the answer */
+        list[i].q = none;
+        out = true;
+    }
+    return out ? list : use->argument;
+}

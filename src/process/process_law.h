@@ -119,6 +119,11 @@ int fw_process_law_argument_index(const fw_process_law *law, const char *name);
 /* the law of a step's time with as many arguments in place of its own; what else it needs is not asked for */
 fw_process_law_use fw_process_law_of_step(const fw_process_step *step,
                                           const fw_process_argument *argument);
+/* the arguments of a law without its lag, of which a list and one quantity are kept by the caller: the time of wide openings.
+   `guess`: only where the lag is assumed */
+const fw_process_argument *fw_process_law_wide(const fw_process_law_use *use,
+                                               fw_process_argument *list, fw_quantity *none,
+                                               bool guess);
 /* FW_OK also when it is not computable (answer->computable false, missing filled) */
 fw_status fw_process_law_evaluate(fw_arena *arena, const fw_process_law_use *use,
                                   fw_process_law_answer *answer);

@@ -61,7 +61,7 @@ static fw_status read_hazard(fw_process_pack *pack, const fw_xml_record *e, fw_p
     return FW_OK;
 }
 
-/* of a material's own quantities the process needs what it bears; the others are device/'s */
+/* of a material's own quantities the process needs what it bears and weighs; the others are device/'s */
 static fw_status read_material(fw_process_pack *pack, const fw_xml_record *e,
                                fw_process_material *m) {
     const char *conducts = fw_process_pack_text(e, "conducts");
@@ -72,12 +72,17 @@ static fw_status read_material(fw_process_pack *pack, const fw_xml_record *e,
                                .conducts = conducts[0] ? strcmp(conducts, "yes") == 0 : -1,
                                .place = e->element->place};
     for (const fw_xml_record *c = e->first_child; c; c = c->next) {
-        if (strcmp(fw_process_pack_text(c, "id"), "highest-temperature") != 0) continue;
+        const bool density = strcmp(fw_process_pack_text(c, "id"), "density") == 0;
+        if (!density && strcmp(fw_process_pack_text(c, "id"), "highest-temperature") != 0) continue;
         fw_quantity *q = fw_arena_one(pack->arena, fw_quantity);
         FW_NEED(q);
         fw_status status = fw_xml_quantity_read(pack->arena, c->element, pack->source,
                                                 pack->nsource, pack->diags, q);
         if (status != FW_OK && status != FW_INPUT) return status;
+        if (density) {
+            m->density = q;
+            continue;
+        }
         if (!fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){.K = 1}))
             fw_diag_error(pack->diags, 169, c->element->place,
                           "highest-temperature is not a temperature; write it in Cel or K");

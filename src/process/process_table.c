@@ -231,7 +231,9 @@ static const fw_xml_attribute_row change_rows[] = {
     {"material", TO(MATERIAL), REQUIRED, .sentence = "To which layer, or what it becomes."},
     {"thickness", TO(QUANTITY), .sentence = "How much of it."},
     {"where", TOKEN, .fallback = "all",
-     .sentence = "structure: what stays of the device; field: all else; or a part of a <plate>."},
+     .sentence = "structure: what stays of the device; field: all else; or a part of a <plate>. "
+                 "With reach, all means that everything comes off, frame and bases, too, and only "
+                 "islands are asked to stay; with field, what carries the device has to."},
     {"spans", WORD(yes_no), .fallback = "no",
      .sentence = "add: it lies on the highest ground, and hollows below it stay hollow."},
     {"from", TO(MATERIAL), .sentence = "convert: what is turned into the material."},
@@ -241,7 +243,9 @@ static const fw_xml_attribute_row change_rows[] = {
     {"anisotropy", TO(QUANTITY), .sentence = "Of a masked etch: 1 less lateral over vertical."},
     {"compensate", WORD(faces), .fallback = "middle",
      .sentence = "The face whose edge the mask brings to where it is drawn."},
-    {"spread", TO(QUANTITY), .sentence = "Of a plating: largest local thickness over the mean."},
+    {"spread", TO(QUANTITY),
+     .sentence = "Of a plating: largest local thickness over the mean, at least 1 (1.12 where the "
+                 "thickest place has 12 % more)."},
     {"across", TO(QUANTITY),
      .sentence = "Diameter of the circle about the wafer's centre inside which it is made."},
     {"reach", TO(QUANTITY),

@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "process/films.h"
 #include "process/pack.h"
+#include <math.h>
 #include <string.h>
 
 typedef enum group {
@@ -320,6 +321,96 @@ fw_status fw_process_lint_chemistry(fw_process_pack *pack) {
     for (int i = 0; i < pack->flow->nstep; i++) {
         lint_taken(pack, &pack->flow->step[i]);
         FW_TRY(lint_both(pack, i));
+    }
+    return FW_OK;
+}
+
+/* ---- do the numbers of a step belong to what it is of? ---- */
+
+/* g/mol of what is plated. IUPAC 2021 */
+static const struct {
+    const char *metal;
+    double g_per_mol;
+} molar[] = {{"chromium", 51.996}, {"cobalt", 58.933},   {"copper", 63.546},  {"gold", 196.967},
+             {"indium", 114.818},  {"iron", 55.845},     {"nickel", 58.693},  {"palladium", 106.42},
+             {"platinum", 195.08}, {"rhodium", 102.906}, {"silver", 107.868}, {"tin", 118.71},
+             {"zinc", 65.38}};
+
+/* the metal that a material is named for; -1: none of them, or several, as an alloy */
+static int metal_of(const fw_process_material *m) {
+    int found = -1;
+    for (int i = 0; i < (int)(sizeof molar / sizeof molar[0]); i++) {
+        if (!strstr(m->name, molar[i].metal) && !strstr(m->id, molar[i].metal)) continue;
+        if (found >= 0) return -1;
+        found = i;
+    }
+    return found;
+}
+
+/* Faraday's law with the constants of another metal plates another thickness in its time, and nothing on the wafer shows
+   it before it is measured. Densities are apart where they differ by half a percent and by more than both are known to. */
+static void lint_faraday(fw_process_pack *pack, const fw_process_step *s,
+                         const fw_process_change *c) {
+    const fw_process_material *m = fw_process_flow_material(pack->flow, c->material);
+    const fw_quantity *rho = fw_process_step_argument(s, "density"),
+                      *M = fw_process_step_argument(s, "molar_mass");
+    char is[32], own[32];
+    if (!m || strcmp(c->kind, "add") != 0) return;
+    const int metal = metal_of(m);
+    if (rho && !rho->unknown && m->density && !m->density->unknown) {
+        const double apart = fabs(rho->value - m->density->value);
+        if (apart > 0.005 * m->density->value &&
+            apart > hypot(rho->uncertainty, m->density->uncertainty))
+            fw_diag_warning(pack->diags, 674, s->place,
+                            "step %s plates '%s' with a density of %s kg/m3 (%s), and that of the "
+                            "material is %s kg/m3: the time is that of another metal; name the "
+                            "material's own",
+                            s->id, m->id, fw_number_text(is, sizeof is, rho->value, 5), rho->id,
+                            fw_number_text(own, sizeof own, m->density->value, 5));
+    }
+    if (M && !M->unknown && metal >= 0 &&
+        fabs(1e3 * M->value - molar[metal].g_per_mol) > 0.01 * molar[metal].g_per_mol)
+        fw_diag_warning(pack->diags, 674, s->place,
+                        "step %s plates '%s' with a molar mass of %s g/mol (%s), and %s has %s "
+                        "g/mol: the time is that of another metal; correct it",
+                        s->id, m->id, fw_number_text(is, sizeof is, 1e3 * M->value, 5), M->id,
+                        molar[metal].metal,
+                        fw_number_text(own, sizeof own, molar[metal].g_per_mol, 6));
+}
+
+static fw_place place_of(const fw_quantity *q, fw_place otherwise) {
+    return q->replaced ? q->place : otherwise;
+}
+
+/* a ratio that is written as the share by which it exceeds 1, or the other way round */
+static void lint_share(fw_process_pack *pack, const fw_process_step *s,
+                       const fw_process_change *c) {
+    char is[32], meant[32];
+    const fw_quantity *f = c->spread, *A = c->anisotropy;
+    if (f && !f->unknown && f->value < 1.0)
+        fw_diag_error(pack->diags, 669, place_of(f, c->place),
+                      "the spread of step %s is %s (%s), but it is the largest local thickness "
+                      "over the mean, which is 1 at least; where the thickest place has %s %% more "
+                      "than the mean, write %s",
+                      s->id, fw_number_text(is, sizeof is, f->value, 4), f->id,
+                      fw_number_text((char[32]){0}, 32, 100.0 * f->value, 4),
+                      fw_number_text(meant, sizeof meant, 1.0 + f->value, 5));
+    if (A && !A->unknown && A->value < 0.5)
+        fw_diag_error(pack->diags, 675, place_of(A, c->place),
+                      "step %s etches with an anisotropy of %s (%s), that is nearly as much "
+                      "sideways as down: it is 1 less lateral over vertical, and 1 for a straight "
+                      "wall; write %s where %s is lateral over vertical, or profile=\"isotropic\"",
+                      s->id, fw_number_text(is, sizeof is, A->value, 4), A->id,
+                      fw_number_text(meant, sizeof meant, 1.0 - A->value, 5), is);
+}
+
+fw_status fw_process_lint_meant(fw_process_pack *pack) {
+    for (int i = 0; i < pack->flow->nstep; i++) {
+        const fw_process_step *s = &pack->flow->step[i];
+        for (int k = 0; k < s->nchange; k++) {
+            lint_share(pack, s, &s->change[k]);
+            if (strcmp(s->law, "faraday") == 0) lint_faraday(pack, s, &s->change[k]);
+        }
     }
     return FW_OK;
 }

@@ -483,68 +483,9 @@ bool fw_process_step_is_wet(const fw_process_step *s) {
     static const char *const wet[] = {"wet-etch", "strip", "release", "clean", "develop"};
     for (size_t i = 0; i < sizeof wet / sizeof *wet; i++)
         if (strcmp(s->op, wet[i]) == 0) return true;
-    return false;
-}
-
-static double relative(const fw_quantity *q) {
-    return q->value != 0.0 ? q->uncertainty / fabs(q->value) : 0.0;
-}
-
-static const char *unknown_of(const fw_quantity *q) {
-    return q && !q->unknown ? NULL : q && q->id ? q->id : "an input of its time";
-}
-
-/* l = r T (1 + overrun) with T = d/R of the law `rate`, or the time of the law `const`. r the rate
-   at which the device is taken, R that of what the step is for: where both are the same quantity it
-   cancels in l. In: one step. Out: l and its standard uncertainty, m; the id of
-   what is not known, or NULL. Other laws say nothing here. */
-static const char *loss_of(const fw_process_step *s, const fw_quantity *r, double *loss_m,
-                           double *u_m) {
-    const fw_process_law *law = fw_process_law_find(s->law);
-    bool rate = law && law->by_rate, fixed = law && law->stated;
-    const fw_quantity *length = fw_process_step_argument(s, rate ? "thickness" : "time"),
-                      *R = fw_process_step_argument(s, "rate");
-    double share = 0.0, u_rate = 0.0;
-    if (!rate && !fixed) return "the time of its law";
-    if (unknown_of(length)) return unknown_of(length);
-    *loss_m = length->value * (1.0 + s->overrun);
-    share = relative(length);
-    if (!rate || r != R) { /* over R, and times r */
-        if (unknown_of(r)) return unknown_of(r);
-        if (rate && unknown_of(R)) return unknown_of(R);
-        *loss_m *= rate ? r->value / R->value : r->value;
-    }
-    if (rate && !R->unknown) share = hypot(share, relative(R));
-    if (!r->unknown) u_rate = relative(r);
-    *u_m = fw_process_lost_uncertainty(rate && r == R, u_rate, share) * *loss_m;
-    return NULL;
-}
-
-/* Sum over the steps that say <exposed> of the device's own material with a rate, losses added,
-   uncertainties in quadrature. Source: docs/theory/process.md, "What a step takes along".
-   Test: test_wear.c. */
-fw_process_wear fw_process_flow_wear(const fw_process_flow *flow) {
-    fw_process_wear w = {0};
-    for (int i = 0; flow->material && i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        for (int k = 0; k < s->nexposed && fw_process_step_is_wet(s); k++) {
-            const fw_process_exposed *x = &s->exposed[k];
-            double loss = 0.0, u = 0.0;
-            if (strcmp(x->material, flow->material) != 0 || !x->rate) continue;
-            if (!w.step) {
-                w.step = s;
-                w.exposed = x;
-            }
-            const char *missing = loss_of(s, x->rate, &loss, &u);
-            if (missing) {
-                if (!w.missing) w.missing = missing;
-                continue;
-            }
-            w.loss_m += loss;
-            w.uncertainty_m = hypot(w.uncertainty_m, u);
-        }
-    }
-    return w;
+    for (int k = 0; k < s->nchange; k++)
+        if (s->change[k].reach || s->change[k].isotropic) return true;
+    return fw_process_step_in_liquid(s);
 }
 
 /* ---- what is new after a step ---- */

@@ -165,10 +165,10 @@ static void edges(const fw_process_flow *flow, fw_json *out) {
     const fw_process_fixed_point *p = &flow->edges;
     fw_json_object(out, "edges");
     fw_json_truth(out, "solved", p->solved);
-    fw_json_truth(out, "open", p->open || p->wet_open || p->worn_open);
+    fw_json_truth(out, "open", p->open || p->wet_open || p->wear.missing);
     number(out, "printed_m", p->printed_m);
     number(out, "wet_m", p->wet_m);
-    number(out, "worn_m", p->worn_m);
+    number(out, "worn_m", p->wear.loss_m);
     number(out, "etch_m", p->etch_m);
     number(out, "least_bias_m", p->low_m);
     number(out, "most_bias_m", p->high_m);

@@ -457,14 +457,26 @@ static fw_status hours_of(making *w, const fw_process_tool_time *t, fw_schedule_
     return FW_OK;
 }
 
+static fw_status undated(const fw_process_tool_time *t, fw_diags *diags) {
+    return fw_diag_error(diags, 376, t->place,
+                         "'%s' is closed on dates, and the plan has none: begin it on one, "
+                         "--day \"08:00-18:00 from %s\"",
+                         t->equipment, t->from);
+}
+
+fw_status fw_schedule_tool_dates(const fw_process_flow *flow, const char *day, fw_diags *diags) {
+    fw_schedule_calendar calendar;
+    if (!fw_schedule_calendar_parse(day ? day : FW_WORKING_DAY, &calendar) || calendar.dated)
+        return FW_OK; /* what is no day at all is said where it was read */
+    for (int i = 0; i < flow->ntool_time; i++)
+        if (!flow->tool_time[i].open) return undated(&flow->tool_time[i], diags);
+    return FW_OK;
+}
+
 static fw_status closed_of(making *w, const fw_process_tool_time *t, fw_schedule_machine *m) {
     long from, to;
     FW_TRY(read_closed(t, &from, &to, w->diags));
-    if (!w->day->dated)
-        return fw_diag_error(w->diags, 376, t->place,
-                             "'%s' is closed on dates, and the plan has none: begin it on one, "
-                             "--day \"08:00-18:00 from %s\"",
-                             t->equipment, t->from);
+    if (!w->day->dated) return undated(t, w->diags);
     double *span = w->closed_s[m->nclosed++];
     span[0] = fw_schedule_calendar_elapsed(w->day, day_s * (double)(from - w->day->first_day));
     span[1] = fw_schedule_calendar_elapsed(w->day, day_s * (double)(to + 1 - w->day->first_day));

@@ -129,6 +129,8 @@ typedef struct fw_schedule_options {
 /* calendar.c: are the hours and dates of a laboratory's machines such? FW-D376. It is asked where a laboratory pack is read, also
    where nothing is scheduled */
 fw_status fw_schedule_tool_words(const fw_process_flow *flow, fw_diags *diags);
+/* have machines that are closed on dates a plan that begins on one? FW-D376; before anything is computed */
+fw_status fw_schedule_tool_dates(const fw_process_flow *flow, const char *day, fw_diags *diags);
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *calendar);
 /* FW_OK also when there is no schedule: feasible is false and `why` says it. FW_LIMIT: too large */
 fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,

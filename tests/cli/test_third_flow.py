@@ -67,6 +67,42 @@ class ThirdFlow(unittest.TestCase):
         self.assertTrue(all(s["in_source"] is False for s in recipe["steps"]))
         self.assertFalse([q for s in recipe["steps"] for q in s["quantities"] if q["status"] == "stated"])
 
+    def own_packs(self, **edits):
+        """a data directory whose third flow has texts exchanged"""
+        data = self.here / "data"
+        for room in ("processes", "masks"):
+            shutil.copytree(ROOT / room, data / room)
+        pack = data / "processes" / (FLOW + ".xml")
+        text = pack.read_text()
+        for old, new in edits.values():
+            self.assertIn(old, text)
+            text = text.replace(old, new, 1)
+        pack.write_text(text)
+        return dict(os.environ, FLEXWRIGHT_DATA=str(data))
+
+    def test_its_own_material_counts(self):
+        """what a flow gives again rules wherever that flow is judged, however good the shared one is"""
+        weak = ('<material id="silicon-100" name="our silicon" criterion="fracture" conducts="yes">'
+                '<q id="youngs" value="147" u="1.5" unit="GPa" status="typical" src="guess"/>'
+                '<q id="poisson" value="0.3" u="0.03" unit="1" status="assumed" src="guess"/>'
+                '<q id="density" value="2329" u="2" unit="kg/m3" status="typical" src="guess"/>'
+                '<q id="strength" value="0.01" u="0.002" unit="GPa" status="measured" src="guess"/></material>\n  ')
+        env = self.own_packs(a=("<equipment ", weak + "<equipment "))
+        text = device_of(GALLERY)
+        said = [json.loads(run("check", "-", "--advice", "none", "--json", input=text, env=e).stdout)
+                for e in (None, env)]
+        self.assertNotEqual(said[0]["decision"], "reject")
+        self.assertEqual(said[1]["decision"], "reject")
+
+    def test_closed_on_dates_is_said_at_once(self):
+        lab = self.here / "lab.xml"
+        lab.write_text('<process xmlns="urn:flexwright:process:1" flow="%s"><source id="day" kind="measured">x</source>'
+                       '<tool equipment="aligner" closed="2026-12-01"/></process>' % FLOW)
+        done = run("plan", "-", "--laboratory", lab, "-o", self.here / "out", input=device_of(GALLERY))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("FW-D376", done.stderr)
+        self.assertNotIn("hinge", done.stdout + done.stderr)
+
     def test_comb_drives_are_insulated_by_the_oxide(self):
         text = device_of(ROOT / "docs/gallery/comb-stage/device.xml").replace(' carrier="insulating"', "")
         recipe = self.recipe(text)

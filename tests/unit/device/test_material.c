@@ -227,12 +227,44 @@ static void memory_runs_out(void **state) {
     }
 }
 
+/* a flow's own material counts as a whole, sources of either file hold, and what it does not give is the shared one's */
+static void a_flow_gives_its_own(void **state) {
+    (void)state;
+    static const char shared[] =
+        PACK("<material id='a' name='A'><q id='youngs' value='100' u='1' unit='GPa' status='typical' "
+             "src='s'/><q id='strength' value='400' u='1' unit='MPa' status='typical' src='s'/>"
+             "</material><material id='b' name='B'/>"),
+        own[] = "<process><source id='o'>own</source><material id='a' name='ours'>"
+                "<q id='strength' value='40' u='4' unit='MPa' status='measured' src='o'/>"
+                "<q id='density' value='8900' u='1' unit='kg/m3' status='typical' src='s'/>"
+                "</material><material id='c' name='C'/></process>";
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_device_materials base, m;
+    assert_int_equal(
+        fw_device_materials_read(arena, "base.xml", shared, strlen(shared), &diags, &base), FW_OK);
+    assert_int_equal(
+        fw_device_materials_of_flow(arena, "f.xml", own, strlen(own), &base, &diags, &m), FW_OK);
+    const fw_device_material *a = fw_device_material_find(&m, "a");
+    assert_non_null(a);
+    assert_string_equal(a->name, "ours");
+    assert_near(a->strength.value, 40e6, 1);
+    assert_string_equal(a->strength.source, "own");
+    assert_string_equal(a->density.source, "src");
+    assert_true(a->youngs.unknown);
+    assert_non_null(fw_device_material_find(&m, "b"));
+    assert_non_null(fw_device_material_find(&m, "c"));
+    assert_int_equal(m.count, 3);
+    assert_near(fw_device_material_find(&base, "a")->strength.value, 400e6, 1);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_pack_is_sound), cmocka_unit_test(what_is_absent_is_unknown),
         cmocka_unit_test(crystals),          cmocka_unit_test(changes_with_temperature),
         cmocka_unit_test(overrides_replace), cmocka_unit_test(limits_asked_and_overridden),
-        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(memory_runs_out),   cmocka_unit_test(a_flow_gives_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -197,6 +197,93 @@ static void edge_of_an_etch_follows_its_rate(void **state) {
     }
 }
 
+/* a corner that names what the device is not made by would be dropped: refused, at its line */
+static void corners_that_move_nothing(void **state) {
+    (void)state;
+    static const struct {
+        const char *from, *to, *words;
+    } wrong[] = {{"q=\"drie.A\"/>\n  <corner of=\"thickness\"",
+                  "q=\"drie.S\"/>\n  <corner of=\"thickness\"", "cuts it with 'drie.A'"},
+                 {"name=\"thickness\" q=\"soi.d\"", "name=\"thickness\" q=\"box.d\"",
+                  "the thickness of another layer"},
+                 {"name=\"printed edge\" q=\"litho.edge\"",
+                  "name=\"printed edge\" q=\"litho.gap\"", "not where an edge or a wall"}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        diags = fw_diags_new(arena);
+        assert_null(read_pack(arena, "soi-deep-rie", wrong[i].from, wrong[i].to, &diags));
+        const fw_diag *d = said_of(664, wrong[i].words);
+        assert_non_null(d);
+        assert_in_range(d->place.line, 98, 100);
+    }
+}
+
+/* what is uncertain and has none is told by its name */
+static void corners_that_lack(void **state) {
+    (void)state;
+    static const struct {
+        const char *pack, *from, *words;
+    } gone[] = {
+        {"soi-deep-rie", "<corner of=\"anisotropy\" name=\"anisotropy\" q=\"drie.A\"/>", "'drie.A'"},
+        {"soi-deep-rie", "<corner of=\"edge\" name=\"printed edge\" q=\"litho.edge\"/>",
+         "'litho.edge'"},
+        {"soi-deep-rie", "<corner of=\"thickness\" name=\"thickness\" q=\"soi.d\"/>", "'soi.d'"},
+        {COPPER, "<corner of=\"taper\" name=\"slope of the walls\" q=\"made.wall\"/>",
+         "'made.wall'"},
+        {SILICON, " etched=\"yes\"/>", "moves every edge"}};
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++) {
+        diags = fw_diags_new(arena);
+        assert_non_null(
+            read_pack(arena, gone[i].pack, gone[i].from, i == 4 ? "/>" : "", &diags));
+        assert_non_null(said_of(665, gone[i].words));
+    }
+    static const char *const shipped[] = {"soi-deep-rie", "soi-double-sided", "silicon-on-glass",
+                                          COPPER, SILICON};
+    for (size_t i = 0; i < sizeof shipped / sizeof *shipped; i++) {
+        diags = fw_diags_new(arena);
+        assert_non_null(read_pack(arena, shipped[i], NULL, NULL, &diags));
+        assert_null(said_of(665, ""));
+        assert_null(said_of(674, ""));
+    }
+}
+
+/* ratios that are written as shares, and Faraday's law of another metal */
+static void numbers_that_are_meant(void **state) {
+    (void)state;
+    diags = fw_diags_new(arena);
+    fw_process_flow *f = read_pack(arena, COPPER, NULL, NULL, &diags);
+    fw_process_step *s = NULL;
+    fw_process_change *plated = NULL;
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            if (strcmp(f->step[i].op, "plate") == 0 &&
+                strcmp(f->step[i].change[k].material, "copper-plated") == 0)
+                s = &f->step[i], plated = &f->step[i].change[k];
+    assert_non_null(plated);
+    fw_quantity spread = {.id = "spread", .value = 0.12, .unit = "1"};
+    plated->spread = &spread;
+    assert_int_equal(fw_process_flow_lint_values(arena, f, &diags), FW_OK);
+    assert_non_null(said_of(669, "write 1.12"));
+    spread.value = 1.12;
+    diags = fw_diags_new(arena);
+    fw_quantity nickel[] = {{.id = "rho", .value = 8900, .uncertainty = 10, .unit = "kg/m3"},
+                            {.id = "M", .value = 0.058693, .unit = "g/mol"}};
+    for (int i = 0; i < s->nargument; i++) {
+        if (strcmp(s->argument[i].name, "density") == 0) s->argument[i].q = &nickel[0];
+        if (strcmp(s->argument[i].name, "molar_mass") == 0) s->argument[i].q = &nickel[1];
+    }
+    assert_int_equal(fw_process_flow_lint_values(arena, f, &diags), FW_OK);
+    assert_non_null(said_of(674, "copper has 63.546"));
+    assert_null(said_of(669, ""));
+    nickel[0].value = 8700; /* farther than the material's own 45 */
+    assert_int_equal(fw_process_flow_lint_values(arena, f, &diags), FW_OK);
+    assert_non_null(said_of(674, "a density of 8700"));
+    diags = fw_diags_new(arena);
+    f = read_pack(arena, "soi-deep-rie", NULL, NULL, &diags);
+    measured(f, "drie.A", 0.008, 0.002);
+    assert_int_equal(fw_process_flow_lint_values(arena, f, &diags), FW_OK);
+    assert_non_null(said_of(675, "write 0.992"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edge_of_an_etch_follows_its_rate),
@@ -205,6 +292,9 @@ int main(void) {
         cmocka_unit_test(the_copper_flow),
         cmocka_unit_test(hinges_of_their_own),
         cmocka_unit_test(mistakes_have_a_place),
+        cmocka_unit_test(corners_that_move_nothing),
+        cmocka_unit_test(corners_that_lack),
+        cmocka_unit_test(numbers_that_are_meant),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

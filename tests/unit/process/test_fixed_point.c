@@ -346,7 +346,7 @@ static seen look(fw_process_flow *f) {
     double R = fw_process_flow_quantity(f, "rie.R")->value;
     assert_relative(R * s->time.nominal_s, p->cut[0].planned_m, 1e-13);
     assert_relative(R * s->time.nominal_s * (1 + s->overrun), p->cut[0].etched_m, 1e-13);
-    assert_near(f->bias_m, p->wet_m + p->etch_m + p->printed_m + p->worn_m, 0);
+    assert_near(f->bias_m, p->wet_m + p->etch_m + p->printed_m + p->wear.loss_m, 0);
     assert_near(fabricated.edge_m, e.middle_m, 1e-18);
     assert_near(fabricated.flare_m, e.bottom_m - e.top_m, 1e-18);
     assert_near(fabricated.edge_m, 0, 1e-17);

@@ -60,6 +60,39 @@ static void time_follows(void **state) {
     }
 }
 
+/* A rate of 0.2 um/min known to u = 0.02: the longest time of the slowest runs 30 x 0.24/0.16 = 45 um with the fastest, and
+   the planned one, with 20 % over-etch, 43.2; the stop time of the sheet 30 x 1.2 x 1.2 x 1.2 = 51.84. An anchor that holds
+   for 48 um is lost by the last alone. */
+static void stop_time_counts(void **state) {
+    (void)state;
+    fw_process_mask_facts facts = plain_facts;
+    fw_process_flow *f = read_pack(arena, SOI, NULL, NULL, &diags);
+    facts.release = distances(30, 48);
+    measured(f, "release.R", 0.2 * UM / 60, 0.02 * UM / 60);
+    ((fw_quantity *)fw_process_flow_quantity(f, "release.R"))->interval = false;
+    assert_int_equal(fw_process_flow_compute(arena, f, &facts, &diags), FW_OK);
+    assert_true(f->manufacturable != 0);
+    assert_non_null(reason_with(f, "the stop time 5"));
+}
+
+/* an etch that runs sideways is timed by how far, whatever its step is called: by a clock alone, or by the film's thickness,
+   it is refused */
+static void time_goes_by_the_reach(void **state) {
+    (void)state;
+    static const char by[] =
+        "<time law=\"rate\" overrun=\"0.2\" k=\"2\"><arg name=\"thickness\" q=\"release.reach\"/>"
+        "<arg name=\"rate\" q=\"release.R\"/></time>";
+    static const char *const other[] = {
+        "<time law=\"const\" overrun=\"0.2\" k=\"2\"><arg name=\"time\" q=\"final.t\"/></time>",
+        "<time law=\"rate\" overrun=\"0.2\" k=\"2\"><arg name=\"thickness\" q=\"box.d\"/>"
+        "<arg name=\"rate\" q=\"release.R\"/></time>"};
+    for (int i = 0; i < 2; i++) {
+        diags = fw_diags_new(arena);
+        assert_null(read_pack(arena, SOI, by, other[i], &diags));
+        assert_non_null(said_of(541, "step D12 (release) runs sideways"));
+    }
+}
+
 static void no_drawing_no_time(void **state) {
     (void)state;
     fw_process_flow *f = judged(NULL, SOI);
@@ -184,6 +217,8 @@ static void what_may_come_off(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(time_follows, setup, teardown),
+        cmocka_unit_test_setup_teardown(stop_time_counts, setup, teardown),
+        cmocka_unit_test_setup_teardown(time_goes_by_the_reach, setup, teardown),
         cmocka_unit_test_setup_teardown(no_drawing_no_time, setup, teardown),
         cmocka_unit_test_setup_teardown(windows_close, setup, teardown),
         cmocka_unit_test_setup_teardown(stated_reaches_are_judged, setup, teardown),
