@@ -131,6 +131,15 @@ typedef struct
 } fw_process_etch;
 /* of the step that removes the flow's own material in a direction */
 fw_process_etch fw_process_flow_etch(const fw_process_flow *flow);
+typedef struct
+    fw_process_plating { /* quantities of a step that plates by its charge; each may be NULL */
+    const fw_quantity *thickness, *density, *valence, *molar_mass;
+    const fw_quantity *efficiency; /* with an id; NULL: there is no such step */
+    const char *material;
+    const char *made; /* id of how thick the device comes out, where it plates that; NULL */
+} fw_process_plating;
+/* the one whose efficiency is called so, else that of the flow's own material, else the first */
+fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const char *efficiency);
 /* id of the edge that lines of the mask layer read: of the layer that was etched under the resist, or the printed one */
 const char *fw_process_coupon_edge(const fw_process_flow *flow);
 /* what isotropic masked etches take from every edge on the way, and the mask adds: m */

@@ -375,6 +375,38 @@ fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
     return (fw_process_etch){0};
 }
 
+/* what comes of the thickness that is planned, by the corner of the device layer; NULL: no quantity says it */
+static const char *made_thickness(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->ncorner; i++)
+        if (flow->corner[i].of == FW_CORNER_THICKNESS && flow->corner[i].q)
+            return flow->corner[i].q->id;
+    return NULL;
+}
+
+fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const char *efficiency) {
+    fw_process_plating best = {0};
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const fw_quantity *eta = fw_process_step_argument(s, "efficiency");
+        if (!s->law || strcmp(s->law, fw_process_law_faraday.name) != 0 || !eta || !eta->id ||
+            !fw_process_step_is_op(s, "plate"))
+            continue;
+        fw_process_plating is = {.thickness = fw_process_step_argument(s, "thickness"),
+                                 .density = fw_process_step_argument(s, "density"),
+                                 .valence = fw_process_step_argument(s, "valence"),
+                                 .molar_mass = fw_process_step_argument(s, "molar_mass"),
+                                 .efficiency = eta};
+        for (int k = 0; k < s->nchange; k++)
+            if (strcmp(s->change[k].kind, "add") == 0) is.material = s->change[k].material;
+        const bool device =
+            is.material && flow->material && strcmp(is.material, flow->material) == 0;
+        if (device) is.made = made_thickness(flow);
+        if (strcmp(eta->id, efficiency) == 0) return is;
+        if (!best.efficiency || (device && !best.made)) best = is;
+    }
+    return best;
+}
+
 const char *fw_process_coupon_edge(const fw_process_flow *flow) {
     static const char etched[] = "made.al-edge";
     return has(flow, etched) ? etched : FW_PROCESS_PRINTED_EDGE;

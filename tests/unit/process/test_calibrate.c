@@ -709,6 +709,48 @@ static void given_twice(void **state) {
     assert_int_equal(d->place.line, 3);
 }
 
+/* Another metal in another pack: its constants are those of the step that plates the device, whatever their ids are, and what
+   is found has the id of that step's efficiency and of the thickness that the flow makes. */
+static void another_metal(void **state) {
+    (void)state;
+    size_t nb = 0, n = 0;
+    const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, COPPER, &n);
+    static const char *const id[][2] = {{"cu.M", "pt.M"},     {"cu.n", "pt.n"},       {"cu.eta", "pt.yield"},
+                                        {"cu.rho", "pt.rho"}, {"made.cu", "made.pt"}, {"id=\"pt.M\" value=\"63.546\"", "id=\"pt.M\" value=\"195.08\""}};
+    for (size_t i = 0; i < sizeof id / sizeof *id; i++)
+        for (int k = 0; k < 2; k++)
+            while (strstr(k ? base : text, id[i][0]))
+                *(k ? &base : &text) = replaced(arena, k ? base : text, id[i][0], id[i][1], k ? &nb : &n);
+    fw_process_flow *f = NULL;
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &f), FW_OK);
+    fw_process_calibration c;
+    truth t[2];
+    nrow = 0;
+    seed = 7;
+    mass(t);
+    const double eta = t[0].value;
+    for (int i = 0; i < nrow; i++)
+        rows[i].value *= 195.08 / 63.546, rows[i].uncertainty *= 195.08 / 63.546;
+    assert_int_equal(fw_process_calibrate(arena, f, rows, nrow, &diags, &c), FW_OK);
+    assert_true(fabs(found(&c, "pt.yield")->value - eta) < 3 * found(&c, "pt.yield")->uncertainty);
+    nrow = 0;
+    pads(t);
+    for (int i = 0; i < nrow; i++)
+        rows[i].value *= 195.08 / 63.546, rows[i].uncertainty *= 195.08 / 63.546;
+    assert_int_equal(fw_process_calibrate(arena, f, rows, nrow, &diags, &c), FW_OK);
+    assert_true(fabs(found(&c, "pt.yield")->value - t[0].value) < 3 * found(&c, "pt.yield")->uncertainty);
+    assert_true(fabs(found(&c, "made.pt")->value - t[1].value) < 3 * found(&c, "made.pt")->uncertainty);
+    for (int i = 0; i < nrow; i++)
+        rows[i].value *= 2;
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_calibrate(arena, f, rows, nrow, &diags, &c), FW_INPUT);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "more than the charge can deposit of copper, electrodeposited"));
+    diags = fw_diags_new(arena); /* and a flow that plates nothing says that */
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "has no step that plates by its charge"));
+}
+
 /* a name whose beginning is right */
 static void meant_by_its_stem(void **state) {
     (void)state;
@@ -729,6 +771,6 @@ int main(void) {
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
         cmocka_unit_test(wrong_tables), cmocka_unit_test(tables_with_temperatures), cmocka_unit_test(rows_that_read_the_same),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
         cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(rates_of_a_temperature), cmocka_unit_test(of_warm_baths), cmocka_unit_test(too_good),
-        cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice)};
+        cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice), cmocka_unit_test(another_metal)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
