@@ -21,17 +21,17 @@ static int collect(const fw_process_coupon_work *w, const char *feature, double 
     return n;
 }
 
-/* The times of these rows as they would have been at the reference temperature, x f. What f may be off by is in proportion
-   in all rows of one temperature, and no scatter; *shared is the least of any row, and what a row has beyond that, which
+/* The times of these rows as they would have been under the reference conditions, x f. What f may be off by is in proportion
+   in all rows of one condition, and no scatter; *shared is the least of any row, and what a row has beyond that, which
    tells it from others, counts as its own: (f x)^2 (u_i^2 - u_least^2). Test: test_calibrate.c, of_warm_baths. */
-static fw_status warm(fw_process_coupon_work *w, const char *feature, double *x, double *sx,
-                      double *shared) {
-    fw_process_coupon_warmth of[FW_COUPON_ROWS];
+static fw_status correct(fw_process_coupon_work *w, const char *feature, double *x, double *sx,
+                         double *shared) {
+    fw_process_coupon_speed of[FW_COUPON_ROWS];
     int n = 0;
     *shared = (double)INFINITY;
     for (int i = 0; i < w->n; i++) {
         if (strcmp(w->measurement[i]->feature, feature) != 0) continue;
-        FW_TRY(fw_process_coupon_warmed(w, feature, w->measurement[i], &of[n]));
+        FW_TRY(fw_process_coupon_sped(w, feature, w->measurement[i], &of[n]));
         *shared = fmin(*shared, of[n++].uncertainty);
     }
     for (int i = 0; i < n; i++) {
@@ -48,21 +48,24 @@ static bool first_of(const fw_process_coupon_work *w, int i) {
     return true;
 }
 
-/* the time of one run as it would have been at the reference temperature of the rate; any of its rows says which it had */
-static fw_status warm_run(fw_process_coupon_work *w, const char *rate, double *t, double *u_t) {
-    const fw_process_measurement *says = w->measurement[0];
-    fw_process_coupon_warmth of;
-    for (int i = 0; i < w->n; i++) {
-        const fw_process_measurement *r = w->measurement[i];
-        if (!(r->temperature_K > 0.0)) continue;
-        if (says->temperature_K > 0.0 && fabs(r->temperature_K - says->temperature_K) > 1e-6)
-            return fw_process_coupon_wrong(w, r,
-                                           "%s: all rows are of one run, so its temperature is the "
-                                           "same in all",
-                                           r->coupon);
-        says = r;
-    }
-    FW_TRY(fw_process_coupon_warmed(w, rate, says, &of));
+/* the time of one run as it would have been under the reference conditions of the rate; any of its rows says which it had */
+static fw_status correct_run(fw_process_coupon_work *w, const char *rate, double *t, double *u_t) {
+    fw_process_measurement says = *w->measurement[0];
+    fw_process_coupon_speed of;
+    for (int k = 0; k < FW_CONDITIONS; k++)
+        for (int i = 0; i < w->n; i++) {
+            const fw_process_measurement *r = w->measurement[i];
+            const double is = r->condition[k], before = says.condition[k];
+            if (!(is > 0.0)) continue;
+            if (before > 0.0 && fabs(is - before) > 1e-8 * before)
+                return fw_process_coupon_wrong(
+                    w, r,
+                    "%s: all rows are of one run, so its %s is the same "
+                    "in all",
+                    r->coupon, k == FW_CONDITION_TEMPERATURE ? "temperature" : "open area");
+            says.condition[k] = is, says.condition_uncertainty[k] = r->condition_uncertainty[k];
+        }
+    FW_TRY(fw_process_coupon_sped(w, rate, &says, &of));
     *u_t = of.factor * hypot(*u_t, *t * of.uncertainty);
     *t *= of.factor;
     return FW_OK;
@@ -89,7 +92,7 @@ static fw_status rates(fw_process_coupon_work *w) {
         double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS];
         const int n = collect(w, r->feature, y, sy, x, sx);
         double shared;
-        FW_TRY(warm(w, r->feature, x, sx, &shared));
+        FW_TRY(correct(w, r->feature, x, sx, &shared));
         fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, n);
         FW_TRY(fw_process_coupon_give(w, r->feature, f.value[0],
                                       hypot(f.uncertainty[0], f.value[0] * shared), &f,
@@ -212,7 +215,7 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
             return fw_process_coupon_wrong(w, w->measurement[0],
                                            "the rate of the etch is not known; give the depth in "
                                            "wide openings in the column at");
-        FW_TRY(warm_run(w, etch.rate->id, &E, &u_E));
+        FW_TRY(correct_run(w, etch.rate->id, &E, &u_E));
         u_E = hypot(R * u_E, E * u_R);
         E *= R;
     } else if (!fw_quantity_dimension_equal(w->measurement[0]->at_dimension,
@@ -280,7 +283,7 @@ static fw_status fit_release(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "a plate is held that has a smaller pitch than one that is "
                                        "free; check the rows free and held");
-    FW_TRY(warm_run(w, "release.R", &t, &u_t));
+    FW_TRY(correct_run(w, "release.R", &t, &u_t));
     const double reach = 0.5 * (least + most), u = hypot((most - least) / sqrt(12.0), u_hole);
     const fw_process_fit f = {.value = {reach / t}};
     return fw_process_coupon_give(w, "release.R", reach / t, reach / t * hypot(u / reach, u_t / t),
@@ -359,7 +362,7 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "narrow slots came out deeper than wide ones: that is no "
                                        "lag of this law; check the order of the rows");
-    FW_TRY(warm_run(w, etch.rate->id, &t, &u_t));
+    FW_TRY(correct_run(w, etch.rate->id, &t, &u_t));
     double R = travelled / t, u = hypot(f.uncertainty[0] / t, R * u_t / t);
     const char *note = fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%",
                                        w->n, (int)lround(100.0 * f.correlation));
