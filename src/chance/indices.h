@@ -77,7 +77,7 @@ typedef struct fw_chance_nested { /* of a number g of each die */
     fw_chance_share of_one_wafer; /* correlation of two dies of one wafer, wherever they are */
     fw_chance_share of_one_lot;   /* of two dies of two wafers of one lot */
     /* standard deviations of the mean of g over a wafer, from wafer to wafer of all lots, and from lot to lot */
-    double wafer_sd, lot_sd;
+    fw_chance_share wafer_sd, lot_sd;
     size_t units, left_out; /* whole ones; those with a die that is not known */
 } fw_chance_nested;
 

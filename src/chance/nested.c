@@ -66,7 +66,18 @@ enum {
     TWIN,
     SUMS
 }; /* sums of numbers and of products of pairs */
-enum { OF_LOT, OF_WAFER, OF_PLACE, OF_DIE, OF_HINGE, ONE_WAFER, ANSWERS };
+enum {
+    OF_LOT,
+    OF_WAFER,
+    OF_PLACE,
+    OF_DIE,
+    OF_HINGE,
+    ONE_WAFER,
+    SHARES,
+    WAFER_PART = SHARES, /* variances themselves: of wafers of all lots, and of lots */
+    LOT_PART,
+    ANSWERS
+};
 
 /* what a unit adds, of numbers less `centre`, which keeps digits */
 static void sums_of(const double *g, int members, double centre, double s[SUMS]) {
@@ -90,6 +101,7 @@ static double answers_of(const double s[SUMS], double n, bool hinges, double ans
     double part = v > 0 ? 1 / v : 0;
     answer[OF_LOT] = lot * part;
     answer[ONE_WAFER] = wafer * part;
+    answer[WAFER_PART] = wafer, answer[LOT_PART] = lot;
     answer[OF_WAFER] = (wafer - lot) * part;
     answer[OF_PLACE] = place * part;
     answer[OF_HINGE] = hinges ? 1 - (s[TWIN] / n - square) * part : 0;
@@ -101,6 +113,12 @@ static bool whole(const double *g, int members) {
     for (int k = 0; k < members; k++)
         if (!isfinite(g[k])) return false;
     return true;
+}
+
+/* the root of a variance and of the ends of its interval; what is below 0 by chance is 0 */
+static fw_chance_share deviation(double variance, double half) {
+    return (fw_chance_share){sqrt(fmax(0, variance)), sqrt(fmax(0, variance - half)),
+                             sqrt(fmax(0, variance + half))};
 }
 
 /* Nested analysis of variance by pairs: Var(E[g | lot]) is the covariance of two dies that share the lot and nothing else,
@@ -139,15 +157,17 @@ fw_status fw_chance_nested_of(size_t units, int members, const double *g, double
         }
     }
     double z = fw_maths_normal_quantile(0.5 + 0.5 * level);
-    fw_chance_share *to[ANSWERS] = {
+    fw_chance_share *to[SHARES] = {
         [OF_LOT] = &out->lot, [OF_WAFER] = &out->wafer, [OF_PLACE] = &out->place,
         [OF_DIE] = &out->die, [OF_HINGE] = &out->hinge, [ONE_WAFER] = &out->of_one_wafer};
-    for (int k = 0; k < ANSWERS; k++) {
-        double half = z * sqrt(fmax(0, (n - 1) / n * (square[k] - sum[k] * sum[k] / n)));
+    double half[ANSWERS];
+    for (int k = 0; k < ANSWERS; k++)
+        half[k] = z * sqrt(fmax(0, (n - 1) / n * (square[k] - sum[k] * sum[k] / n)));
+    for (int k = 0; k < SHARES; k++) {
         double least = k == ONE_WAFER ? -1 : 0;
         *to[k] = (fw_chance_share){fmin(fmax(answer[k], least), 1),
-                                   fmin(fmax(answer[k] - half, least), 1),
-                                   fmin(fmax(answer[k] + half, least), 1)};
+                                   fmin(fmax(answer[k] - half[k], least), 1),
+                                   fmin(fmax(answer[k] + half[k], least), 1)};
     }
     out->of_one_lot = out->lot;
     /* what is taken to be 0, being less by chance, the others do not have */
@@ -157,8 +177,8 @@ fw_status fw_chance_nested_of(size_t units, int members, const double *g, double
         to[k]->value /= parts;
     out->mean = centre + all[SINGLE] / (4 * n);
     out->variance = v;
-    out->wafer_sd = sqrt(fmax(0, answer[ONE_WAFER] * v));
-    out->lot_sd = sqrt(fmax(0, answer[OF_LOT] * v));
+    out->wafer_sd = deviation(answer[WAFER_PART], half[WAFER_PART]);
+    out->lot_sd = deviation(answer[LOT_PART], half[LOT_PART]);
     return FW_OK;
 }
 

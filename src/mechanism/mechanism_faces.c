@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Faces across a gap: undersides over a carrier, and which walls stand opposite each other. Theory:
-   docs/theory/stiction.md. */
+/* Faces across a gap: undersides over a carrier, which walls stand opposite each other, and how far faces reach across the
+   plane. Theory: docs/theory/stiction.md, docs/theory/effects/out-of-plane.md. */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
@@ -371,4 +371,110 @@ fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *m,
         FW_TRY(look_from(m, &w, i, fw_layout_walls_m(m->layout), &to, strip));
     *face = to.face, *nface = (int)to.count;
     return FW_OK;
+}
+
+/* ---- how far all that is drawn reaches across the plane ---- */
+
+/* sum over the modes of what each does at a point at most */
+static double ringing(const fw_mechanism_plates *p, const double *ring, int body, double dx,
+                      double dy) {
+    double sum = 0;
+    for (int k = 0; ring && k < p->n; k++) {
+        const double *u = p->shape + (size_t)k * (size_t)p->n + 3 * body;
+        sum += fabs(ring[k] * (u[0] + u[1] * dy - u[2] * dx));
+    }
+    return sum;
+}
+
+/* A plate is where its tangent plane at its centre of mass c is, and bowed up from it:
+   z = at_m + slope.(r - c) + kappa |r - c|^2/2 */
+typedef struct bowed {
+    fw_geometry_vec2 centre, slope;
+    double at_m, per_m;
+    double low_m, high_m; /* of what was looked at */
+} bowed;
+
+static void look_at(bowed *of, fw_geometry_vec2 at) {
+    const fw_geometry_vec2 d = vec_sub(at, of->centre);
+    const double z = of->at_m + vec_dot(of->slope, d) + 0.5 * of->per_m * vec_dot(d, d);
+    of->low_m = fmin(of->low_m, z), of->high_m = fmax(of->high_m, z);
+}
+
+/* the end of an edge, and where z is stationary along it: on a line that is one point, and on a circle, where z is a
+   cosine of the angle, one with and one against the plate's slope at the circle's centre */
+static void look_along(bowed *of, const fw_geometry_segment *s) {
+    look_at(of, s->a);
+    if (s->kind == FW_LINE) {
+        const fw_geometry_vec2 along = vec_sub(s->b, s->a), d = vec_sub(s->a, of->centre);
+        const double bends = of->per_m * vec_dot(along, along);
+        const double t = -(vec_dot(of->slope, along) + of->per_m * vec_dot(d, along)) / bends;
+        if (t > 0 && t < 1) look_at(of, vec_along(s->a, t, along));
+        return;
+    }
+    const fw_geometry_vec2 slope = vec_along(of->slope, of->per_m, vec_sub(s->centre, of->centre));
+    const fw_geometry_vec2 from = vec_sub(s->a, s->centre);
+    const double half = 0.5 * s->sweep_rad, middle = atan2(from.y, from.x) + half;
+    for (int way = -1; way <= 1; way += 2) {
+        const fw_geometry_vec2 out = vec_scale(way, vec_unit(slope));
+        const double angle = fw_geometry_angle_near(atan2(out.y, out.x), middle);
+        if (fabs(angle - middle) < fabs(half)) look_at(of, vec_along(s->centre, s->radius, out));
+    }
+}
+
+/* exact over all that an outline bounds: on its edges, and where the plate is level inside it */
+static void look_over(bowed *of, const fw_geometry_contour *outline) {
+    for (int i = 0; i < outline->count; i++)
+        look_along(of, &outline->segment[i]);
+    if (of->per_m == 0) return;
+    const fw_geometry_vec2 level = vec_along(of->centre, -1 / of->per_m, of->slope);
+    if (vec_finite(level) && fw_geometry_contour_contains(outline, level)) look_at(of, level);
+}
+
+/* What rings is convex across a plate, so that it is at most what it is at the corners of the box; what the tangent
+   plane and it do together is bounded by the corners as well, and the nearer of both bounds counts. */
+static void swing_by(const fw_mechanism_plates *p, const double *ring, int body,
+                     fw_geometry_box box, bowed *of) {
+    double most = 0, low = HUGE_VAL, high = -HUGE_VAL;
+    for (int k = 0; k < 4; k++) {
+        const fw_geometry_vec2 d = vec_sub(
+            (fw_geometry_vec2){k % 2 ? box.x1 : box.x0, k / 2 ? box.y1 : box.y0}, of->centre);
+        const double swing = ringing(p, ring, body, d.x, d.y), z = of->at_m + vec_dot(of->slope, d),
+                     bow = 0.5 * of->per_m * vec_dot(d, d);
+        most = fmax(most, swing);
+        low = fmin(low, z + fmin(bow, 0) - swing), high = fmax(high, z + fmax(bow, 0) + swing);
+    }
+    of->low_m = fmax(of->low_m - most, low), of->high_m = fmin(of->high_m + most, high);
+}
+
+/* z of what is drawn of each body at rest, exact: the sphere, what the plate is turned and moved from it, and where on
+   it the body is. Test: test_mechanism_plates.c */
+fw_mechanism_plates_reach fw_mechanism_plates_reached(const fw_mechanism_plates *p, const double *x,
+                                                      const double *ring, double curvature_per_m,
+                                                      fw_geometry_vec2 middle) {
+    fw_mechanism_plates_reach r = {0, 0, 0, FW_NONE, FW_NONE, FW_NONE};
+    const fw_layout *layout = p->mechanism->layout;
+    for (int i = 0; layout && i < layout->npiece; i++) {
+        const fw_layout_piece *piece = &layout->piece[i];
+        if (piece->body < 0 || piece->body >= p->n / 3 || !fw_layout_is_wall(piece)) continue;
+        const double *u = x + 3 * piece->body;
+        const fw_mechanism_mass *b = &p->mechanism->drawn[piece->body];
+        const fw_geometry_vec2 c = vec_sub((fw_geometry_vec2){b->x_m, b->y_m}, middle);
+        bowed of = {.centre = {b->x_m, b->y_m},
+                    .slope = {curvature_per_m * c.x - u[2], curvature_per_m * c.y + u[1]},
+                    .at_m = u[0] + 0.5 * curvature_per_m * vec_dot(c, c),
+                    .per_m = curvature_per_m,
+                    .low_m = HUGE_VAL,
+                    .high_m = -HUGE_VAL};
+        double tilt = vec_length(of.slope);
+        look_over(&of, &piece->contour);
+        if (ring) swing_by(p, ring, piece->body, fw_geometry_contour_box(&piece->contour), &of);
+        if (of.low_m < r.lowest_m) r.lowest_m = of.low_m, r.low = piece->body;
+        if (of.high_m > r.highest_m) r.highest_m = of.high_m, r.high = piece->body;
+        for (int k = 0; ring && k < p->n; k++) {
+            const double *v = p->shape + (size_t)k * (size_t)p->n + 3 * piece->body;
+            tilt += fabs(ring[k]) * hypot(v[1], v[2]);
+        }
+        if (tilt > r.tilt_rad) r.tilt_rad = tilt, r.tilted = piece->body;
+    }
+    return r;
 }

@@ -326,50 +326,6 @@ void fw_mechanism_plates_modal(const fw_mechanism_plates *p, const double *f, do
     }
 }
 
-/* sum over the modes of what each does at a point at most */
-static double ringing(const fw_mechanism_plates *p, const double *ring, int body, double dx,
-                      double dy) {
-    double sum = 0;
-    for (int k = 0; ring && k < p->n; k++) {
-        const double *u = p->shape + (size_t)k * (size_t)p->n + 3 * body;
-        sum += fabs(ring[k] * (u[0] + u[1] * dy - u[2] * dx));
-    }
-    return sum;
-}
-
-/* a plate is where its tangent plane is, and bowed up from it by kappa |r - c|^2/2 */
-fw_mechanism_plates_reach fw_mechanism_plates_reached(const fw_mechanism_plates *p, const double *x,
-                                                      const double *ring, double curvature_per_m,
-                                                      fw_geometry_vec2 middle) {
-    fw_mechanism_plates_reach r = {0, 0, 0, FW_NONE, FW_NONE, FW_NONE};
-    const fw_layout *layout = p->mechanism->layout;
-    for (int i = 0; layout && i < layout->npiece; i++) {
-        const fw_layout_piece *piece = &layout->piece[i];
-        if (piece->body < 0 || piece->body >= p->n / 3 || !fw_layout_is_wall(piece)) continue;
-        const double *u = x + 3 * piece->body;
-        const fw_mechanism_mass *b = &p->mechanism->drawn[piece->body];
-        fw_geometry_box box = fw_geometry_contour_box(&piece->contour);
-        fw_geometry_vec2 c = vec_sub((fw_geometry_vec2){b->x_m, b->y_m}, middle);
-        double sx = curvature_per_m * c.x - u[2], sy = curvature_per_m * c.y + u[1];
-        double tilt = hypot(sx, sy);
-        for (int k = 0; k < 4; k++) {
-            double dx = (k % 2 ? box.x1 : box.x0) - b->x_m, dy = (k / 2 ? box.y1 : box.y0) - b->y_m;
-            double z = u[0] + 0.5 * curvature_per_m * vec_dot(c, c) + sx * dx + sy * dy;
-            double bow = 0.5 * curvature_per_m * (dx * dx + dy * dy);
-            double swing = ringing(p, ring, piece->body, dx, dy);
-            double low = z + fmin(bow, 0) - swing, high = z + fmax(bow, 0) + swing;
-            if (low < r.lowest_m) r.lowest_m = low, r.low = piece->body;
-            if (high > r.highest_m) r.highest_m = high, r.high = piece->body;
-        }
-        for (int k = 0; ring && k < p->n; k++) {
-            const double *v = p->shape + (size_t)k * (size_t)p->n + 3 * piece->body;
-            tilt += fabs(ring[k]) * hypot(v[1], v[2]);
-        }
-        if (tilt > r.tilt_rad) r.tilt_rad = tilt, r.tilted = piece->body;
-    }
-    return r;
-}
-
 /* ---- stiffness beside that in the plane ---- */
 
 /* the same bodies and flexures in the plane, (x, y, turn) a body, lengths of turns in `unit_m` */

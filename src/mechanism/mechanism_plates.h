@@ -78,8 +78,8 @@ typedef struct fw_mechanism_plates_reach { /* of all that is drawn of the bodies
     double lowest_m, highest_m, tilt_rad;
     int low, high, tilted; /* the bodies; FW_NONE: nothing is drawn */
 } fw_mechanism_plates_reach;
-/* of x (n), on a sphere of that curvature about `middle` (0: none), and either way of what rings: amplitude (n) of the
-   modes, or NULL. Bounds by the boxes of what is drawn */
+/* mechanism_faces.c: of x (n), on a sphere of that curvature about `middle` (0: none), and either way of what rings:
+   amplitude (n) of the modes, or NULL. Exact over what is drawn where nothing rings, else bounds */
 fw_mechanism_plates_reach fw_mechanism_plates_reached(const fw_mechanism_plates *plates,
                                                       const double *x, const double *ring,
                                                       double curvature_per_m,

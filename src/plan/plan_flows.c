@@ -287,31 +287,27 @@ static fw_status find_change(fw_plan *plan, fw_plan_flow *pf, const char **out) 
 
 /* ---- times, bias, judgement ---- */
 
-/* what one mask leaves standing, as drawn: + where a term of the plate draws, - where it takes away
+/* What one mask leaves standing, as drawn: + where a term of the plate draws, - where it takes away
    (lettering and marks lie within what they are taken out of). A test die has its bias, where a pattern
-   wants it, in its outlines already */
+   wants it, in its outlines already. Of what a plate draws beside its dies that counts which lies over the
+   wafer, of its edges as large a share as of its area */
 static void add_mask(const fw_mask *mask, const fw_mask_plate_term *term, int nterm, int times,
-                     fw_process_mask_facts *facts) {
+                     const fw_wafer_form *beside, fw_process_mask_facts *facts) {
     for (int t = 0; t < nterm; t++)
         for (int i = 0; i < mask->nshape; i++) {
-            const fw_geometry_contour *c = &mask->shape[i].piece->contour;
-            if (mask->shape[i].layer != term[t].layer) continue;
-            double sign = term[t].rule == FW_SET_NOT ? -1.0 : 1.0;
-            facts->wafer_structure_m2 += sign * times * fw_geometry_contour_area(c);
-            const double edges_m = times * fw_plan_free_perimeter(c);
+            const fw_mask_shape *shape = &mask->shape[i];
+            const fw_geometry_contour *c = &shape->piece->contour;
+            if (shape->layer != term[t].layer) continue;
+            double sign = term[t].rule == FW_SET_NOT ? -1.0 : 1.0, share = times;
+            if (beside)
+                share *= fw_wafer_area_over(beside, &shape->polygon) /
+                         (0.5e-18 * (double)fw_geometry_polygon_area2(&shape->polygon));
+            facts->wafer_structure_m2 += sign * share * fw_geometry_contour_area(c);
+            const double edges_m = share * fw_plan_free_perimeter(c);
             facts->wafer_perimeter_m += edges_m;
-            if (mask->bias_m != 0.0 && mask->table->layer[mask->shape[i].layer].biased)
+            if (mask->bias_m != 0.0 && mask->table->layer[shape->layer].biased)
                 facts->wafer_biased_m += edges_m;
         }
-}
-
-/* a disc less the segment of its flat: R^2 acos(h/R) - h sqrt(R^2 - h^2), h from the centre to the chord. The notch is
-   some mm2 and is not taken off. m2 */
-static double wafer_area(const fw_wafer_form *form) {
-    if (!(form->diameter_m > 0.0)) return 0.0;
-    const double R = 0.5 * form->diameter_m, half = fmin(0.5 * form->flat_m, R),
-                 h = sqrt(R * R - half * half);
-    return FW_PI * R * R - (R * R * acos(h / R) - h * half);
 }
 
 /* what the plate of a wafer places, added to the facts of its die: exact areas and edges as
@@ -324,7 +320,8 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
     facts->wafer_structure_m2 = facts->wafer_perimeter_m = facts->wafer_biased_m = 0.0;
     for (int i = 0; i < wafer->ncell; i++)
         if (wafer->cell[i].mask)
-            add_mask(wafer->cell[i].mask, term, n, wafer->cell[i].placed, facts);
+            add_mask(wafer->cell[i].mask, term, n, wafer->cell[i].placed, NULL, facts);
+    if (wafer->plate) add_mask(wafer->plate, term, n, 1, &wafer->form, facts);
     facts->wafer_diameter_m = wafer->form.diameter_m;
     for (int i = 0; i < wafer->grid.nsite; i++) {
         const fw_wafer_site *site = &wafer->grid.site[i];
@@ -332,7 +329,7 @@ static fw_status add_wafer_facts(fw_arena *arena, const fw_wafer *wafer,
                y = fmax(fabs((double)site->y), fabs((double)site->y + wafer->grid.height));
         facts->wafer_reach_m = fmax(facts->wafer_reach_m, 1e-9 * hypot(x, y));
     }
-    facts->wafer_area_m2 = wafer_area(&wafer->form);
+    facts->wafer_area_m2 = fw_wafer_area(&wafer->form);
     return FW_OK;
 }
 

@@ -5,6 +5,13 @@
 #define FW_PROCESS_CALIBRATE_H
 #include "process/process.h"
 
+/* what the law of a step may correct its rate for; each has a reference value, at which the rate is stated */
+typedef enum fw_process_condition {
+    FW_CONDITION_TEMPERATURE, /* of the bath, K */
+    FW_CONDITION_OPEN_AREA,   /* of the wafer that loads the plasma, m2 */
+    FW_CONDITIONS
+} fw_process_condition;
+
 typedef struct fw_process_measurement { /* one row of the table; SI */
     const char *coupon, *feature;
     double drawn_m;            /* NaN: not given */
@@ -12,7 +19,8 @@ typedef struct fw_process_measurement { /* one row of the table; SI */
     double at, at_uncertainty; /* under which time, depth, charge, speed; NaN: not given */
     fw_quantity_dimension dimension, at_dimension;
     fw_place place;
-    double temperature_K, temperature_uncertainty; /* of the bath that etched it; 0: not said */
+    double condition[FW_CONDITIONS],
+        condition_uncertainty[FW_CONDITIONS]; /* etched at; 0: not said */
     bool once; /* another row reads the very same, and stands for it */
 } fw_process_measurement;
 
@@ -24,9 +32,9 @@ typedef struct fw_process_calibrated {
     double chi_square, probability; /* of the residuals; probability of a larger one */
     int rows, freedom;              /* freedom 0: nothing to test */
     const char *source, *date; /* which wafers, how many readings, when; NULL: those of the file */
-    /* of a rate that its step corrects for temperature: between which temperatures it was measured, where all of its
-       readings say so; 0: not all do, or it is none. It is written as that at the reference temperature */
-    double coldest_K, warmest_K;
+    /* of a rate that its step corrects for a condition: between which values it was measured, where all of its readings say
+       so; 0: not all do, or it is none. It is written as that at the reference value */
+    double least[FW_CONDITIONS], most[FW_CONDITIONS];
 } fw_process_calibrated;
 
 typedef struct fw_process_calibration {
@@ -40,7 +48,7 @@ typedef struct fw_process_calibration {
 } fw_process_calibration;
 
 /* CSV with the header coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit and, where it is known,
-   temperature_Cel,u_temperature_K (docs/theory/calibrate.md); lines that start with # are comments. All mistakes in diags:
+   temperature_Cel,u_temperature_K,open_area_cm2,u_open_area_cm2 (docs/theory/calibrate.md); lines that start with # are comments. All mistakes in diags:
    FW-D211. */
 fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const char *text,
                                        size_t n, fw_diags *diags,
@@ -70,10 +78,11 @@ bool fw_process_coupon_on_test_die(const char *coupon);
 bool fw_process_coupon_of_one_run(const char *coupon);
 /* of a row that bounds from one side ("gone"), the feature that bounds from the other ("stands"); NULL: it does not */
 const char *fw_process_coupon_other_side(const fw_process_measurement *row);
-/* the rate of the flow that the coupon gives; NULL: none. And the temperature for which the step's law corrects that rate;
-   NULL: it does not */
+/* the rate of the flow that the coupon gives; NULL: none. And the quantity of the condition that the step's law corrects that
+   rate for; NULL: it does not */
 const char *fw_process_coupon_rate(const fw_process_flow *flow, const fw_process_measurement *row);
-const fw_quantity *fw_process_step_warms(const fw_process_step *step, const char *rate);
+const fw_quantity *fw_process_step_corrects(const fw_process_step *step, fw_process_condition which,
+                                            const char *rate);
 /* standard uncertainty of a number as it is written, in its own unit: uniform within one of its last digit */
 double fw_process_written_uncertainty(const char *number);
 /* is such a row looked at, without a value? */

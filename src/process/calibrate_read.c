@@ -23,12 +23,24 @@ enum {
     AT_UNIT,
     WARM,
     U_WARM,
+    OPEN,
+    U_OPEN,
     COLUMNS,
     MOST_ROWS = 5000
 };
-static const char *const column[COLUMNS] = {
-    "coupon", "feature", "drawn_um",        "measured",       "u", "unit", "at",
-    "u_at",   "at_unit", "temperature_Cel", "u_temperature_K"};
+static const char *const column[COLUMNS] = {"coupon",
+                                            "feature",
+                                            "drawn_um",
+                                            "measured",
+                                            "u",
+                                            "unit",
+                                            "at",
+                                            "u_at",
+                                            "at_unit",
+                                            "temperature_Cel",
+                                            "u_temperature_K",
+                                            "open_area_cm2",
+                                            "u_open_area_cm2"};
 
 typedef struct table {
     fw_arena *arena;
@@ -88,7 +100,7 @@ static fw_status header(table *t, const char *line) {
             status = fw_diag_error(t->diags, 211, t->place,
                                    "unknown column '%s'; the header is coupon,feature,drawn_um,"
                                    "measured,u,unit,at,u_at,at_unit and, where it is known, "
-                                   "temperature_Cel,u_temperature_K",
+                                   "temperature_Cel,u_temperature_K,open_area_cm2,u_open_area_cm2",
                                    name[i]);
     }
     for (int k = 0; k <= UNIT; k++)
@@ -158,8 +170,27 @@ static bool warmth(table *t, const char *const *cell, fw_process_measurement *r)
                       column[WARM], cell[WARM], column[U_WARM], cell[U_WARM]);
         return false;
     }
-    r->temperature_K = T + FW_ICE_POINT_K;
-    r->temperature_uncertainty = u;
+    r->condition[FW_CONDITION_TEMPERATURE] = T + FW_ICE_POINT_K;
+    r->condition_uncertainty[FW_CONDITION_TEMPERATURE] = u;
+    return true;
+}
+
+/* of the wafer, in cm2, likewise */
+static bool openness(table *t, const char *const *cell, fw_process_measurement *r) {
+    double A, u;
+    if (!number(t, cell[OPEN], OPEN, &A) || !number(t, cell[U_OPEN], U_OPEN, &u)) return false;
+    if (isnan(A)) return true;
+    if (isnan(u)) u = fw_process_written_uncertainty(cell[OPEN]);
+    if (!(A > 0.0) || !(u >= 0.0)) {
+        fw_diag_error(
+            t->diags, 211, t->place,
+            "%s='%s', %s='%s': an area above zero is needed, and a standard uncertainty of "
+            "0 or more",
+            column[OPEN], cell[OPEN], column[U_OPEN], cell[U_OPEN]);
+        return false;
+    }
+    r->condition[FW_CONDITION_OPEN_AREA] = 1e-4 * A;
+    r->condition_uncertainty[FW_CONDITION_OPEN_AREA] = 1e-4 * u;
     return true;
 }
 
@@ -186,6 +217,7 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
         *good = amount(t, cell, MEASURED, &r->value, &r->uncertainty, &r->dimension) && *good;
     *good = amount(t, cell, AT, &r->at, &r->at_uncertainty, &r->at_dimension) && *good;
     *good = warmth(t, cell, r) && *good;
+    *good = openness(t, cell, r) && *good;
     if (*good && !counted && isnan(r->value)) {
         fw_diag_error(t->diags, 211, t->place,
                       "this row lacks measured, u or unit; it needs all three");
@@ -208,7 +240,8 @@ static bool same(double a, double b) {
 static bool of_one(const fw_process_measurement *a, const fw_process_measurement *b) {
     return strcmp(a->coupon, b->coupon) == 0 && strcmp(a->feature, b->feature) == 0 &&
            same(a->drawn_m, b->drawn_m) && same(a->at, b->at) &&
-           same(a->temperature_K, b->temperature_K);
+           same(a->condition[FW_CONDITION_TEMPERATURE], b->condition[FW_CONDITION_TEMPERATURE]) &&
+           same(a->condition[FW_CONDITION_OPEN_AREA], b->condition[FW_CONDITION_OPEN_AREA]);
 }
 
 /* Rows of one thing whose spread is 0: the instrument does not resolve what they scatter by, so that they are off by the same
@@ -301,28 +334,42 @@ static void ask_too_good(const fw_process_calibration *calibration, int i, const
                     c->coupon, c->freedom, fw_number_text(p, sizeof p, c->probability, 5));
 }
 
-/* A rate that the law of a step corrects for temperature is of its reference temperature, and what the bath was at when the
-   coupon was etched not every reading says. Test: test_calibrate.c, rates_of_a_temperature. */
-static void ask_temperature(const fw_process_flow *flow, const fw_process_calibrated *c,
-                            const char *file, fw_diags *diags) {
-    const fw_process_step *s = fw_process_flow_warms(flow, c->id);
+/* A rate that the law of a step corrects is that under its reference conditions, and under which ones the coupon was etched
+   not every reading says. Test: test_calibrate.c, rates_of_a_temperature, of_open_areas. */
+static void ask_condition(const fw_process_flow *flow, const fw_process_calibrated *c,
+                          fw_process_condition which, const char *file, fw_diags *diags) {
+    static const struct {
+        int number;
+        const char *more, *at, *log, *table;
+        double of;       /* its value is asked for so much more */
+        double relative; /* ... and that share of it more */
+    } say[FW_CONDITIONS] = {
+        [FW_CONDITION_TEMPERATURE] = {668, "a kelvin more", "at which temperature it was etched",
+                                      "set temperature= of the step, or temperature= of the coupon",
+                                      "columns temperature_Cel and u_temperature_K", 1.0, 0.0},
+        [FW_CONDITION_OPEN_AREA] = {677, "twice that area", "how much of its wafer was open",
+                                    "open-area= of the coupon, or set the open area of the step",
+                                    "columns open_area_cm2 and u_open_area_cm2", 0.0, 1.0}};
+    const fw_process_step *s = fw_process_flow_corrects(flow, which, c->id);
     fw_process_coupon_work *w = s ? fw_arena_one(diags->arena, fw_process_coupon_work) : NULL;
-    double kelvin;
+    double times;
     char at[32], more[32];
-    if (!w || c->warmest_K > 0.0) return;
-    const fw_quantity *T0 = fw_process_step_argument(s, "reference_temperature"),
-                      *T = fw_process_step_argument(s, "temperature");
+    if (!w || c->most[which] > 0.0) return;
+    const fw_quantity *from = fw_process_step_argument(s, fw_process_condition_reference(which)),
+                      *to = fw_process_step_corrects(s, which, c->id);
     *w = (fw_process_coupon_work){.arena = diags->arena, .flow = flow, .diags = diags};
-    if (fw_process_step_warmth(w, s, T0->value + 1.0, &kelvin) != FW_OK) return;
+    if (fw_process_step_speed(w, s, which,
+                              from->value * (1.0 + say[which].relative) + say[which].of,
+                              &times) != FW_OK)
+        return;
     fw_diag_warning(
-        diags, 668, (fw_place){.file = file},
-        "%s is written as the rate at %s = %s %s, and plans correct it from there to %s (a kelvin "
-        "more makes it %s times as fast); not every reading of %s says at which temperature it was "
-        "etched. Say so (%s), and it is corrected",
-        c->id, T0->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(T0), 4), T0->unit, T->id,
-        fw_number_text(more, sizeof more, kelvin, 4), c->coupon,
-        c->source ? "set temperature= of the step, or temperature= of the coupon"
-                  : "columns temperature_Cel and u_temperature_K");
+        diags, say[which].number, (fw_place){.file = file},
+        "%s is written as the rate at %s = %s %s, and plans correct it from there to %s (%s "
+        "makes it %s times as fast); not every reading of %s says %s. Say so (%s), and it is "
+        "corrected",
+        c->id, from->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(from), 4), from->unit,
+        to->id, say[which].more, fw_number_text(more, sizeof more, times, 4), c->coupon,
+        say[which].at, c->source ? say[which].log : say[which].table);
 }
 
 /* Nothing that a laboratory reads is known to one part in a hundred thousand; a spread of 0, or a u= in another unit than its
@@ -349,7 +396,8 @@ void fw_process_calibration_ask(const fw_process_flow *flow,
         char times[32];
         ask_too_good(calibration, i, file, diags);
         ask_too_exact(c, file, diags);
-        ask_temperature(flow, c, file, diags);
+        for (int k = 0; k < FW_CONDITIONS; k++)
+            ask_condition(flow, c, (fw_process_condition)k, file, diags);
         if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
         double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
         const fw_process_coupon *kind = fw_process_coupon_kind(c->coupon);
@@ -379,24 +427,37 @@ static void attribute(fw_text *out, const char *name, const char *value) {
     fw_text_add(out, "\"");
 }
 
-/* "; etched at 35 Cel, written as at pan.T-reference = 22 Cel (law arrhenius of step S14)"; nothing where it was at that */
-static void put_warmth(const fw_process_flow *flow, const fw_process_calibrated *c, fw_text *out) {
-    static const double same = 1e-3; /* K */
-    const fw_process_step *s = c->warmest_K > 0.0 ? fw_process_flow_warms(flow, c->id) : NULL;
-    const fw_quantity *T0 = s ? fw_process_step_argument(s, "reference_temperature") : NULL;
-    if (!s || (fabs(c->coldest_K - T0->value) < same && fabs(c->warmest_K - T0->value) < same))
+/* "; etched at 35 Cel, corrected to pan.T-reference = 22 Cel by the law arrhenius of step S14"; nothing where it was at that */
+static void put_condition(const fw_process_flow *flow, const fw_process_calibrated *c,
+                          fw_process_condition which, fw_text *out) {
+    static const double same = 1e-5; /* relative; 3 mK */
+    const fw_process_step *s =
+        c->most[which] > 0.0 ? fw_process_flow_corrects(flow, which, c->id) : NULL;
+    const fw_quantity *from = NULL;
+    fw_quantity_unit unit;
+    if (s) from = fw_process_step_argument(s, fw_process_condition_reference(which));
+    if (!s || !fw_quantity_unit_parse(from->unit, strlen(from->unit), &unit, NULL, NULL)) return;
+    const double near = same * from->value;
+    if (fabs(c->least[which] - from->value) < near && fabs(c->most[which] - from->value) < near)
         return;
     fw_text_add(out, "; etched at ");
-    fw_text_number(out, c->coldest_K - FW_ICE_POINT_K, 4);
-    if (c->warmest_K - c->coldest_K > same) {
+    fw_text_number(out, fw_quantity_unit_from_si(&unit, c->least[which]), 4);
+    if (c->most[which] - c->least[which] > near) {
         fw_text_add(out, " to ");
-        fw_text_number(out, c->warmest_K - FW_ICE_POINT_K, 4);
+        fw_text_number(out, fw_quantity_unit_from_si(&unit, c->most[which]), 4);
     }
-    fw_text_add(out, " Cel, corrected to ");
-    fw_text_escaped(out, T0->id ? T0->id : "the reference temperature");
+    fw_text_printf(out, " %s%s, corrected to ", from->unit,
+                   which == FW_CONDITION_OPEN_AREA ? " open" : "");
+    fw_text_escaped(out, from->id ? from->id : "the reference value");
     fw_text_add(out, " = ");
-    fw_text_number(out, fw_quantity_in_unit(T0), 4);
-    fw_text_printf(out, " %s by the law %s of step %s", T0->unit, s->law, s->id);
+    fw_text_number(out, fw_quantity_in_unit(from), 4);
+    fw_text_printf(out, " %s by the law %s of step %s", from->unit, s->law, s->id);
+}
+
+static void put_conditions(const fw_process_flow *flow, const fw_process_calibrated *c,
+                           fw_text *out) {
+    for (int k = 0; k < FW_CONDITIONS; k++)
+        put_condition(flow, c, (fw_process_condition)k, out);
 }
 
 static void put_test(fw_text *out, const fw_process_calibrated *c) {
@@ -480,7 +541,7 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         fw_text_escaped(out, c->coupon);
         fw_text_add(out, ": ");
         fw_text_escaped(out, c->note);
-        put_warmth(flow, c, out);
+        put_conditions(flow, c, out);
         fw_text_add(out, "; ");
         put_test(out, c);
         fw_text_add(out, "\"/>\n");
@@ -516,7 +577,7 @@ fw_status fw_process_calibration_text(const fw_process_flow *flow,
         }
         fw_text_printf(out, "\n  %s, %d row%s: %s", c->coupon, c->rows, c->rows > 1 ? "s" : "",
                        c->note);
-        put_warmth(flow, c, out);
+        put_conditions(flow, c, out);
         fw_text_add(out, "; ");
         put_test(out, c);
         fw_text_add(out, "\n");

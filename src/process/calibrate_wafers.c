@@ -323,7 +323,8 @@ static fw_status combine(lot *l, fw_process_calibrated *c, const char *id, doubl
         if (k < 0 || k >= l->wafer[i].found.count) continue;
         const fw_process_calibrated *of = &l->wafer[i].found.item[k];
         if (!c->coupon || strlen(of->coupon) > strlen(c->coupon)) c->coupon = of->coupon;
-        if (!c->note) c->coldest_K = of->coldest_K, c->warmest_K = of->warmest_K;
+        for (int m = 0; m < FW_CONDITIONS && !c->note; m++)
+            c->least[m] = of->least[m], c->most[m] = of->most[m];
         fw_process_calibrated_join(c, of);
         if (!c->note) c->note = of->note;
         c->chi_square += of->chi_square;

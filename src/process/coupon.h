@@ -102,23 +102,25 @@ fw_status fw_process_coupon_wrong(fw_process_coupon_work *work, const fw_process
    exact */
 bool fw_process_coupon_value(fw_process_coupon_work *work, const char *id, double *value,
                              double *uncertainty);
-typedef struct fw_process_coupon_warmth { /* what a temperature does to a rate */
-    double factor;      /* of the rate, against that at the reference temperature of its law */
-    double uncertainty; /* of it, relative: of the law's inputs and of the temperature */
-} fw_process_coupon_warmth;
-/* of the rate `id` where the row was etched; 1 and 0 where its law knows of no temperature, or the row says none */
-fw_status fw_process_coupon_warmed(fw_process_coupon_work *work, const char *id,
-                                   const fw_process_measurement *row,
-                                   fw_process_coupon_warmth *warmth);
-/* how many times as fast a rate is at T as at the reference temperature of the step that warms it */
-fw_status fw_process_step_warmth(fw_process_coupon_work *work, const fw_process_step *step,
-                                 double T_K, double *factor);
+typedef struct fw_process_coupon_speed { /* what the conditions do to a rate */
+    double factor;      /* of the rate, against that at the reference values of its law */
+    double uncertainty; /* of it, relative: of the law's inputs and of the conditions */
+} fw_process_coupon_speed;
+/* of the rate `id` where the row was etched; 1 and 0 where its law knows of no condition, or the row says none */
+fw_status fw_process_coupon_sped(fw_process_coupon_work *work, const char *id,
+                                 const fw_process_measurement *row, fw_process_coupon_speed *speed);
+/* how many times as fast a rate is there as at the reference value of the step that corrects it */
+fw_status fw_process_step_speed(fw_process_coupon_work *work, const fw_process_step *step,
+                                fw_process_condition which, double at, double *factor);
+/* the name of the argument that has the reference value */
+const char *fw_process_condition_reference(fw_process_condition which);
 /* the kind of that name; NULL: none */
 const fw_process_coupon *fw_process_coupon_kind(const char *name);
-/* says of a what both say of the temperatures that they were measured at: process_calibrate.c */
+/* says of a what both say of the conditions that they were measured at: process_calibrate.c */
 void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calibrated *b);
-/* the first step of the flow that warms the rate; NULL: none does */
-const fw_process_step *fw_process_flow_warms(const fw_process_flow *flow, const char *rate);
+/* the first step of the flow that corrects the rate for that; NULL: none does */
+const fw_process_step *fw_process_flow_corrects(const fw_process_flow *flow,
+                                                fw_process_condition which, const char *rate);
 /* all rows stand under one condition of dimension d, which is set; FW-D211 otherwise */
 fw_status fw_process_coupon_condition(fw_process_coupon_work *work, fw_quantity_dimension d,
                                       const char *what, double *value, double *uncertainty);
@@ -131,6 +133,15 @@ typedef struct
 } fw_process_etch;
 /* of the step that removes the flow's own material in a direction */
 fw_process_etch fw_process_flow_etch(const fw_process_flow *flow);
+typedef struct
+    fw_process_plating { /* quantities of a step that plates by its charge; each may be NULL */
+    const fw_quantity *thickness, *density, *valence, *molar_mass;
+    const fw_quantity *efficiency; /* with an id; NULL: there is no such step */
+    const char *material;
+    const char *made; /* id of how thick the device comes out, where it plates that; NULL */
+} fw_process_plating;
+/* the one whose efficiency is called so, else that of the flow's own material, else the first */
+fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const char *efficiency);
 /* id of the edge that lines of the mask layer read: of the layer that was etched under the resist, or the printed one */
 const char *fw_process_coupon_edge(const fw_process_flow *flow);
 /* what isotropic masked etches take from every edge on the way, and the mask adds: m */

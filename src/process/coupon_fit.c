@@ -163,39 +163,62 @@ fw_status fw_process_coupon_condition(fw_process_coupon_work *w, fw_quantity_dim
     return FW_OK;
 }
 
-/* ---- rates that a step corrects for temperature ---- */
+/* ---- rates that a step corrects for the conditions that they are had under ---- */
 
-static const char of_rate[] = "rate", of_temperature[] = "temperature",
-                  of_reference[] = "reference_temperature";
+static const char of_rate[] = "rate";
+static const struct {
+    const char *at, *reference; /* arguments of the law */
+} condition[FW_CONDITIONS] = {[FW_CONDITION_TEMPERATURE] = {"temperature", "reference_temperature"},
+                              [FW_CONDITION_OPEN_AREA] = {"open_area", "reference_area"}};
 
-/* of what the time is, and what cancels in a ratio of two: neither has a part in what a temperature does */
+const char *fw_process_condition_reference(fw_process_condition which) {
+    return condition[which].reference;
+}
+
+/* of what the time is, and what cancels in a ratio of two: neither has a part in what a condition does */
 static bool cancels(const char *name) {
-    static const char *const none[] = {of_rate, "thickness", "depth"};
+    static const char *const none[] = {of_rate, "thickness", "depth", "width"};
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
         if (strcmp(name, none[i]) == 0) return true;
     return false;
 }
 
-const fw_quantity *fw_process_step_warms(const fw_process_step *s, const char *rate) {
-    const fw_quantity *R = fw_process_step_argument(s, of_rate),
-                      *T = fw_process_step_argument(s, of_temperature);
-    bool known =
-        R && R->id && strcmp(R->id, rate) == 0 && fw_process_step_argument(s, of_reference);
-    for (int i = 0; known && i < s->nargument;
-         i++) /* a correction is made where all of it is known */
-        known = cancels(s->argument[i].name) || s->argument[i].q == T || !s->argument[i].q->unknown;
-    return known ? T : NULL;
+/* is it a part of the correction? Of a law that says which are, those; of an expression all that does not cancel */
+static bool corrects(const fw_process_step *s, const char *name) {
+    const fw_process_law *law = fw_process_law_find(s->law);
+    const int at = law && law->argument ? fw_process_law_argument_index(law, name) : -1;
+    return at >= 0 ? law->argument[at].need == FW_LAW_WHEN_KNOWN : !cancels(name);
 }
 
-const fw_process_step *fw_process_flow_warms(const fw_process_flow *flow, const char *rate) {
+const fw_quantity *fw_process_step_corrects(const fw_process_step *s, fw_process_condition which,
+                                            const char *rate) {
+    const fw_quantity *R = fw_process_step_argument(s, of_rate),
+                      *is = fw_process_step_argument(s, condition[which].at);
+    bool known = R && R->id && strcmp(R->id, rate) == 0 &&
+                 fw_process_step_argument(s, condition[which].reference);
+    for (int i = 0; known && i < s->nargument; i++) /* it is made where all of it is known */
+        known = !corrects(s, s->argument[i].name) || s->argument[i].q == is ||
+                !s->argument[i].q->unknown;
+    return known ? is : NULL;
+}
+
+const fw_process_step *fw_process_flow_corrects(const fw_process_flow *flow,
+                                                fw_process_condition which, const char *rate) {
     for (int i = 0; i < flow->nstep; i++)
-        if (fw_process_step_warms(&flow->step[i], rate)) return &flow->step[i];
+        if (fw_process_step_corrects(&flow->step[i], which, rate)) return &flow->step[i];
     return NULL;
 }
 
-/* s for 1 um at 1 um/s; NaN: the law has no answer there. `moved` is taken with that much more */
-static fw_status time_at(fw_process_coupon_work *w, const fw_process_step *s, double T_K,
+typedef struct correction { /* what is asked of a step, at a value of a condition */
+    const fw_process_step *step;
+    fw_process_condition which;
+    double at;
+} correction;
+
+/* s for 1 um at 1 um/s, through an opening of 1 um; NaN: the law has no answer there. `moved` is taken with that much more */
+static fw_status time_at(fw_process_coupon_work *w, const correction *c, double at,
                          const fw_quantity *moved, double by, double *time_s) {
+    const fw_process_step *s = c->step;
     fw_process_argument argument[FW_LAW_ARGUMENTS];
     fw_quantity q[FW_LAW_ARGUMENTS];
     fw_process_law_answer answer;
@@ -207,8 +230,10 @@ static fw_status time_at(fw_process_coupon_work *w, const fw_process_step *s, do
         argument[i] = (fw_process_argument){.name = name, .q = &q[i]};
         if (cancels(name))
             q[i].value = 1e-6;
-        else if (strcmp(name, of_temperature) == 0)
-            q[i].value = T_K;
+        else if (strcmp(name, condition[c->which].at) == 0)
+            q[i].value = at;
+        else if (q[i].unknown)
+            q[i].value = 0.0; /* a lag: it is in both times alike */
         else if (q[i].id)
             fw_process_coupon_value(w, q[i].id, &q[i].value, NULL);
         if (s->argument[i].q == moved) q[i].value += by;
@@ -221,59 +246,74 @@ static fw_status time_at(fw_process_coupon_work *w, const fw_process_step *s, do
     return FW_OK;
 }
 
-static fw_status warmth(fw_process_coupon_work *w, const fw_process_step *s, double T_K,
-                        const fw_quantity *moved, double by, double *factor) {
-    const fw_quantity *reference = fw_process_step_argument(s, of_reference);
-    double T0 = reference->value, at, cold;
-    if (reference->id) fw_process_coupon_value(w, reference->id, &T0, NULL);
-    if (reference == moved) T0 += by;
-    FW_TRY(time_at(w, s, T_K, moved, by, &at));
-    FW_TRY(time_at(w, s, T0, moved, by, &cold));
-    *factor = cold / at;
+static fw_status speed(fw_process_coupon_work *w, const correction *c, double more,
+                       const fw_quantity *moved, double by, double *factor) {
+    const fw_quantity *reference = fw_process_step_argument(c->step, condition[c->which].reference);
+    double from = reference->value, there, here;
+    if (reference->id) fw_process_coupon_value(w, reference->id, &from, NULL);
+    if (reference == moved) from += by;
+    FW_TRY(time_at(w, c, c->at + more, moved, by, &there));
+    FW_TRY(time_at(w, c, from, moved, by, &here));
+    *factor = here / there;
     return FW_OK;
 }
 
-fw_status fw_process_step_warmth(fw_process_coupon_work *w, const fw_process_step *s, double T_K,
-                                 double *factor) {
-    return warmth(w, s, T_K, NULL, 0.0, factor);
+fw_status fw_process_step_speed(fw_process_coupon_work *w, const fw_process_step *s,
+                                fw_process_condition which, double at, double *factor) {
+    const correction c = {s, which, at};
+    return speed(w, &c, 0.0, NULL, 0.0, factor);
 }
 
-/* relative change of the warmth by one standard uncertainty u of an input of the law, or of T: central over +-0.1 u, as the
-   covariances are (process_calibrate.c), so that what the same input takes back later goes out */
-static fw_status changed(fw_process_coupon_work *w, const fw_process_step *s, double T_K,
-                         const fw_quantity *q, double u, double *change) {
+/* relative change of the speed by one standard uncertainty u of an input of the law, or of the condition: central over
+   +-0.1 u, as the covariances are (process_calibrate.c), so that what the same input takes back later goes out */
+static fw_status changed(fw_process_coupon_work *w, const correction *c, const fw_quantity *q,
+                         double u, double *change) {
     static const double part = 0.1;
-    const double of_T = q ? 0.0 : part * u, of_q = q ? part * u : 0.0;
+    const double of_at = q ? 0.0 : part * u, of_q = q ? part * u : 0.0;
     double f[2];
-    FW_TRY(warmth(w, s, T_K - of_T, q, -of_q, &f[0]));
-    FW_TRY(warmth(w, s, T_K + of_T, q, of_q, &f[1]));
+    FW_TRY(speed(w, c, -of_at, q, -of_q, &f[0]));
+    FW_TRY(speed(w, c, of_at, q, of_q, &f[1]));
     *change = (f[1] - f[0]) / (f[1] + f[0]) / part;
     return FW_OK;
 }
 
-/* f = t(T0)/t(T) by the step's own law, in which the rate cancels; u(f)/f is the root of the sum of the squares of what each
-   input of the law, and T, changes it by. T K; f 1. Test: test_calibrate.c, of_warm_baths. */
-fw_status fw_process_coupon_warmed(fw_process_coupon_work *w, const char *id,
-                                   const fw_process_measurement *row,
-                                   fw_process_coupon_warmth *out) {
-    const fw_process_step *s = row->temperature_K > 0.0 ? fw_process_flow_warms(w->flow, id) : NULL;
+/* of one condition, into what others do */
+static fw_status correct_for(fw_process_coupon_work *w, const correction *c,
+                             const fw_process_measurement *row, fw_process_coupon_speed *out) {
     double f, change, u;
-    *out = (fw_process_coupon_warmth){.factor = 1.0};
-    if (!s) return FW_OK;
-    FW_TRY(warmth(w, s, row->temperature_K, NULL, 0.0, &f));
+    FW_TRY(speed(w, c, 0.0, NULL, 0.0, &f));
     if (!(f > 0.0))
-        return fw_process_coupon_wrong(w, row, "%s: the law of step %s has no rate at %.4g Cel",
-                                       row->coupon, s->id, row->temperature_K - FW_ICE_POINT_K);
-    FW_TRY(changed(w, s, row->temperature_K, NULL, row->temperature_uncertainty, &change));
-    *out = (fw_process_coupon_warmth){f, fabs(change)};
-    for (int i = 0; i < s->nargument; i++) {
-        const fw_quantity *q = s->argument[i].q;
+        return fw_process_coupon_wrong(
+            w, row, "%s: the law of step %s has no rate at a %s of %.4g %s", row->coupon,
+            c->step->id, c->which == FW_CONDITION_TEMPERATURE ? "temperature" : "open area", c->at,
+            c->which == FW_CONDITION_TEMPERATURE ? "K" : "m2");
+    FW_TRY(changed(w, c, NULL, row->condition_uncertainty[c->which], &change));
+    out->factor *= f;
+    out->uncertainty = hypot(out->uncertainty, change);
+    for (int i = 0; i < c->step->nargument; i++) {
+        const char *name = c->step->argument[i].name;
+        const fw_quantity *q = c->step->argument[i].q;
         double value;
-        if (cancels(s->argument[i].name) || strcmp(s->argument[i].name, of_temperature) == 0 ||
-            !q->id || !fw_process_coupon_value(w, q->id, &value, &u) || !(u > 0.0))
+        if (!corrects(c->step, name) || strcmp(name, condition[c->which].at) == 0 || !q->id ||
+            !fw_process_coupon_value(w, q->id, &value, &u) || !(u > 0.0))
             continue;
-        FW_TRY(changed(w, s, row->temperature_K, q, u, &change));
+        FW_TRY(changed(w, c, q, u, &change));
         out->uncertainty = hypot(out->uncertainty, change);
+    }
+    return FW_OK;
+}
+
+/* f = t(reference)/t(as it was) by the step's own law, in which the rate cancels; u(f)/f is the root of the sum of the squares
+   of what each input of the law, and the condition, changes it by. SI; f 1. Test: test_calibrate.c, of_warm_baths,
+   of_open_areas. */
+fw_status fw_process_coupon_sped(fw_process_coupon_work *w, const char *id,
+                                 const fw_process_measurement *row, fw_process_coupon_speed *out) {
+    *out = (fw_process_coupon_speed){.factor = 1.0};
+    for (int k = 0; k < FW_CONDITIONS; k++) {
+        const fw_process_condition which = (fw_process_condition)k;
+        const correction c = {fw_process_flow_corrects(w->flow, which, id), which,
+                              row->condition[k]};
+        if (c.step && c.at > 0.0) FW_TRY(correct_for(w, &c, row, out));
     }
     return FW_OK;
 }
@@ -295,18 +335,20 @@ static const char *number(char text[32], double value, int digits) {
 }
 
 /* of the rows that a rate comes of; not where one of them does not say (any one does of those of one run) */
-static void note_temperatures(const fw_process_coupon_work *w, fw_process_calibrated *c) {
-    bool said = fw_process_flow_warms(w->flow, c->id);
+static void note_condition(const fw_process_coupon_work *w, fw_process_condition which,
+                           fw_process_calibrated *c) {
+    bool said = fw_process_flow_corrects(w->flow, which, c->id);
     double low = (double)INFINITY, high = 0.0;
     for (int i = 0; said && i < w->n; i++) {
         const fw_process_measurement *r = w->measurement[i];
+        const double at = r->condition[which];
         if (has(w->flow, r->feature) && strcmp(r->feature, c->id) != 0) continue;
-        said = w->one_run || r->temperature_K > 0.0;
-        if (!(r->temperature_K > 0.0)) continue;
-        low = fmin(low, r->temperature_K);
-        high = fmax(high, r->temperature_K);
+        said = w->one_run || at > 0.0;
+        if (!(at > 0.0)) continue;
+        low = fmin(low, at);
+        high = fmax(high, at);
     }
-    if (said && high > 0.0) c->coldest_K = low, c->warmest_K = high;
+    if (said && high > 0.0) c->least[which] = low, c->most[which] = high;
 }
 
 fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, double value,
@@ -338,7 +380,8 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
                                                 .probability = p,
                                                 .rows = w->n,
                                                 .freedom = fit->freedom};
-    note_temperatures(w, &w->out[w->nout - 1]);
+    for (int k = 0; k < FW_CONDITIONS; k++)
+        note_condition(w, (fw_process_condition)k, &w->out[w->nout - 1]);
     return FW_OK;
 }
 
@@ -373,6 +416,38 @@ fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
         }
     }
     return (fw_process_etch){0};
+}
+
+/* what comes of the thickness that is planned, by the corner of the device layer; NULL: no quantity says it */
+static const char *made_thickness(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->ncorner; i++)
+        if (flow->corner[i].of == FW_CORNER_THICKNESS && flow->corner[i].q)
+            return flow->corner[i].q->id;
+    return NULL;
+}
+
+fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const char *efficiency) {
+    fw_process_plating best = {0};
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const fw_quantity *eta = fw_process_step_argument(s, "efficiency");
+        if (!s->law || strcmp(s->law, fw_process_law_faraday.name) != 0 || !eta || !eta->id ||
+            !fw_process_step_is_op(s, "plate"))
+            continue;
+        fw_process_plating is = {.thickness = fw_process_step_argument(s, "thickness"),
+                                 .density = fw_process_step_argument(s, "density"),
+                                 .valence = fw_process_step_argument(s, "valence"),
+                                 .molar_mass = fw_process_step_argument(s, "molar_mass"),
+                                 .efficiency = eta};
+        for (int k = 0; k < s->nchange; k++)
+            if (strcmp(s->change[k].kind, "add") == 0) is.material = s->change[k].material;
+        const bool device =
+            is.material && flow->material && strcmp(is.material, flow->material) == 0;
+        if (device) is.made = made_thickness(flow);
+        if (strcmp(eta->id, efficiency) == 0) return is;
+        if (!best.efficiency || (device && !best.made)) best = is;
+    }
+    return best;
 }
 
 const char *fw_process_coupon_edge(const fw_process_flow *flow) {

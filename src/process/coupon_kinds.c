@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kinds of coupons. Of etching: rates and selectivities, the ladder of undercut lines, slots of several widths. Of
-   printing, resist and plating: lines and spaces, thickness over spin speed, mass and pads of copper. */
+   printing, resist and plating: lines and spaces, thickness over spin speed, mass and pads of what is plated. */
 #include "base/constants.h"
 #include "process/coupon.h"
 #include <math.h>
@@ -21,17 +21,17 @@ static int collect(const fw_process_coupon_work *w, const char *feature, double 
     return n;
 }
 
-/* The times of these rows as they would have been at the reference temperature, x f. What f may be off by is in proportion
-   in all rows of one temperature, and no scatter; *shared is the least of any row, and what a row has beyond that, which
+/* The times of these rows as they would have been under the reference conditions, x f. What f may be off by is in proportion
+   in all rows of one condition, and no scatter; *shared is the least of any row, and what a row has beyond that, which
    tells it from others, counts as its own: (f x)^2 (u_i^2 - u_least^2). Test: test_calibrate.c, of_warm_baths. */
-static fw_status warm(fw_process_coupon_work *w, const char *feature, double *x, double *sx,
-                      double *shared) {
-    fw_process_coupon_warmth of[FW_COUPON_ROWS];
+static fw_status correct(fw_process_coupon_work *w, const char *feature, double *x, double *sx,
+                         double *shared) {
+    fw_process_coupon_speed of[FW_COUPON_ROWS];
     int n = 0;
     *shared = (double)INFINITY;
     for (int i = 0; i < w->n; i++) {
         if (strcmp(w->measurement[i]->feature, feature) != 0) continue;
-        FW_TRY(fw_process_coupon_warmed(w, feature, w->measurement[i], &of[n]));
+        FW_TRY(fw_process_coupon_sped(w, feature, w->measurement[i], &of[n]));
         *shared = fmin(*shared, of[n++].uncertainty);
     }
     for (int i = 0; i < n; i++) {
@@ -48,21 +48,24 @@ static bool first_of(const fw_process_coupon_work *w, int i) {
     return true;
 }
 
-/* the time of one run as it would have been at the reference temperature of the rate; any of its rows says which it had */
-static fw_status warm_run(fw_process_coupon_work *w, const char *rate, double *t, double *u_t) {
-    const fw_process_measurement *says = w->measurement[0];
-    fw_process_coupon_warmth of;
-    for (int i = 0; i < w->n; i++) {
-        const fw_process_measurement *r = w->measurement[i];
-        if (!(r->temperature_K > 0.0)) continue;
-        if (says->temperature_K > 0.0 && fabs(r->temperature_K - says->temperature_K) > 1e-6)
-            return fw_process_coupon_wrong(w, r,
-                                           "%s: all rows are of one run, so its temperature is the "
-                                           "same in all",
-                                           r->coupon);
-        says = r;
-    }
-    FW_TRY(fw_process_coupon_warmed(w, rate, says, &of));
+/* the time of one run as it would have been under the reference conditions of the rate; any of its rows says which it had */
+static fw_status correct_run(fw_process_coupon_work *w, const char *rate, double *t, double *u_t) {
+    fw_process_measurement says = *w->measurement[0];
+    fw_process_coupon_speed of;
+    for (int k = 0; k < FW_CONDITIONS; k++)
+        for (int i = 0; i < w->n; i++) {
+            const fw_process_measurement *r = w->measurement[i];
+            const double is = r->condition[k], before = says.condition[k];
+            if (!(is > 0.0)) continue;
+            if (before > 0.0 && fabs(is - before) > 1e-8 * before)
+                return fw_process_coupon_wrong(
+                    w, r,
+                    "%s: all rows are of one run, so its %s is the same "
+                    "in all",
+                    r->coupon, k == FW_CONDITION_TEMPERATURE ? "temperature" : "open area");
+            says.condition[k] = is, says.condition_uncertainty[k] = r->condition_uncertainty[k];
+        }
+    FW_TRY(fw_process_coupon_sped(w, rate, &says, &of));
     *u_t = of.factor * hypot(*u_t, *t * of.uncertainty);
     *t *= of.factor;
     return FW_OK;
@@ -89,7 +92,7 @@ static fw_status rates(fw_process_coupon_work *w) {
         double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS];
         const int n = collect(w, r->feature, y, sy, x, sx);
         double shared;
-        FW_TRY(warm(w, r->feature, x, sx, &shared));
+        FW_TRY(correct(w, r->feature, x, sx, &shared));
         fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, n);
         FW_TRY(fw_process_coupon_give(w, r->feature, f.value[0],
                                       hypot(f.uncertainty[0], f.value[0] * shared), &f,
@@ -212,7 +215,7 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
             return fw_process_coupon_wrong(w, w->measurement[0],
                                            "the rate of the etch is not known; give the depth in "
                                            "wide openings in the column at");
-        FW_TRY(warm_run(w, etch.rate->id, &E, &u_E));
+        FW_TRY(correct_run(w, etch.rate->id, &E, &u_E));
         u_E = hypot(R * u_E, E * u_R);
         E *= R;
     } else if (!fw_quantity_dimension_equal(w->measurement[0]->at_dimension,
@@ -280,7 +283,7 @@ static fw_status fit_release(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "a plate is held that has a smaller pitch than one that is "
                                        "free; check the rows free and held");
-    FW_TRY(warm_run(w, "release.R", &t, &u_t));
+    FW_TRY(correct_run(w, "release.R", &t, &u_t));
     const double reach = 0.5 * (least + most), u = hypot((most - least) / sqrt(12.0), u_hole);
     const fw_process_fit f = {.value = {reach / t}};
     return fw_process_coupon_give(w, "release.R", reach / t, reach / t * hypot(u / reach, u_t / t),
@@ -359,7 +362,7 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "narrow slots came out deeper than wide ones: that is no "
                                        "lag of this law; check the order of the rows");
-    FW_TRY(warm_run(w, etch.rate->id, &t, &u_t));
+    FW_TRY(correct_run(w, etch.rate->id, &t, &u_t));
     double R = travelled / t, u = hypot(f.uncertainty[0] / t, R * u_t / t);
     const char *note = fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%",
                                        w->n, (int)lround(100.0 * f.correlation));
@@ -456,18 +459,45 @@ const fw_process_coupon fw_process_coupon_spin = {
 
 /* ---- plating ---- */
 
-static fw_status need(fw_process_coupon_work *w, const char *id, double *value) {
-    if (fw_process_coupon_value(w, id, value, NULL)) return FW_OK;
+static fw_status need(fw_process_coupon_work *w, const fw_quantity *q, const char *what,
+                      double *value) {
+    const char *id = q && q->id ? q->id : what;
+    *value = q ? q->value : 0.0; /* of a number that stands in the step itself */
+    if (q && (q->id ? fw_process_coupon_value(w, q->id, value, NULL) : !q->unknown)) return FW_OK;
     return fw_process_coupon_wrong(
         w, w->measurement[0], "%s is not known in this flow; enter it in a laboratory pack", id);
+}
+
+/* the plating that the rows are of, and n F/M of its metal; what its efficiency is called tells one of several */
+static fw_status plating_of(fw_process_coupon_work *w, fw_process_plating *of, double *C_per_kg) {
+    const fw_process_measurement *r = w->measurement[0];
+    double n, M;
+    *of = fw_process_flow_plating(w->flow, r->feature);
+    if (!of->efficiency)
+        return fw_process_coupon_wrong(w, r,
+                                       "flow '%s' has no step that plates by its charge (law "
+                                       "faraday, with an efficiency), which %s reads; take the "
+                                       "rows out",
+                                       w->flow->id, r->coupon);
+    FW_TRY(need(w, of->valence, "the valence", &n));
+    FW_TRY(need(w, of->molar_mass, "the molar mass", &M));
+    *C_per_kg = n * FW_FARADAY_C_PER_mol / M;
+    return FW_OK;
+}
+
+static fw_status too_much(fw_process_coupon_work *w, const fw_process_plating *of,
+                          const char *check) {
+    return fw_process_coupon_wrong(w, w->measurement[0],
+                                   "more than the charge can deposit of %s: check %s",
+                                   fw_process_flow_material_name(w->flow, of->material), check);
 }
 
 /* Mass m of a deposit for a charge Q: eta = m n F/(M Q), through the origin over several runs. m
    kg, Q A s, M kg/mol; eta 1. Source: Faraday's law. Test: test_calibrate.c. */
 static fw_status by_mass(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS], n, M;
-    FW_TRY(need(w, "cu.n", &n));
-    FW_TRY(need(w, "cu.M", &M));
+    double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS], per;
+    fw_process_plating of;
+    FW_TRY(plating_of(w, &of, &per));
     for (int i = 0; i < w->n; i++) {
         const fw_process_measurement *r = w->measurement[i];
         if (!fw_quantity_dimension_equal(r->at_dimension, (fw_quantity_dimension)FW_DIM_CHARGE) ||
@@ -476,16 +506,13 @@ static fw_status by_mass(fw_process_coupon_work *w) {
                 w, r,
                 "plating-mass needs the charge in the columns at, u_at and "
                 "at_unit");
-        y[i] = r->value * n * FW_FARADAY_C_PER_mol / M,
-        sy[i] = r->uncertainty * n * FW_FARADAY_C_PER_mol / M;
+        y[i] = r->value * per, sy[i] = r->uncertainty * per;
         x[i] = r->at, sx[i] = r->at_uncertainty;
     }
     fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, w->n);
     if (f.value[0] > 1.0 + 3.0 * f.uncertainty[0])
-        return fw_process_coupon_wrong(w, w->measurement[0],
-                                       "more copper than the charge can deposit: check mass, "
-                                       "charge and units");
-    return fw_process_coupon_give(w, "cu.eta", f.value[0], f.uncertainty[0], &f,
+        return too_much(w, &of, "mass, charge and units");
+    return fw_process_coupon_give(w, of.efficiency->id, f.value[0], f.uncertainty[0], &f,
                                   "mass over charge");
 }
 
@@ -503,39 +530,36 @@ static int pads_of(const fw_process_coupon_work *w, bool wide, double size_m, do
 
 /* Thickness of pads of several widths, one run of charge q per area: the widest ones give
    eta = d n F rho/(M q), and those up to 30 um, as wide as flexures, the factor f =
-   d_narrow/d_wide: what is plated to cu.d on average is f cu.d there, which is made.cu. d m, q A
-   s/m2, rho kg/m3; eta, f 1. Both groups are tested on their own. Source: Faraday's law. Test:
-   test_calibrate.c. */
+   d_narrow/d_wide: what is plated to d on average is f d there, which is the thickness that the flow's corner has
+   (made.cu of the copper flow). d m, q A s/m2, rho kg/m3; eta, f 1. Both groups are tested on their own. Source:
+   Faraday's law. Test: test_calibrate.c. */
 static fw_status by_pads(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], q, u_q, n, M, rho, widest = 0.0, d = 0.0;
-    FW_TRY(need(w, "cu.n", &n));
-    FW_TRY(need(w, "cu.M", &M));
-    FW_TRY(need(w, "cu.rho", &rho));
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], q, u_q, per, rho, widest = 0.0, d = 0.0;
+    fw_process_plating of;
+    FW_TRY(plating_of(w, &of, &per));
+    FW_TRY(need(w, of.density, "the density", &rho));
     FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM(-2, 0, 1, 1, 0, 0, 0),
                                        "the charge per area", &q, &u_q));
     for (int i = 0; i < w->n; i++)
         widest = fmax(widest, w->measurement[i]->drawn_m);
     fw_process_fit wide = fw_process_fit_mean(y, s, pads_of(w, true, widest * (1.0 - 1e-9), y, s));
-    double eta = wide.value[0] * n * FW_FARADAY_C_PER_mol * rho / (M * q);
+    double eta = wide.value[0] * per * rho / q;
     double u_wide = wide.uncertainty[0] / wide.value[0], u = eta * hypot(u_wide, u_q / q);
-    if (eta > 1.0 + 3.0 * u)
-        return fw_process_coupon_wrong(w, w->measurement[0],
-                                       "more copper than the charge can deposit: check "
-                                       "thickness, charge per area and units");
-    FW_TRY(fw_process_coupon_give(w, "cu.eta", eta, u, &wide,
+    if (eta > 1.0 + 3.0 * u) return too_much(w, &of, "thickness, charge per area and units");
+    FW_TRY(fw_process_coupon_give(w, of.efficiency->id, eta, u, &wide,
                                   "thickness of the widest pads over charge"));
     int narrow = pads_of(w, false, 30.0e-6 * (1.0 + 1e-9), y, s);
-    if (narrow == 0 || widest < 100.0e-6 || !fw_process_coupon_value(w, "cu.d", &d, NULL))
+    if (narrow == 0 || widest < 100.0e-6 || !of.made || !of.thickness || !of.thickness->id ||
+        !fw_process_coupon_value(w, of.thickness->id, &d, NULL))
         return FW_OK;
     fw_process_fit thin = fw_process_fit_mean(y, s, narrow);
     double f = thin.value[0] / wide.value[0];
     const char *note = fw_arena_printf(
-        w->arena, "pads up to 30 um are %d permille as thick as the widest; that times cu.d",
-        (int)lround(1000.0 * f));
+        w->arena, "pads up to 30 um are %d permille as thick as the widest; that times %s",
+        (int)lround(1000.0 * f), of.thickness->id);
     FW_NEED(note);
-    return fw_process_coupon_give(w, "made.cu", f * d,
-                                  f * d * hypot(thin.uncertainty[0] / thin.value[0], u_wide), &thin,
-                                  note);
+    return fw_process_coupon_give(
+        w, of.made, f * d, f * d * hypot(thin.uncertainty[0] / thin.value[0], u_wide), &thin, note);
 }
 
 const fw_process_coupon fw_process_coupon_mass = {

@@ -218,7 +218,8 @@ static void faraday_slope(const double *x, double result, double *dx) {
         dx[i] = x[i] != 0.0 ? power[i] * result / x[i] : 0.0;
 }
 
-/* I = J A, Q = I t, m = rho P d A; the errors of area and current stay in the time */
+/* I = J A, Q = I t, m = rho P d A. In Q the current density cancels, whose error the time has; the area is in I, and once in
+   Q. Test: test_law.c, faraday */
 static fw_status faraday_derive(fw_arena *arena, const fw_process_law_use *use,
                                 const fw_process_law_answer *answer, fw_process_step *step) {
     const fw_quantity *J = fw_process_law_input(use, "current_density"),
@@ -228,13 +229,14 @@ static fw_status faraday_derive(fw_arena *arena, const fw_process_law_use *use,
                       *P = fw_process_law_input(use, "porosity");
     if (!J || !A) return FW_OK;
     const char *source = "computed: Faraday's law";
-    double share_J = J->uncertainty / J->value;
+    const double share_J = J->uncertainty / J->value, share_A = A->uncertainty / A->value;
     double current = J->value * A->value;
-    FW_TRY(fw_process_step_derive(arena, step, "current", current, current * share_J,
-                                  (fw_quantity_dimension)FW_DIM_CURRENT, current < 0.1 ? "mA" : "A",
-                                  answer->status, source));
+    FW_TRY(fw_process_step_derive(
+        arena, step, "current", current, current * hypot(share_J, share_A),
+        (fw_quantity_dimension)FW_DIM_CURRENT, current < 0.1 ? "mA" : "A", answer->status, source));
     if (!answer->computable || !d || !rho) return FW_OK;
     double share_t = answer->uncertainty / answer->value;
+    share_t = sqrt(fmax(share_t * share_t - share_J * share_J, 0.0));
     double charge = current * answer->value, mass = rho->value * d->value * A->value;
     FW_TRY(fw_process_step_derive(arena, step, "charge", charge, charge * share_t,
                                   (fw_quantity_dimension)FW_DIM_CHARGE, "C", answer->status,

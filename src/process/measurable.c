@@ -29,6 +29,7 @@ static double known(const fw_process_flow *flow, const char *id) {
 }
 
 static double value_of(const meant *m, const fw_quantity *q) {
+    if (q && !q->id) return q->unknown ? (double)NAN : q->value; /* a number in the step itself */
     return q ? known(m->flow, q->id) : (double)NAN;
 }
 
@@ -132,9 +133,10 @@ static void of_release(meant *m) {
 
 /* the planned thickness at the planned charge per area; narrow pads as thick as flexures come out */
 static void of_pads(meant *m) {
-    double d = known(m->flow, "cu.d"), made = known(m->flow, "made.cu"),
-           q = d * known(m->flow, "cu.n") * FW_FARADAY_C_PER_mol * known(m->flow, "cu.rho") /
-               (known(m->flow, "cu.eta") * known(m->flow, "cu.M"));
+    const fw_process_plating of = fw_process_flow_plating(m->flow, "");
+    double d = value_of(m, of.thickness), made = of.made ? known(m->flow, of.made) : (double)NAN,
+           q = d * value_of(m, of.valence) * FW_FARADAY_C_PER_mol * value_of(m, of.density) /
+               (value_of(m, of.efficiency) * value_of(m, of.molar_mass));
     for (size_t i = 0; i < sizeof pad_um / sizeof pad_um[0]; i++) {
         bool narrow = pad_um[i] <= 30.0 && isfinite(made);
         fw_process_measurement row =

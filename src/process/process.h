@@ -372,6 +372,7 @@ typedef struct fw_process_flow {
     fw_process_corner *corner;             /* (ncorner) */
     fw_process_finished *finished;         /* (nfinished) */
     const char **open_point; /* (nopen_point) what the source leaves open and cannot be computed */
+    const char **open_until; /* (nopen_point) ids of the quantities that close it, all of them; NULL: none do */
     fw_process_consumable *consumable;   /* (nconsumable) */
     fw_process_bath *bath;               /* (nbath) */
     fw_process_alternative *alternative; /* (nalternative) */

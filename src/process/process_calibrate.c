@@ -238,9 +238,11 @@ fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags
 }
 
 void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calibrated *b) {
-    const bool both = a->warmest_K > 0.0 && b->warmest_K > 0.0;
-    a->coldest_K = both ? fmin(a->coldest_K, b->coldest_K) : 0.0;
-    a->warmest_K = both ? fmax(a->warmest_K, b->warmest_K) : 0.0;
+    for (int k = 0; k < FW_CONDITIONS; k++) {
+        const bool both = a->most[k] > 0.0 && b->most[k] > 0.0;
+        a->least[k] = both ? fmin(a->least[k], b->least[k]) : 0.0;
+        a->most[k] = both ? fmax(a->most[k], b->most[k]) : 0.0;
+    }
 }
 
 /* two coupons of one number: their weighted mean, unless they contradict each other */
@@ -338,7 +340,9 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
 
 typedef struct source { /* one independent error of the data */
     int row;            /* its measured value, or what it was measured under; -1: of the flow */
-    bool at, warm;      /* of `at`, or of the temperature, of which one thermometer told all rows */
+    bool at;            /* of `at` */
+    bool common;        /* of a condition, which one instrument told of all rows */
+    fw_process_condition of;
     const fw_quantity *q;
     double u;
 } source;
@@ -358,10 +362,10 @@ static const double step = 0.1;
 static void shift_row(const problem *p, const source *s, double by, fw_process_measurement *row) {
     const fw_process_coupon *kind = fw_process_coupon_kind(p->row[s->row].coupon);
     memcpy(row, p->row, (size_t)p->n * sizeof *row);
-    for (int i = 0; s->warm && i < p->n; i++)
-        if (row[i].temperature_K > 0.0)
-            row[i].temperature_K += by / s->u * row[i].temperature_uncertainty;
-    if (s->warm) return;
+    for (int i = 0; s->common && i < p->n; i++)
+        if (row[i].condition[s->of] > 0.0)
+            row[i].condition[s->of] += by / s->u * row[i].condition_uncertainty[s->of];
+    if (s->common) return;
     if (!s->at) {
         row[s->row].value += by;
         return;
@@ -408,10 +412,12 @@ static int sources_of(const problem *p, const fw_process_coupon_work *w, const d
         if (shared && r->at_uncertainty > 0.0 && (first || !kind->one_run))
             list[n++] = (source){.row = i, .at = true, .u = r->at_uncertainty};
     }
-    bool warm = false;
-    for (int i = 0; shared && i < p->n; i++)
-        warm = warm || (p->row[i].temperature_K > 0.0 && p->row[i].temperature_uncertainty > 0.0);
-    if (warm) list[n++] = (source){.warm = true, .u = 1.0};
+    for (int k = 0; shared && k < FW_CONDITIONS; k++) {
+        bool off = false;
+        for (int i = 0; i < p->n; i++)
+            off = off || (p->row[i].condition[k] > 0.0 && p->row[i].condition_uncertainty[k] > 0.0);
+        if (off) list[n++] = (source){.common = true, .of = (fw_process_condition)k, .u = 1.0};
+    }
     for (int i = 0; shared && i < w->nused; i++)
         list[n++] = (source){.row = -1, .q = w->used[i], .u = w->used[i]->uncertainty};
     return n;
@@ -449,7 +455,7 @@ fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *f
     FW_NEED(w);
     FW_NEED(w->out = fw_arena_array(arena, fw_process_calibrated, FW_COUPON_RESULTS));
     fw_process_measurement *row = fw_arena_array(arena, fw_process_measurement, (size_t)n);
-    source *list = fw_arena_array(arena, source, (size_t)(2 * n + 1 + FW_COUPON_USED));
+    source *list = fw_arena_array(arena, source, (size_t)(2 * n + FW_CONDITIONS + FW_COUPON_USED));
     double value[FW_COUPON_RESULTS];
     fw_status status;
     FW_NEED(row ? list : NULL);

@@ -2,6 +2,7 @@
 /* Can the flow make the device? What it can print and plate, and the nearest change where it cannot. */
 #include "process/pack.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- what the flow can print and plate ---- */
@@ -115,6 +116,19 @@ static fw_status not_computable(fw_process_judge *j) {
     return FW_OK;
 }
 
+/* are all of these quantities known? An id that is none of the flow leaves the point open */
+static bool closed(const fw_process_flow *flow, const char *until) {
+    char id[64];
+    for (const char *at = until; at && *at;) {
+        const size_t n = strcspn(at, " ");
+        snprintf(id, sizeof id, "%.*s", (int)n, at);
+        const fw_quantity *q = fw_process_flow_quantity(flow, id);
+        if (n > 0 && (!q || q->unknown)) return false;
+        at += n + strspn(at + n, " ");
+    }
+    return until != NULL;
+}
+
 fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
                                 const fw_process_mask_facts *facts, fw_diags *diags) {
     fw_process_judge j = {.arena = arena,
@@ -134,7 +148,8 @@ fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
     FW_TRY(fw_process_judge_release(&j));
     FW_TRY(not_computable(&j));
     for (int i = 0; i < flow->nopen_point; i++)
-        FW_TRY(fw_process_judge_reason(&j, FW_ANSWER_OPEN, "%s", flow->open_point[i]));
+        if (!closed(flow, flow->open_until[i]))
+            FW_TRY(fw_process_judge_reason(&j, FW_ANSWER_OPEN, "%s", flow->open_point[i]));
     const fw_quantity *edge = fw_process_flow_quantity(flow, FW_PROCESS_PRINTED_EDGE);
     if (edge && !edge->unknown && edge->uncertainty > 0.0) {
         fw_process_numbers t = {0};

@@ -95,6 +95,8 @@ static fw_status read_one(fw_process_pack *pack, const fw_xml_record *e, bool ba
     fw_process_flow *f = pack->flow;
     const fw_xml_attribute *id = fw_process_pack_get(e, "id");
     if (fw_xml_is(e, "open-point")) {
+        const fw_xml_attribute *until = fw_process_pack_get(e, "until");
+        f->open_until[f->nopen_point] = until ? until->value : NULL;
         f->open_point[f->nopen_point++] = e->element->text;
         return FW_OK;
     }
@@ -196,6 +198,7 @@ static fw_status make_room(fw_process_pack *pack) {
     FW_NEED(f->consumable = fw_arena_array(pack->arena, fw_process_consumable, n));
     FW_NEED(f->bath = fw_arena_array(pack->arena, fw_process_bath, n));
     FW_NEED(f->open_point = fw_arena_array(pack->arena, const char *, n));
+    FW_NEED(f->open_until = fw_arena_array(pack->arena, const char *, n));
     FW_NEED(f->step = fw_arena_array(pack->arena, fw_process_step,
                                      (size_t)fw_xml_children(pack->root, "step")));
     return FW_OK;

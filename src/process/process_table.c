@@ -61,6 +61,12 @@ static const fw_xml_attribute_row process_rows[] = {
     {"carrier", WORD(carriers), .fallback = "none",
      .sentence = "insulating: what is not joined in the device layer is insulated."},
 };
+static const fw_xml_attribute_row open_point_rows[] = {
+    {"until", TEXT,
+     .sentence = "Quantities with spaces between: once all of them are known, as a "
+                 "laboratory states them, the point is no longer open."},
+};
+
 static const fw_xml_attribute_row source_rows[] = {
     ID,
     {"kind", WORD(source_kinds), REQUIRED, .sentence = "What sort of source it is."},
@@ -366,7 +372,8 @@ static const fw_xml_element_row pack_rows[] = {
      .sentence = "A plate that the flow prints besides the device's."},
     {"finished", "process", ROWS(finished_rows),
      .sentence = "What must be true of the wafer when the flow has ended."},
-    {"open-point", "process", .text = true, .sentence = "What the source leaves open."},
+    {"open-point", "process", ROWS(open_point_rows), .text = true,
+     .sentence = "What the source leaves open."},
     {"alternative", "process", ROWS(alternative_rows),
      .sentence = "Another way of doing a step: a whole step with the id of the one whose place "
                  "it takes when a laboratory pack chooses it."},

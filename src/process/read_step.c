@@ -39,6 +39,31 @@ static fw_status read_arguments(fw_process_pack *pack, const fw_xml_record *e, c
     return FW_OK;
 }
 
+static bool names_argument(const fw_xml_record *e, const char *argument) {
+    for (const fw_xml_record *c = e->first_child; c; c = c->next)
+        if (fw_xml_is(c, "arg") && strcmp(fw_process_pack_text(c, "name"), argument) == 0)
+            return true;
+    return false;
+}
+
+/* What a law corrects by belongs together: with one of it left out, nothing would be corrected and nothing said. What nobody
+   knows is named as that. */
+static void check_correction(fw_process_pack *pack, const fw_xml_record *e,
+                             const fw_process_law *law) {
+    const char *has = NULL, *lacks = NULL;
+    for (int i = 0; i < law->nargument; i++) {
+        const char *name = law->argument[i].name;
+        if (law->argument[i].need == FW_LAW_WHEN_KNOWN)
+            *(names_argument(e, name) ? &has : &lacks) = name;
+    }
+    if (has && lacks)
+        fw_diag_error(
+            pack->diags, 678, e->element->place,
+            "law '%s' is given '%s' and not '%s', without which it corrects nothing: name "
+            "that as well (unknown=\"true\" where nobody knows it), or leave both out",
+            law->name, has, lacks);
+}
+
 static fw_status check_arguments(fw_process_pack *pack, const fw_xml_record *e,
                                  const fw_process_law *law) {
     for (const fw_xml_record *c = e->first_child; c; c = c->next) {
@@ -62,14 +87,11 @@ static fw_status check_arguments(fw_process_pack *pack, const fw_xml_record *e,
                                    law->argument[at].dimension));
     }
     for (int i = 0; i < law->nargument; i++) {
-        bool given = law->argument[i].need != FW_LAW_REQUIRED;
-        for (const fw_xml_record *c = e->first_child; c && !given; c = c->next)
-            given = fw_xml_is(c, "arg") &&
-                    strcmp(fw_process_pack_text(c, "name"), law->argument[i].name) == 0;
-        if (!given)
+        if (law->argument[i].need == FW_LAW_REQUIRED && !names_argument(e, law->argument[i].name))
             fw_diag_error(pack->diags, 168, e->element->place, "law '%s' needs the argument '%s'",
                           law->name, law->argument[i].name);
     }
+    check_correction(pack, e, law);
     return FW_OK;
 }
 

@@ -428,7 +428,7 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, 
                                       .wafer = e->wafer ? e->wafer : "",
                                       .step = e->step->id,
                                       .nsite = c->nsite};
-            fw_recipe_asrun_warm(run, e, &r->row);
+            fw_recipe_asrun_etched_at(run, e, &r->row);
             FW_NEED(r->date = fw_arena_strndup(arena, e->end, 10));
             for (int s = 0; s < FW_RECIPE_SITES; s++) {
                 double off = c->site[s] - c->row.value;

@@ -43,10 +43,10 @@ char *fw_recipe_asrun_word(char **at, char separator);
 /* FW-D282 with the names (n) that there are, and the one that was probably meant */
 fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *what,
                                   const char *name, const char *const *known, int n);
-/* asrun_values.c: the temperature of a rate that was read in this entry and does not say it: what was set of the run that it
-   is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else it stays not said */
-void fw_recipe_asrun_warm(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                          fw_process_measurement *row);
+/* asrun_entry.c: the temperature and the open area of a rate that was read in this entry and does not say them: what was set
+   of the run that it is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else they stay not said */
+void fw_recipe_asrun_etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                               fw_process_measurement *row);
 /* the value of a word coupon= */
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);

@@ -220,26 +220,45 @@ static fw_status read_sites(const fw_recipe_asrun_reader *r, const char *text,
 }
 
 typedef struct given { /* texts as they are written, NULL: not */
-    const char *drawn, *value, *u, *at, *u_at, *warm, *u_warm;
+    const char *drawn, *value, *u, *at, *u_at;
+    const char *condition[FW_CONDITIONS], *u_condition[FW_CONDITIONS];
 } given;
 
-/* of the bath; how far off it may be is taken from how it is written, where nothing is said */
-static fw_status read_warmth(const fw_recipe_asrun_reader *r, const given *g,
-                             fw_process_measurement *m) {
-    fw_quantity_dimension d = {0}, of_u = FW_DIM_TEMPERATURE;
-    m->temperature_uncertainty = fw_process_written_uncertainty(g->warm);
-    FW_TRY(amount(r, "temperature", g->warm, &m->temperature_K, &d, false));
-    if (g->u_warm)
-        FW_TRY(amount(r, "u-temperature", g->u_warm, &m->temperature_uncertainty, &of_u, true));
-    const fw_quantity_dimension want = FW_DIM_TEMPERATURE;
-    if (fw_quantity_dimension_equal(d, want) && fw_quantity_dimension_equal(of_u, want) &&
-        m->temperature_K > 0.0 && m->temperature_uncertainty >= 0.0)
+static const char *const condition_word[FW_CONDITIONS] = {
+    [FW_CONDITION_TEMPERATURE] = "temperature", [FW_CONDITION_OPEN_AREA] = "open-area"};
+static const char *const u_condition_word[FW_CONDITIONS] = {
+    [FW_CONDITION_TEMPERATURE] = "u-temperature", [FW_CONDITION_OPEN_AREA] = "u-open-area"};
+
+/* temperature of the bath, open area of the wafer; how far off it may be is taken from how it is written, where nothing is
+   said */
+static fw_status read_condition(const fw_recipe_asrun_reader *r, const given *g,
+                                fw_process_condition k, fw_process_measurement *m) {
+    static const struct {
+        const char *what, *such, *u_unit;
+        fw_quantity_dimension is;
+    } of[FW_CONDITIONS] = {
+        [FW_CONDITION_TEMPERATURE] = {"a temperature", "35 Cel", "K", FW_DIM_TEMPERATURE},
+        [FW_CONDITION_OPEN_AREA] = {"an area", "60 cm2", "cm2", FW_DIM_AREA}};
+    fw_quantity_dimension d = {0}, of_u = of[k].is;
+    fw_quantity_unit unit;
+    fw_recipe_asrun_values v;
+    FW_TRY(amount(r, condition_word[k], g->condition[k], &m->condition[k], &d, false));
+    FW_TRY(fw_recipe_asrun_values_read(r, condition_word[k], g->condition[k], 1, &v));
+    if (fw_quantity_unit_parse(v.unit, strlen(v.unit), &unit, NULL, NULL)) {
+        unit.offset = 0.0;
+        m->condition_uncertainty[k] =
+            fw_quantity_unit_to_si(&unit, fw_process_written_uncertainty(g->condition[k]));
+    }
+    if (g->u_condition[k])
+        FW_TRY(amount(r, u_condition_word[k], g->u_condition[k], &m->condition_uncertainty[k],
+                      &of_u, true));
+    if (fw_quantity_dimension_equal(d, of[k].is) && fw_quantity_dimension_equal(of_u, of[k].is) &&
+        m->condition[k] > 0.0 && m->condition_uncertainty[k] >= 0.0)
         return FW_OK;
-    return fw_diag_error(
-        r->diags, 282, r->place,
-        "temperature=%s: a temperature is needed, such as 35 Cel, and u-temperature "
-        "in K, not below 0",
-        g->warm);
+    return fw_diag_error(r->diags, 282, r->place,
+                         "%s=%s: %s is needed, such as %s, and %s in %s, not below 0",
+                         condition_word[k], g->condition[k], of[k].what, of[k].such,
+                         u_condition_word[k], of[k].u_unit);
 }
 
 static fw_status read_amounts(const fw_recipe_asrun_reader *r, const given *g,
@@ -264,15 +283,26 @@ static fw_status read_amounts(const fw_recipe_asrun_reader *r, const given *g,
     }
     if (!(m->uncertainty >= 0.0) || m->at_uncertainty < 0.0)
         return fw_diag_error(r->diags, 282, r->place, "u and u-at are not below 0");
-    return g->warm ? read_warmth(r, g, m) : FW_OK;
+    for (int k = 0; k < FW_CONDITIONS; k++)
+        if (g->condition[k]) FW_TRY(read_condition(r, g, (fw_process_condition)k, m));
+    return FW_OK;
 }
 
 static fw_status read_word(const fw_recipe_asrun_reader *r, char *word, fw_recipe_coupon *c,
                            given *g) {
-    enum { FIELDS = 7 };
+    enum { FIELDS = 9 };
     static const char *const known[FIELDS + 1] = {
-        "drawn", "value", "u", "at", "u-at", "temperature", "u-temperature", "feature"};
-    const char **of[] = {&g->drawn, &g->value, &g->u, &g->at, &g->u_at, &g->warm, &g->u_warm};
+        "drawn",       "value",         "u",         "at",          "u-at",
+        "temperature", "u-temperature", "open-area", "u-open-area", "feature"};
+    const char **of[FIELDS] = {&g->drawn,
+                               &g->value,
+                               &g->u,
+                               &g->at,
+                               &g->u_at,
+                               &g->condition[FW_CONDITION_TEMPERATURE],
+                               &g->u_condition[FW_CONDITION_TEMPERATURE],
+                               &g->condition[FW_CONDITION_OPEN_AREA],
+                               &g->u_condition[FW_CONDITION_OPEN_AREA]};
     char *equal = strchr(word, '=');
     if (strncmp(word, "feature=", 8) == 0) { /* as the column of a table is called */
         word += 8;
@@ -332,39 +362,6 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
                              "u=, the standard uncertainty of the instrument",
                              c->row.coupon);
     return fw_process_measurement_check(&c->row, r->diags);
-}
-
-/* ---- the bath of a coupon ---- */
-
-static bool of_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
-    return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
-}
-
-void fw_recipe_asrun_warm(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                          fw_process_measurement *row) {
-    const char *rate = fw_process_coupon_rate(run->flow, row);
-    const fw_recipe_asrun_entry *of =
-        NULL; /* the run; what is read later of it has its start, too */
-    fw_quantity_unit unit;
-    for (int i = 0; rate && i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[i];
-        if (o->step && fw_process_step_warms(o->step, rate) && of_wafer(o, e) &&
-            o->start_s <= e->start_s && (!of || o->start_s > of->start_s))
-            of = o;
-    }
-    for (int i = 0; of && i < run->nentry && !(row->temperature_K > 0.0); i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
-        if (o->step != of->step || !of_wafer(o, of) || o->start_s != of->start_s) continue;
-        for (int k = 0; k < o->nset; k++) {
-            const fw_recipe_set *s = &o->set[k];
-            if (!s->q || isnan(s->value) || s->q != fw_process_step_warms(o->step, rate) ||
-                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
-                continue;
-            row->temperature_K = fw_quantity_unit_to_si(&unit, s->value);
-            row->temperature_uncertainty =
-                s->q->unknown ? fw_process_written_uncertainty(s->text) : s->q->uncertainty;
-        }
-    }
 }
 
 /* ---- limits ---- */

@@ -316,6 +316,16 @@ static void say_places(fw_text *out, const fw_study_levels *l) {
     fw_text_add(out, "\n");
 }
 
+/* "29.53 % (0 to 40.1 %)": what a simulation of so many dies finds is not what is */
+static void say_within(fw_text *out, const fw_chance_share *s, int places) {
+    fw_text_fixed(out, 100 * s->value, places);
+    fw_text_add(out, " % (");
+    fw_text_fixed(out, 100 * s->low, places);
+    fw_text_add(out, " to ");
+    fw_text_fixed(out, 100 * s->high, places);
+    fw_text_add(out, " %)");
+}
+
 /* what is on which level, of the spread of what devices use */
 static void say_levels(fw_text *out, const fw_study_levels *l) {
     const struct {
@@ -332,15 +342,15 @@ static void say_levels(fw_text *out, const fw_study_levels *l) {
     for (size_t k = 0, n = 0; k < sizeof row / sizeof row[0]; k++) {
         if (!row[k].always) continue;
         fw_text_add(out, n++ ? ", " : "");
-        fw_text_fixed(out, 100 * row[k].share->value, 0);
-        fw_text_printf(out, " %% is %s", row[k].name);
+        say_within(out, row[k].share, 0);
+        fw_text_printf(out, " is %s", row[k].name);
     }
     fw_text_add(out, " (");
     fw_text_printf(out, "%ld devices of simulated wafers)\n", l->devices);
     fw_text_add(out, "  the yield of a wafer is off by ");
-    percent(out, l->held.wafer_sd);
+    say_within(out, &l->held.wafer_sd, 1);
     fw_text_add(out, ", that of a lot by ");
-    percent(out, l->held.lot_sd);
+    say_within(out, &l->held.lot_sd, 1);
     fw_text_add(out, " (standard deviations)\n");
     say_places(out, l);
     if (l->not_judged > 0)

@@ -218,8 +218,10 @@ static void levels(fw_json *j, const fw_study_levels *l) {
     fw_json_end(j);
     share(j, "dies_of_one_wafer", &l->used.of_one_wafer);
     share(j, "wafers_of_one_lot", &l->used.of_one_lot);
-    fw_json_real(j, "yield_deviation_of_wafers", l->held.wafer_sd);
-    fw_json_real(j, "yield_deviation_of_lots", l->held.lot_sd);
+    fw_json_real(j, "yield_deviation_of_wafers", l->held.wafer_sd.value);
+    interval(j, "yield_deviation_of_wafers_interval", l->held.wafer_sd.low, l->held.wafer_sd.high);
+    fw_json_real(j, "yield_deviation_of_lots", l->held.lot_sd.value);
+    interval(j, "yield_deviation_of_lots_interval", l->held.lot_sd.low, l->held.lot_sd.high);
     places(j, l);
     fw_json_end(j);
 }

@@ -7,6 +7,7 @@
 #ifndef FW_WAFER_WAFER_H
 #define FW_WAFER_WAFER_H
 #include "device/device.h"
+#include "geometry/polygon.h"
 #include "mask/mask.h"
 
 enum { FW_WAFER_MOST_DIES = 20000 };
@@ -29,6 +30,9 @@ fw_status fw_wafer_form_of(const fw_device_wafer_asked *asked, fw_diags *diags,
    hold it */
 fw_status fw_wafer_form_single(const fw_device_wafer_asked *asked, double across_m, fw_diags *diags,
                                fw_wafer_form *form);
+/* m2 of the wafer, and of what a polygon of its plate as drawn has over it */
+double fw_wafer_area(const fw_wafer_form *form);
+double fw_wafer_area_over(const fw_wafer_form *form, const fw_geometry_polygon *polygon);
 /* do all points of the rectangle lie in the usable area? exact */
 bool fw_wafer_holds(const fw_wafer_form *form, int64_t x0, int64_t y0, int64_t x1, int64_t y1);
 
@@ -185,6 +189,7 @@ typedef struct fw_wafer_written {
     const fw_device_order_asked *asked; /* what is ordered of it */
     fw_mask_plate plate;                /* one layer */
     fw_mask_merge_sums sums;            /* over all places */
+    double over_m2;                     /* of their area, what lies over the wafer */
     int cells, references;
     bool mirrored;
     double field_m; /* inverted: edge of the square within which the rest is written; else 0 */

@@ -106,7 +106,9 @@ fw_status fw_wafer_notes(fw_arena *arena, const fw_wafer *w, const char ***line,
     return FW_OK;
 }
 
-static void add_mask(const fw_mask *mask, double times, fw_wafer_sum *s) {
+/* beside: of the plate itself, which reaches beyond its wafer; NULL: of a cell, whose places lie on it */
+static void add_mask(const fw_mask *mask, double times, const fw_wafer_form *beside,
+                     fw_wafer_sum *s) {
     for (int i = 0; i < mask->nshape; i++) {
         const fw_mask_shape *x = &mask->shape[i];
         fw_wafer_sum *of = &s[x->layer];
@@ -115,7 +117,9 @@ static void add_mask(const fw_mask *mask, double times, fw_wafer_sum *s) {
             vertices += x->part[k].count;
         of->polygons += times * (x->npart == 0 ? 1 : x->npart);
         of->vertices += times * vertices;
-        of->area_m2 += times * 0.5e-18 * (double)fw_geometry_polygon_area2(&x->polygon);
+        const double area_m2 = 0.5e-18 * (double)fw_geometry_polygon_area2(&x->polygon);
+        of->area_m2 += times * area_m2;
+        of->over_m2 += times * (beside ? fw_wafer_area_over(beside, &x->polygon) : area_m2);
     }
     for (int k = 0; k < mask->table->nlayer; k++) {
         s[k].width_m = fmin(s[k].width_m, mask->measure[k].width_m);
@@ -130,8 +134,8 @@ fw_status fw_wafer_sums(const fw_wafer *w, fw_arena *arena, fw_wafer_sum **out) 
     for (int k = 0; k < w->table->nlayer; k++)
         s[k].width_m = s[k].space_m = HUGE_VAL;
     for (int c = 0; c < w->ncell; c++)
-        add_mask(w->cell[c].mask, w->cell[c].placed, s);
-    if (w->plate) add_mask(w->plate, 1, s);
+        add_mask(w->cell[c].mask, w->cell[c].placed, NULL, s);
+    if (w->plate) add_mask(w->plate, 1, &w->form, s);
     *out = s;
     return FW_OK;
 }
@@ -284,6 +288,7 @@ static void layer(fw_json *json, const fw_mask_layer *y, const fw_wafer_sum *s) 
     fw_json_number(json, "polygons", s->polygons, 15);
     fw_json_number(json, "vertices", s->vertices, 15);
     fw_json_number(json, "polygon_area_um2", s->area_m2 * 1e12, 17);
+    fw_json_number(json, "wafer_area_um2", s->over_m2 * 1e12, 17);
     fw_json_number(json, "min_width_um", s->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", s->space_m * 1e6, 9);
     if (s->unfinished) fw_json_truth(json, "unfinished", true);

@@ -56,6 +56,7 @@ bool fw_wafer_stood_in(const fw_wafer_variant *v);
 
 typedef struct fw_wafer_sum { /* of one layer over the whole plate */
     double polygons, vertices, area_m2, width_m, space_m;
+    double over_m2;  /* of that area, what lies over the wafer */
     bool unfinished; /* as in fw_mask_measure */
 } fw_wafer_sum;
 fw_status fw_wafer_sums(const fw_wafer *wafer, fw_arena *arena, fw_wafer_sum **sum);

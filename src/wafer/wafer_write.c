@@ -302,12 +302,30 @@ static fw_status taken_places(const pen *p, fw_mask_merge_options *o) {
     return FW_OK;
 }
 
+/* what of the top cell lies over no wafer, which is as large as the dies are scaled, and mirrored with them. m2 */
+static double beyond_wafer(const pen *p, const fw_mask *drawn) {
+    fw_wafer_form form = p->wafer->form;
+    double area_m2 = 0;
+    form.diameter_m *= p->scale, form.flat_m *= p->scale;
+    if (p->base.mirror && form.side == FW_SIDE_LEFT)
+        form.side = FW_SIDE_RIGHT;
+    else if (p->base.mirror && form.side == FW_SIDE_RIGHT)
+        form.side = FW_SIDE_LEFT;
+    for (int i = 0; i < drawn->nshape; i++) {
+        const fw_geometry_polygon *polygon = &drawn->shape[i].polygon;
+        area_m2 += 0.5e-18 * (double)fw_geometry_polygon_area2(polygon) -
+                   fw_wafer_area_over(&form, polygon);
+    }
+    return area_m2;
+}
+
 /* what lies beside the dies: title, crosses; they belong to the plate and have its scale */
 static fw_status write_top(pen *p, fw_wafer_written *out, const fw_mask **drawn) {
     const fw_wafer *w = p->wafer;
     fw_mask_merge_options o = p->base;
     fw_mask_merge_sums sums;
     *drawn = NULL;
+    out->over_m2 = out->sums.area_m2; /* of dies: all of it */
     if (!w->plate && !o.inverted) return FW_OK;
     fw_mask nothing = *(w->plate ? w->plate : w->cell[0].mask);
     if (!w->plate) nothing.nshape = 0;
@@ -319,6 +337,7 @@ static fw_status write_top(pen *p, fw_wafer_written *out, const fw_mask **drawn)
     }
     FW_TRY(fw_mask_merged(p->arena, &nothing, &o, drawn, &sums));
     add_up(&out->sums, &sums, 1);
+    out->over_m2 += sums.area_m2 - beyond_wafer(p, *drawn);
     return FW_OK;
 }
 

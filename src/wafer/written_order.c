@@ -299,6 +299,12 @@ static void content(const sheet *s, fw_text *out) {
     fw_mask_order_line(out, "cells", text);
     snprintf(text, sizeof text, "%s mm2", fw_number_text(a, sizeof a, sums->area_m2 * 1e6, 9));
     fw_mask_order_line(out, "area of the polygons", text);
+    if (!s->wafer
+             ->single) { /* titles and crosses stand beside the wafer, and nothing is made of them */
+        snprintf(text, sizeof text, "%s mm2",
+                 fw_number_text(a, sizeof a, s->written->over_m2 * 1e6, 9));
+        fw_mask_order_line(out, "of it over the wafer", text);
+    }
     snprintf(text, sizeof text, "%s%s", fw_number_text(a, sizeof a, o->scale, 9),
              o->scale != 1 ? ", in the data already: write them as they are" : "");
     fw_mask_order_line(out, "scale", text);
@@ -408,6 +414,7 @@ static void json_data(fw_json *json, const sheet *s) {
     fw_json_number(json, "vertices", sums->vertices, 15);
     fw_json_whole(json, "vertex_limit", s->any->vertex_limit);
     fw_json_number(json, "area_mm2", sums->area_m2 * 1e6, 12);
+    if (!s->wafer->single) fw_json_number(json, "wafer_area_mm2", written->over_m2 * 1e6, 12);
     fw_json_number(json, "cuts", sums->cuts, 15);
     fw_json_number(json, "holes", sums->holes, 15);
     fw_json_number(json, "cut_clearance_nm", sums->clear_m * 1e9, 9);

@@ -472,7 +472,26 @@ class OutOfPlane(unittest.TestCase):
         up = self.across('<residual-stress gradient="1 MPa/um"/>')[2]
         down = self.across('<residual-stress gradient="-1 MPa/um"/>')[2]
         self.assertGreater(up["highest_m"], 1e-6)
-        self.assertAlmostEqual(up["highest_m"] / -down["lowest_m"], 1, 1)
+        self.assertAlmostEqual(up["highest_m"] / -down["lowest_m"], 1, 9)  # the mirror image of each other
+        self.assertAlmostEqual(up["lowest_m"], -down["highest_m"], 18)
+
+    def test_a_gradient_lifts_one_arm_all_along(self):
+        """one body on one clamped leaf lies on one sphere that touches the ground at the clamp: nothing
+        is below the plane where it curls up, and its corners are where that sphere has them. Tangent planes are far below a sphere"""
+        self.file.write_text('''<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/>
+            <flexure id="leaf" kind="leaf" length="400 um" width="10 um" gap="12 um"/><mechanism><body id="arm" x="0 mm" y="0.75 mm" width="120 um"/>
+            <revolute id="A" a="ground" a-x="0 mm" a-y="0 mm" b="arm" b-x="0 mm" b-y="-0.75 mm" hinge="leaf"/></mechanism>
+            <scene name="push" duration="20 ms"><force on="arm" fx="1 uN"/></scene><scene name="curls" duration="20 ms">
+            <residual-stress gradient="1 MPa/um"/><force on="arm" fx="1 uN"/></scene><scene name="droops" duration="20 ms">
+            <residual-stress gradient="-1 MPa/um"/><force on="arm" fx="1 uN"/></scene></device>''')
+        whole = json.loads(run("check", self.file, "--json", *QUICK).stdout)
+        up, down = (next(s for s in whole["out_of_plane"][0]["scenes"] if s["scene"] == name) for name in ("curls", "droops"))
+        self.assertEqual((up["lowest_m"], up["lowest_at_rest_m"], down["highest_m"]), (0, 0, 0))
+        self.assertAlmostEqual(up["highest_m"], -down["lowest_m"], 15)
+        # the outer corners are rounded by 10 um about (50, 940 um) from the clamp
+        far = math.hypot(50e-6, 940e-6) + 10e-6
+        kappa = 1e12 * (1 - 0.31) / 147.08e9
+        self.assertAlmostEqual(down["lowest_at_rest_m"] / (-kappa * far**2 / 2), 1, 5)
 
     def test_whole_solid(self):
         """the gallery's four-bar of an even material, pushed across the plane at its coupler: CalculiX 2.20, every leaf a

@@ -562,6 +562,15 @@ class Study(unittest.TestCase):
         path = self.write(TWO_LEAVES, "two.xml")
         self.run_study(self.write(study("y", "yield", rows.format("hinge"), path, samples=few(200))), "h")
         self.run_study(self.write(study("y", "yield", rows.format("lot"), path, samples=few(200)), "lot.xml"), "l")
+        # what few dies tell is told with its interval, shares and deviations, on the terminal and as JSON
+        done = run("study", self.place / "lot.xml", "-o", self.place / "again", *FLOW)
+        of = json.loads((self.place / "again/study.json").read_text())["yields"][0]["levels"]
+        least, most = (round(100 * v) for v in of["shares"]["wafer"]["interval"])
+        self.assertRegex(done.stdout, rf"devices use, \d+ % \(\d+ to \d+ %\) is from lot to lot, \d+ % \({least} to {most} %\) is from wafer to wafer")
+        self.assertRegex(done.stdout, r"the yield of a wafer is off by [\d.]+ % \([\d.]+ to [\d.]+ %\), that of a lot by [\d.]+ % \([\d.]+ to [\d.]+ %\)")
+        for name in ("wafers", "lots"):
+            low, high = of[f"yield_deviation_of_{name}_interval"]
+            self.assertTrue(low <= of[f"yield_deviation_of_{name}"] <= high)
         hinge, lot = (json.loads((self.place / f"{k}/study.json").read_text())["yields"][0]["levels"]["shares"] for k in "hl")
         self.assertEqual(hinge["lot"]["interval"][0], 0)
         self.assertGreater(hinge["hinge"]["value"], 0.6)

@@ -4,6 +4,7 @@
 of the gallery; and one number of the device moves verdict, mask, times and run sheet together."""
 import html
 import json
+import math
 import os
 import pathlib
 import re
@@ -272,6 +273,35 @@ class BothFaces(unittest.TestCase):
             self.assertIn("FW-D546", done.stderr)
             self.assertIn(says, done.stderr)
             file.write_text(whole)
+
+
+class PlatedArea(unittest.TestCase):
+    def test_recipe_and_plate_say_one_area(self):
+        """what a plate draws beside its dies is plated where it lies over the wafer: a pad of 4 mm in the rim, one that the rim cuts,
+        and neither title nor crosses. In either tone of the plate: what is written of the other one is the rest of the wafer"""
+        here = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, here)
+        corners = "".join("10\n%d\n20\n%d\n" % at for at in ((-2000, -2000), (2000, -2000), (2000, 2000), (-2000, 2000)))
+        (here / "pad.dxf").write_text("0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n4\n70\n1\n" + corners + "0\nENDSEC\n0\nEOF\n")
+        pads = '<cell file="pad.dxf" unit="um" x="0 mm" y="40 mm"/><cell file="pad.dxf" unit="um" x="49 mm" y="0 mm"/>'
+        area = {}
+        for name, order, cells in (("none", "", ""), ("pads", "", pads), ("other", '<order tone="inverted"/>', pads)):
+            text = (ROOT / "docs/gallery/copper-nodder/device.xml").read_text()
+            wafer = '<wafer diameter="100 mm" flat="0 mm" edge-exclusion="20 mm">%s%s</wafer></device>' % (order, cells)
+            (here / "device.xml").write_text(text.replace("</device>", wafer))
+            done = run("plan", here / "device.xml", "-o", here / name, "--force", "--measurements", "none", "--corners", "none", "--advice", "none")
+            self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+            plate = json.loads((here / name / "masks/copper-on-porous-silicon-plate.order.json").read_text())
+            said = re.search(r"structures of all dies,([\d.]+),cm2", (here / name / "recipes/copper-on-porous-silicon.csv").read_text())
+            area[name] = float(said[1]), plate["wafer_area_mm2"] / 100, plate["area_mm2"] / 100
+        for name in ("none", "pads"):
+            self.assertAlmostEqual(area[name][1] / area[name][0], 1, 5)
+            self.assertGreater(area[name][2], area[name][0] + 0.2)  # title and crosses are on no wafer
+        self.assertAlmostEqual(area["other"][0], area["pads"][0], 9)
+        self.assertAlmostEqual(area["other"][1], math.pi * 25 - area["pads"][1], 5)
+        R, a, b = 5.0, 0.2, 4.7  # cm; of the second pad what is nearer than R
+        cut = 2 * (0.5 * (a * math.sqrt(R * R - a * a) + R * R * math.asin(a / R)) - a * b)
+        self.assertAlmostEqual(area["pads"][0] - area["none"][0], 0.16 + cut, 5)
 
 
 if __name__ == "__main__":

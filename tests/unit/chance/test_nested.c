@@ -89,6 +89,7 @@ static void shares_are_those_of_the_levels(void **state) {
     (void)state;
     fw_chance_joint joint;
     met lot = {0}, wafer = {0}, place = {0}, die = {0}, hinge = {0}, pair = {0};
+    met of_lots = {0}, of_wafers = {0};
     double of[VARIABLES], by_place = variance_of_places(), all = by_place;
     for (int k = 0; k < VARIABLES; k++)
         all += of[k] = sd[k] * sd[k] * (k == HINGE ? 0.5 : 1);
@@ -104,12 +105,17 @@ static void shares_are_those_of_the_levels(void **state) {
         meet(&place, &n.place, by_place / all), meet(&die, &n.die, of[DIE] / all);
         meet(&hinge, &n.hinge, of[HINGE] / all);
         meet(&pair, &n.of_one_wafer, (of[LOT] + of[WAFER]) / all);
+        meet(&of_lots, &n.lot_sd, sqrt(of[LOT]));
+        meet(&of_wafers, &n.wafer_sd, sqrt(of[LOT] + of[WAFER]));
         assert_near(n.variance, all, 0.5 * all);
         if (n.lot.value > 0 && n.wafer.value > 0 && n.place.value > 0 && n.die.value > 0)
             assert_near(n.lot.value + n.wafer.value + n.place.value + n.die.value + n.hinge.value,
                         1, 1e-12);
     }
     check("lot", &lot, of[LOT] / all), check("wafer", &wafer, of[WAFER] / all);
+    /* deviations have intervals that hold as often; a root is less than what it is of, on the mean */
+    const double least = 0.95 * SEEDS - 3 * sqrt(0.95 * 0.05 * SEEDS);
+    assert_true(of_lots.held >= least && of_wafers.held >= least);
     check("place", &place, by_place / all), check("die", &die, of[DIE] / all);
     check("hinge", &hinge, of[HINGE] / all);
     check("two dies of a wafer", &pair, (of[LOT] + of[WAFER]) / all);

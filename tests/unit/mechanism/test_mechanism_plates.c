@@ -195,6 +195,51 @@ static void as_far_as_its_middle(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* the nearest point of an outline to the foot of its sphere is the lowest, the farthest the highest: of a square with a round
+   side, level in the middle, outside it, over the round side and with no curvature at all; the mirror image curls down */
+static void as_low_as_it_is_drawn(void **state) {
+    (void)state;
+    rig r;
+    rig_new(&r);
+    const double a = 100e-6, kappa = 4;
+    add_body(&r, 0, 0, 2 * a, 2 * a, 1e-9);
+    fw_layout_piece piece = {.role = FW_ROLE_STRUCTURE, .body = 0};
+    const fw_layout layout = {.piece = &piece, .npiece = 1};
+    fw_geometry_outline o = fw_geometry_outline_start(r.arena, (fw_geometry_vec2){-a, -a});
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){a, -a}, 0);
+    fw_geometry_outline_arc(&o, (fw_geometry_vec2){a, 0}, FW_PI, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){-a, a}, 0);
+    assert_int_equal(fw_geometry_outline_close(&o, &piece.contour), FW_OK);
+    r.m.layout = &layout;
+    const fw_mechanism_plates p = {.mechanism = &r.m, .n = 3};
+    static const struct {
+        double x, y, near, far; /* of the foot; distances, in halves of a side */
+    } is[] = {{0, 0, 0, 2},       {-3, 0, 2, 5},      {5, 0, 3, 6.0827625},
+              {0.5, 9, 8, 10.1118742}, {4, 4, 4, 7.0710678}, {-4, 4, 4.2426407, 7.4031242}};
+    for (size_t k = 0; k < sizeof is / sizeof *is; k++)
+        for (int up = -1; up <= 1; up += 2) {
+            const double near = 0.5 * kappa * a * a * is[k].near * is[k].near,
+                         far = 0.5 * kappa * a * a * is[k].far * is[k].far;
+            const double x[3] = {0, 0, 0};
+            const fw_geometry_vec2 foot = {a * is[k].x, a * is[k].y};
+            const fw_mechanism_plates_reach reach =
+                fw_mechanism_plates_reached(&p, x, NULL, up * kappa, foot);
+            assert_near(up > 0 ? reach.lowest_m : reach.highest_m, 0, 1e-18);
+            assert_near(up > 0 ? reach.highest_m : -reach.lowest_m, far, 1e-6 * far);
+            /* and from so far below that its lowest point is seen */
+            const double down[3] = {-up * 2 * far, 0, 0};
+            const fw_mechanism_plates_reach low =
+                fw_mechanism_plates_reached(&p, down, NULL, up * kappa, foot);
+            assert_near(up > 0 ? low.lowest_m : -low.highest_m, near - 2 * far, 1e-6 * far);
+        }
+    const double tilted[3] = {0, 0.01, -0.02}; /* z = 0.02 x + 0.01 y: least at a corner, most on the round side */
+    const fw_mechanism_plates_reach flat =
+        fw_mechanism_plates_reached(&p, tilted, NULL, 0, (fw_geometry_vec2){0, 0});
+    assert_near(flat.lowest_m, -0.03 * a, 1e-15);
+    assert_near(flat.highest_m, 0.02 * a + hypot(0.02, 0.01) * a, 1e-15);
+    fw_arena_free(r.arena);
+}
+
 /* a link that is pressed between its leaves: P over what the plate's tilt bears, and each leaf as a cantilever */
 static void pressed(void **state) {
     (void)state;
@@ -357,6 +402,7 @@ int main(void) {
         cmocka_unit_test(of_equal_movers_the_first),
         cmocka_unit_test(tip_mass), cmocka_unit_test(between_two), cmocka_unit_test(curls),
         cmocka_unit_test(as_far_as_its_middle),
+        cmocka_unit_test(as_low_as_it_is_drawn),
         cmocka_unit_test(pressed),  cmocka_unit_test(not_known), cmocka_unit_test(tips_undrawn),   cmocka_unit_test(counted),
         cmocka_unit_test(loads_act_as_far_as_they_are_attached),
     };

@@ -47,7 +47,7 @@ static int nrow;
 static void put(const char *coupon, const char *feature, double drawn_um, fw_quantity_dimension d,
                 double value, double u, fw_quantity_dimension at_d, double at, double u_at) {
     rows[nrow++] = (fw_process_measurement){coupon, feature, drawn_um * 1e-6, value, u, at, u_at, d,
-                                            at_d,   {0}, 0.0, 0.0, false};
+                                            at_d,   {0}, {0}, {0}, false};
 }
 
 #define LENGTH (fw_quantity_dimension) FW_DIM_LENGTH
@@ -312,7 +312,7 @@ static const fw_process_calibrated *calibrated_at(const double *T_Cel, const dou
     nrow = 0;
     for (int i = 0; i < n; i++) {
         put("etch-rate", "pan.R", 0, LENGTH, rate[i] * 300.0, 0.01 * rate[i] * 300.0, TIME, 300.0, 0.0);
-        if (!isnan(T_Cel[i])) rows[i].temperature_K = T_Cel[i] + 273.15, rows[i].temperature_uncertainty = u_T;
+        if (!isnan(T_Cel[i])) rows[i].condition[FW_CONDITION_TEMPERATURE] = T_Cel[i] + 273.15, rows[i].condition_uncertainty[FW_CONDITION_TEMPERATURE] = u_T;
     }
     quiet = fw_diags_new(arena);
     assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &quiet, c), FW_OK);
@@ -361,10 +361,85 @@ static void of_warm_baths(void **state) {
     const double near[] = {20e-10 / times * times, 20e-10 / times};
     R = calibrated_at(some, near, 2, 0.2, &c);
     assert_int_equal(quiet.item[0].number, 668);
-    assert_true(R->warmest_K == 0.0);
+    assert_true(R->most[FW_CONDITION_TEMPERATURE] == 0.0);
     assert_near(fw_process_written_uncertainty("35 Cel"), 1.0 / sqrt(12.0), 1e-12);
     assert_near(fw_process_written_uncertainty("35.25"), 0.01 / sqrt(12.0), 1e-12);
     assert_near(fw_process_written_uncertainty("3.5e1"), 1.0 / sqrt(12.0), 1e-12);
+}
+
+/* A rate that was read with 176.67 cm2 open is written as that at the reference area, by the law of its step: a plan of the same
+   wafer takes as long as the etch took. Where nothing says the area it is asked, and where the loading is not known there is
+   nothing to ask. */
+static void of_open_areas(void **state) {
+    (void)state;
+    static const char *const known[][2] = {
+        {"id=\"rie.A-reference\" unknown=\"true\"", "id=\"rie.A-reference\" value=\"60\" u=\"2\""},
+        {"id=\"rie.kappa\" unknown=\"true\"", "id=\"rie.kappa\" value=\"0.004\" u=\"0.0005\""}};
+    size_t nb = 0, n = 0;
+    const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, SILICON, &n);
+    for (size_t i = 0; i < 2; i++)
+        text = replaced(arena, text, known[i][0], known[i][1], &n);
+    fw_process_flow *f = NULL;
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &f), FW_OK);
+    const double times = (1 + 0.004 * 176.67) / (1 + 0.004 * 60), width[] = {4, 7, 10, 20, 100};
+    fw_process_calibration c;
+    for (int said = 0; said < 2; said++) {
+        nrow = 0;
+        for (int i = 0; i < 5; i++) {
+            const double travelled = 22.5e-6, S = 0.05;
+            double D = travelled; /* of a slot, by iteration */
+            for (int k = 0; k < 200; k++)
+                D = travelled - S * fw_process_arde_integral(width[i] * 1e-6, D, false);
+            put("arde-slots", "", width[i], LENGTH, D, 0.1e-6, TIME, 540.0, 1.2);
+            if (said) rows[i].condition[FW_CONDITION_OPEN_AREA] = 176.67e-4, rows[i].condition_uncertainty[FW_CONDITION_OPEN_AREA] = 1e-4;
+        }
+        quiet = fw_diags_new(arena);
+        assert_int_equal(fw_process_calibrate(arena, f, rows, nrow, &quiet, &c), FW_OK);
+        fw_process_calibration_ask(f, &c, "coupons.csv", &quiet);
+        const fw_process_calibrated *R = found(&c, "rie.R");
+        assert_relative(R->value, 22.5e-6 / 540.0 * (said ? times : 1), 1e-6);
+        bool asked = false;
+        for (size_t i = 0; i < quiet.count; i++)
+            asked = asked || quiet.item[i].number == 677;
+        assert_true(asked == !said);
+        if (!said) continue;
+        /* kappa by an eighth: 116.67 cm2 of it over (1 + kappa A)(1 + kappa A_ref) */
+        const double of_kappa = 0.0005 * 116.67 / ((1 + 0.004 * 176.67) * (1 + 0.004 * 60));
+        assert_relative(R->uncertainty / R->value, hypot(of_kappa, 0.007), 0.1);
+        fw_text pack = fw_text_new(arena);
+        assert_int_equal(fw_process_calibration_pack(f, &c, "coupons.csv", "0123456789abcdef", &pack), FW_OK);
+        assert_non_null(strstr(pack.data, "etched at 176.7 cm2 open, corrected to rie.A-reference = 60 cm2 by the law arde of step S18"));
+    }
+    quiet = fw_diags_new(arena); /* the pack as it is does not know its loading */
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &quiet, &c), FW_OK);
+    fw_process_calibration_ask(silicon, &c, "coupons.csv", &quiet);
+    assert_relative(found(&c, "rie.R")->value, 22.5e-6 / 540.0, 1e-6);
+    for (size_t i = 0; i < quiet.count; i++)
+        assert_int_not_equal(quiet.item[i].number, 677);
+    /* a loading that lacks its area corrects nothing, and is refused */
+    text = pack_text(arena, SILICON, &n);
+    text = replaced(arena, text, "<arg name=\"open_area\" q=\"mask.open-area\"/>", "", &n);
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &f), FW_INPUT);
+    assert_int_equal(diags.item[0].number, 678);
+    /* in a table the area stands in its own columns */
+    static const char head[] = "coupon,feature,measured,u,unit,at,u_at,at_unit,open_area_cm2,u_open_area_cm2\netch-rate,rie.R,50,0.5,um,90,0.1,min,";
+    static const struct {
+        const char *cells;
+        double A, u;
+        bool good;
+    } of[] = {{"176.7,2\n", 176.7e-4, 2e-4, true}, {"176.7,\n", 176.7e-4, 0.1e-4 / sqrt(12.0), true}, {",\n", 0, 0, true}, {"-3,1\n", 0, 0, false}, {"x,1\n", 0, 0, false}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        fw_process_measurement *row;
+        int nread;
+        const char *table = fw_arena_printf(arena, "%s%s", head, of[i].cells);
+        diags = fw_diags_new(arena);
+        assert_int_equal(fw_process_measurements_read(arena, "t.csv", table, strlen(table), &diags, &row, &nread), of[i].good ? FW_OK : FW_INPUT);
+        if (!of[i].good) continue;
+        assert_near(row[0].condition[FW_CONDITION_OPEN_AREA], of[i].A, 1e-12);
+        assert_near(row[0].condition_uncertainty[FW_CONDITION_OPEN_AREA], of[i].u, 1e-9);
+    }
 }
 
 /* six lines that all lost the very same, within 0.05 um each: said, once; where they scatter nothing is */
@@ -585,8 +660,8 @@ static void tables_with_temperatures(void **state) {
         quiet = fw_diags_new(arena);
         assert_int_equal(fw_process_measurements_read(arena, "t.csv", text, strlen(text), &quiet, &row, &n), of[i].T < 0 ? FW_INPUT : FW_OK);
         if (of[i].T < 0) continue;
-        assert_near(row[0].temperature_K, of[i].T, 1e-9);
-        assert_near(row[0].temperature_uncertainty, of[i].u, 1e-9);
+        assert_near(row[0].condition[FW_CONDITION_TEMPERATURE], of[i].T, 1e-9);
+        assert_near(row[0].condition_uncertainty[FW_CONDITION_TEMPERATURE], of[i].u, 1e-9);
     }
 }
 
@@ -709,6 +784,48 @@ static void given_twice(void **state) {
     assert_int_equal(d->place.line, 3);
 }
 
+/* Another metal in another pack: its constants are those of the step that plates the device, whatever their ids are, and what
+   is found has the id of that step's efficiency and of the thickness that the flow makes. */
+static void another_metal(void **state) {
+    (void)state;
+    size_t nb = 0, n = 0;
+    const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, COPPER, &n);
+    static const char *const id[][2] = {{"cu.M", "pt.M"},     {"cu.n", "pt.n"},       {"cu.eta", "pt.yield"},
+                                        {"cu.rho", "pt.rho"}, {"made.cu", "made.pt"}, {"id=\"pt.M\" value=\"63.546\"", "id=\"pt.M\" value=\"195.08\""}};
+    for (size_t i = 0; i < sizeof id / sizeof *id; i++)
+        for (int k = 0; k < 2; k++)
+            while (strstr(k ? base : text, id[i][0]))
+                *(k ? &base : &text) = replaced(arena, k ? base : text, id[i][0], id[i][1], k ? &nb : &n);
+    fw_process_flow *f = NULL;
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &f), FW_OK);
+    fw_process_calibration c;
+    truth t[2];
+    nrow = 0;
+    seed = 7;
+    mass(t);
+    const double eta = t[0].value;
+    for (int i = 0; i < nrow; i++)
+        rows[i].value *= 195.08 / 63.546, rows[i].uncertainty *= 195.08 / 63.546;
+    assert_int_equal(fw_process_calibrate(arena, f, rows, nrow, &diags, &c), FW_OK);
+    assert_true(fabs(found(&c, "pt.yield")->value - eta) < 3 * found(&c, "pt.yield")->uncertainty);
+    nrow = 0;
+    pads(t);
+    for (int i = 0; i < nrow; i++)
+        rows[i].value *= 195.08 / 63.546, rows[i].uncertainty *= 195.08 / 63.546;
+    assert_int_equal(fw_process_calibrate(arena, f, rows, nrow, &diags, &c), FW_OK);
+    assert_true(fabs(found(&c, "pt.yield")->value - t[0].value) < 3 * found(&c, "pt.yield")->uncertainty);
+    assert_true(fabs(found(&c, "made.pt")->value - t[1].value) < 3 * found(&c, "made.pt")->uncertainty);
+    for (int i = 0; i < nrow; i++)
+        rows[i].value *= 2;
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_process_calibrate(arena, f, rows, nrow, &diags, &c), FW_INPUT);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "more than the charge can deposit of copper, electrodeposited"));
+    diags = fw_diags_new(arena); /* and a flow that plates nothing says that */
+    assert_int_equal(fw_process_calibrate(arena, silicon, rows, nrow, &diags, &c), FW_INPUT);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "has no step that plates by its charge"));
+}
+
 /* a name whose beginning is right */
 static void meant_by_its_stem(void **state) {
     (void)state;
@@ -728,7 +845,7 @@ int main(void) {
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
         cmocka_unit_test(wrong_tables), cmocka_unit_test(tables_with_temperatures), cmocka_unit_test(rows_that_read_the_same),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
-        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(rates_of_a_temperature), cmocka_unit_test(of_warm_baths), cmocka_unit_test(too_good),
-        cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice)};
+        cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(rates_of_a_temperature), cmocka_unit_test(of_warm_baths), cmocka_unit_test(of_open_areas), cmocka_unit_test(too_good),
+        cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice), cmocka_unit_test(another_metal)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -93,6 +93,10 @@ static void faraday(void **state) {
         assert_relative(fw_quantity_in_unit(derived(&step, "mass deposited")), 80.64, 1e-9);
         /* eta 2 %, supply 1 %, area 5 %, density 0.5 % */
         assert_relative(a.uncertainty / a.value, 0.05522793569, 1e-9);
+        /* the current is set by current density and area; in the charge the current density cancels */
+        assert_relative(derived(&step, "current")->uncertainty / 0.2, hypot(0.01, 0.05), 1e-9);
+        assert_relative(derived(&step, "charge")->uncertainty / derived(&step, "charge")->value,
+                        sqrt(0.05522793569 * 0.05522793569 - 0.0001), 1e-9);
         assert_string_equal(a.contribution[0], "area 5 %");
         assert_string_equal(a.contribution[1], "efficiency 2.06 %");
         fw_process_time time;

@@ -532,9 +532,17 @@ static void readings_of_warm_baths(void **state) {
         assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
         assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
         assert_int_equal(r.n, 1);
-        assert_near(r.item[0].row.temperature_K, of[i].T, 1e-9);
-        assert_near(r.item[0].row.temperature_uncertainty, of[i].u, 1e-6);
+        assert_near(r.item[0].row.condition[FW_CONDITION_TEMPERATURE], of[i].T, 1e-9);
+        assert_near(r.item[0].row.condition_uncertainty[FW_CONDITION_TEMPERATURE], of[i].u, 1e-6);
     }
+    fw_recipe_asrun run;
+    fw_process_readings open;
+    const char *log = with(begun(), fw_arena_printf(arena, "%s; %s, open-area=176.7 cm2, u-open-area=2 cm2", etch, rate), 0);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &open), FW_OK);
+    assert_near(open.item[0].row.condition[FW_CONDITION_OPEN_AREA], 176.7e-4, 1e-12);
+    assert_near(open.item[0].row.condition_uncertainty[FW_CONDITION_OPEN_AREA], 2e-4, 1e-12);
+    with(begun(), fw_arena_printf(arena, "%s; %s, open-area=35 um", etch, rate), 282);
     with(begun(), fw_arena_printf(arena, "%s; %s, temperature=35 um", etch, rate), 282);
     with(begun(), fw_arena_printf(arena, "%s; %s, temperature=35 Cel, u-temperature=-1 K", etch, rate), 282);
 }

@@ -275,6 +275,51 @@ static void test_names(void **state) {
     assert_string_equal(fw_wafer_column_name(&g, 6, name), "007");
 }
 
+/* a square over all, one beyond, halves by either axis, one that the flat cuts, and the four quarters of a corner: the parts
+   add up to the wafer, and the flat is on its own side */
+static void test_area_over(void **state) {
+    (void)state;
+    const double R = 50e-3, half = 16.25e-3, h = sqrt(R * R - half * half);
+    const double disc = acos(-1.0) * R * R, segment = R * R * acos(h / R) - half * h;
+    static const struct {
+        fw_device_wafer_side side;
+        double x, y;
+    } flat[] = {{FW_SIDE_BOTTOM, 0, -1}, {FW_SIDE_TOP, 0, 1}, {FW_SIDE_LEFT, -1, 0}, {FW_SIDE_RIGHT, 1, 0}};
+    for (size_t k = 0; k < sizeof flat / sizeof *flat; k++) {
+        const fw_wafer_form form = {.diameter_m = 2 * R, .flat_m = 2 * half, .side = flat[k].side};
+        static const int32_t edge[] = {-60000000, -48000000, -47280000, -10000000, 3000000, 47300000, 60000000};
+        enum { N = sizeof edge / sizeof *edge };
+        double sum = 0, over[2] = {0, 0};
+        for (int i = 0; i + 1 < N; i++)
+            for (int j = 0; j + 1 < N; j++) {
+                fw_geometry_point p[4] = {{edge[i], edge[j]}, {edge[i + 1], edge[j]}, {edge[i + 1], edge[j + 1]}, {edge[i], edge[j + 1]}};
+                const fw_geometry_polygon q = {p, 4};
+                const double is = fw_wafer_area_over(&form, &q), whole = 1e-18 * (edge[i + 1] - edge[i]) * (double)(edge[j + 1] - edge[j]);
+                assert_true(is >= -1e-15 && is <= whole * (1 + 1e-12));
+                if (i == 3 && j == 3) assert_true(fabs(is / whole - 1) < 1e-12); /* inside */
+                sum += is;
+            }
+        assert_true(fabs(fw_wafer_area(&form) - (disc - segment)) < 1e-12);
+        assert_true(fabs(sum - (disc - segment)) < 1e-12);
+        for (int way = 0; way < 2; way++) { /* beyond the chord of the flat there is something on the other side alone */
+            const double a = way ? -1 : 1, cut = 47.3e-3;
+            const double x0 = flat[k].x * a * cut, y0 = flat[k].y * a * cut;
+            const double x1 = flat[k].x * a * 60e-3, y1 = flat[k].y * a * 60e-3;
+            const double sx = flat[k].y * 60e-3, sy = flat[k].x * 60e-3;
+            fw_geometry_point p[4] = {{(int32_t)lround(1e9 * (x0 - sx)), (int32_t)lround(1e9 * (y0 - sy))},
+                                      {(int32_t)lround(1e9 * (x0 + sx)), (int32_t)lround(1e9 * (y0 + sy))},
+                                      {(int32_t)lround(1e9 * (x1 + sx)), (int32_t)lround(1e9 * (y1 + sy))},
+                                      {(int32_t)lround(1e9 * (x1 - sx)), (int32_t)lround(1e9 * (y1 - sy))}};
+            const fw_geometry_polygon q = {p, 4};
+            over[way] = fabs(fw_wafer_area_over(&form, &q));
+        }
+        const double cap = R * R * acos(47.3e-3 / R) - 47.3e-3 * sqrt(R * R - 47.3e-3 * 47.3e-3);
+        assert_true(over[0] < 1e-12 && fabs(over[1] - cap) < 1e-12);
+        fw_geometry_point beyond[4] = {{51000000, 0}, {52000000, 0}, {52000000, 1000000}, {51000000, 1000000}};
+        assert_true(fabs(fw_wafer_area_over(&form, &(fw_geometry_polygon){beyond, 4})) < 1e-15);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_squares_in_a_circle),
@@ -285,6 +330,7 @@ int main(void) {
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_usual_sizes),
         cmocka_unit_test(test_names),
+        cmocka_unit_test(test_area_over),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
