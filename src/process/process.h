@@ -10,7 +10,6 @@
 #include "release/release.h"
 #include "verdict/verdict_fabrication.h"
 #include <stdbool.h>
-
 typedef struct fw_process_source {
     const char *id, *kind, *date, *text;
 } fw_process_source;
