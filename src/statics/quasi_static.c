@@ -473,6 +473,18 @@ static fw_status level_of(fw_arena *arena, const fw_mechanism *m, const fw_devic
     return FW_OK;
 }
 
+/* A cable that goes taut on the way, or a stop that is met, throws back as a contact does, and what that leaves ringing along flexures is
+   in no bound: pins do not stand there. Test: judge.examples cable-taut */
+static bool takes_hold(const fw_mechanism *m, const fw_device_scene *scene,
+                       const fw_dynamics_motion *x) {
+    bool may = scene && scene->ntendon > 0;
+    for (int i = 0; i < m->nspring; i++)
+        may = may || m->spring[i].cable;
+    for (int i = 0; i < m->npin; i++)
+        may = may || m->pin[i].stop_stiffness_Nm_per_rad > 0;
+    return may && x->stats.events > 0 && !x->loads->quasi_static;
+}
+
 /* exact beams cost some 10 us each: not by itself where there would be very many */
 static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
                                 const fw_dynamics_motion_options *options,
@@ -536,7 +548,8 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         if (stay_pins) {
             double rings;
             FW_TRY(fw_statics_level_rings(arena, mechanism, scene, found, &rings));
-            stay_pins = rings < fw_statics_level_rings_most && step->blows == 0;
+            stay_pins = rings < fw_statics_level_rings_most && step->blows == 0 &&
+                        !takes_hold(mechanism, scene, found);
         }
         if (tried && !stay_pins) {
             o.effects = options->effects, tried = false; /* as if they had not been tried */
