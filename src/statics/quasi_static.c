@@ -504,6 +504,10 @@ static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
     return fw_statics_level_stays(arena, step, why, &own->ledger.hinge);
 }
 
+/* times the accuracy wanted, below which pins stand for stated stiffnesses in a motion: at the defaults what `check` has, so that
+   forces of `simulate` are of the same hinges as its verdict */
+static const double moving_stated = 10;
+
 /* with the hinges as they were asked for; auto climbs where the step to the next level is computed
    to change more than the accuracy wanted, and stays where that level has no such motion */
 fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
@@ -513,7 +517,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
     fw_dynamics_motion_options o = *options;
     const fw_effect_choice *asked = &options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
-    double stated = fw_statics_level_stated * accuracy;
+    double stated = moving_stated * accuracy;
     if (options->hinge_accuracy > 0) accuracy = stated = options->hinge_accuracy;
     if (options->hopeless_rhs > 0) FW_TRY(hopeless_each(arena, mechanism, &o.hopeless_rad));
     *motion = NULL;
