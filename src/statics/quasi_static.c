@@ -473,16 +473,14 @@ static fw_status level_of(fw_arena *arena, const fw_mechanism *m, const fw_devic
     return FW_OK;
 }
 
-/* A cable that goes taut on the way, or a stop that is met, throws back as a contact does, and what that leaves ringing along flexures is
-   in no bound: pins do not stand there. Test: judge.examples cable-taut */
-static bool takes_hold(const fw_mechanism *m, const fw_device_scene *scene,
-                       const fw_dynamics_motion *x) {
-    bool may = scene && scene->ntendon > 0;
+bool fw_statics_takes_hold(const fw_mechanism *m, const fw_device_scene *scene,
+                           const fw_dynamics_motion *x, long events) {
+    bool may = scene && (scene->ntendon > 0 || scene->ncontact > 0);
     for (int i = 0; i < m->nspring; i++)
         may = may || m->spring[i].cable;
     for (int i = 0; i < m->npin; i++)
         may = may || m->pin[i].stop_stiffness_Nm_per_rad > 0;
-    return may && x->stats.events > 0 && !x->loads->quasi_static;
+    return may && x->stats.events >= events && !x->loads->quasi_static;
 }
 
 /* exact beams cost some 10 us each: not by itself where there would be very many */
@@ -553,7 +551,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
             double rings;
             FW_TRY(fw_statics_level_rings(arena, mechanism, scene, found, &rings));
             stay_pins = rings < fw_statics_level_rings_most && step->blows == 0 &&
-                        !takes_hold(mechanism, scene, found);
+                        !fw_statics_takes_hold(mechanism, scene, found, 1);
         }
         if (tried && !stay_pins) {
             o.effects = options->effects, tried = false; /* as if they had not been tried */
@@ -568,4 +566,22 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(too_many_beams(arena, mechanism, options, step, motion, &too_many));
         if (too_many) return FW_OK;
     }
+}
+
+fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_device_scene *scene, double by,
+                                  const fw_dynamics_motion *like,
+                                  const fw_dynamics_motion_options *given,
+                                  const fw_dynamics_motion **motion) {
+    fw_dynamics_motion_options o = *given;
+    fw_diags own = fw_diags_new(arena);
+    o.trace = NULL, o.glance = NULL, o.unsettled = NULL, o.other = NULL, o.like = NULL;
+    o.tapes = NULL, o.late_rows = false, o.whole = o.trace_both = false;
+    o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
+    o.samples = like->nsample, o.hinge_accuracy = 1;
+    o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+    o.effects.stiffer = by;
+    const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, motion);
+    if (status != FW_OK) *motion = NULL;
+    return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
 }

@@ -206,7 +206,7 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, in
                               fw_diags *diags, fw_verdict_variant_verdict *v);
 /* the largest in the scene: (nbody) ways of centres, then turns, then (nhinge) angles */
 void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far);
-/* verdict_run.c: what of v->shaken[scene] grows where what takes hold again and again meets other phases (FW-D685) */
+/* ringing.c: what of v->shaken[scene] grows where what takes hold again and again meets other phases (FW-D685) */
 fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                   const fw_dynamics_motion_options *options, bool brief,
                                   fw_diags *diags, fw_verdict_variant_verdict *v);
