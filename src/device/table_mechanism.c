@@ -207,8 +207,11 @@ const fw_xml_element_row fw_device_table_mechanism[] = {
     {"weld", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(weld_rows),
      .sentence = "Two bodies made one: point b stays on point a, and b does not turn against a."},
     {"driver", "mechanism", "id", FW_SPACE_DRIVER, .most = 100000, ROWS(driver_rows),
-     .sentence = "A motor: a joint follows an expression in time, whatever force that takes; "
-                 "simulate --forces says how much."},
+     .sentence =
+         "A motor: a joint follows an expression in time, whatever force that takes; "
+         "simulate --forces says how much. Before the scene it stands still: a speed that it "
+         "begins with comes at once to what joints tie to it, and flexures pull the rest "
+         "after it."},
     {0},
 };
 

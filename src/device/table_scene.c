@@ -46,7 +46,8 @@ const fw_xml_element_row fw_device_table_scene[] = {
     {"torque", "scene", .timed = true, ROWS(torque_rows), .sentence = "A torque on a body."},
     {"gravity", "scene", .once = true, ROWS(gravity_rows), .sentence = "Weight of all bodies."},
     {"initial", "scene", ROWS(initial_rows),
-     .sentence = "Velocity of a body at the start. What is not given, of this body or of others, "
+     .sentence = "Velocity of a body at the start; without any the device is at rest before, where "
+                 "it is drawn. What is not given, of this body or of others, "
                  "follows through the joints; what they do not allow is corrected, as little as "
                  "possible."},
     {0},

@@ -87,8 +87,10 @@ static fw_status cannot_start(const fw_dynamics_run *r) {
     return status == FW_NOMEM ? FW_NOMEM : FW_SOLVER;
 }
 
-/* Velocities start as if all pins were joints, also those that elements stand for: they then start
-   without a stretch, and without its rate where what is stated can be had so (give_way). */
+/* Stated velocities start as if all pins were joints, also those that elements stand for: they then start without a
+   stretch, and without its rate where what is stated can be had so (give_way). Before the scene drivers and ground stand
+   still, unless what is stated can be had with their speed alone: a driver that begins with a speed, or ground that begins
+   to grow, takes along at once what joints tie to it, and flexures pull the rest after it. */
 static fw_status closed_system(fw_dynamics_run *r, const fw_effects_loads *loads,
                                fw_multibody_system **closed) {
     const fw_dynamics_problem *problem = &r->problem;
@@ -104,15 +106,20 @@ static fw_status closed_system(fw_dynamics_run *r, const fw_effects_loads *loads
     return FW_OK;
 }
 
-/* the positions of y onto the joints, the velocities v too; given: and as near to that as the
-   joints allow */
-static bool onto_joints(fw_multibody_system *sys, const bool *stated, const double *given,
-                        double *y, double *v, double *work) {
-    const fw_multibody_pose *pose = fw_multibody_close_position(sys, 0, y);
-    if (!pose) return false;
+/* at positions on the joints, velocities v too; given: and as near to that as the joints allow */
+static bool velocities_onto_joints(fw_multibody_system *sys, const bool *stated,
+                                   const double *given, const double *y, double *v, double *work) {
+    const fw_multibody_pose *pose = fw_multibody_pose_at(sys, 0, y);
     if (given && !fw_multibody_follow_stated(sys, pose, stated, given, v, work)) return false;
     const fw_multibody_factor *factor = fw_multibody_factorise(sys, pose);
     return factor && fw_multibody_impact(sys, factor, v);
+}
+
+/* the positions of y likewise */
+static bool onto_joints(fw_multibody_system *sys, const bool *stated, const double *given,
+                        double *y, double *v, double *work) {
+    return fw_multibody_close_position(sys, 0, y) &&
+           velocities_onto_joints(sys, stated, given, y, v, work);
 }
 
 /* does the motion without stretch leave what was stated? */
@@ -220,6 +227,21 @@ static fw_status settle(fw_dynamics_run *r) {
     return FW_OK;
 }
 
+/* what was before the scene, by the joints of `closed`, with drivers at rest or as fast as they begin */
+static bool before_start(fw_dynamics_run *r, fw_multibody_system *closed, const bool *stated,
+                         bool driven) {
+    const size_t n = (size_t)r->problem.model->nq;
+    const double *given = r->record.state;
+    double *y = r->problem.start, *v = y + n;
+    memcpy(v, given, n * sizeof *v);
+    if (!fw_multibody_close_position(closed, 0, y)) return false;
+    const bool drives = closed->loading.driven;
+    closed->loading.driven = drives && driven;
+    const bool good = velocities_onto_joints(closed, stated, given, y, v, r->record.rate);
+    closed->loading.driven = drives;
+    return good;
+}
+
 /* assembled pose, initial velocities moved onto G v = -Psi_t; says so when they contradicted the
    joints */
 static fw_status start_values(fw_dynamics_run *r, const fw_effects_loads *loads) {
@@ -233,8 +255,10 @@ static fw_status start_values(fw_dynamics_run *r, const fw_effects_loads *loads)
         v[i] = given[i] = loads->velocity[i] * s.time_s / (i % 3 == 2 ? 1 : s.length_m);
     FW_TRY(closed_system(r, loads, &closed));
     memcpy(r->record.kept, r->problem.start, (size_t)m->nq * sizeof(double));
-    bool good = onto_joints(closed, stated, given, r->problem.start, v, r->record.rate);
+    bool good = before_start(r, closed, stated, closed == sys);
     if (closed != sys) {
+        if (good && closed->loading.driven && contradicted(m->nq, stated, given, v))
+            good = before_start(r, closed, stated, true);
         if (!good) { /* pins stay open */
             memcpy(r->problem.start, r->record.kept, (size_t)m->nq * sizeof(double));
             FW_TRY(settle(r));

@@ -156,6 +156,8 @@ typedef struct fw_effect_choice {
     bool ended;      /* hinge is ELASTICA because the closed form does not hold where this leads */
     bool elsewhere;  /* likewise, because exact beams may rest elsewhere */
     bool untold;     /* nobody reads bounds: those that decide nothing are not found */
+    double
+        stiffer; /* all flexures have 1 + this times their stiffness, as if their modulus had; 0: as described */
     const struct fw_effect_ledger *like; /* of a device much like this one, or NULL: what acts there
                                             by far is taken to act here without finding its bound */
 } fw_effect_choice;

@@ -175,6 +175,24 @@ fw_status fw_effects_hinges_warm(fw_arena *arena, fw_effects_loads *loads, doubl
     return FW_OK;
 }
 
+fw_status fw_effects_hinges_stiffer(const fw_effect_case *c, fw_effects_loads *loads, double part) {
+    for (int k = 0; k < c->mechanism->nhinge; k++) {
+        const int of = loads->torsion_of[c->mechanism->hinge[k].pin];
+        if (of > 0) loads->torsion[of - 1].stiffness_Nm_per_rad *= 1 + part;
+    }
+    for (int i = 0; i < loads->nelement; i++) {
+        fw_effects_force_element *e = &loads->element[i];
+        if (e->class_ != &fw_effects_flexed_class) continue;
+        fw_effects_flexed *f = fw_arena_one(c->arena, fw_effects_flexed);
+        FW_NEED(f);
+        *f = *(const fw_effects_flexed *)e->data;
+        f->factor *= 1 + part, f->varying *= 1 + part;
+        e->size_N_per_m *= 1 + part;
+        e->data = f;
+    }
+    return FW_OK;
+}
+
 fw_status fw_effects_hinges_exact(fw_arena *arena, const fw_mechanism *m, fw_effects_loads *loads) {
     fw_effects_force_element *own;
     FW_NEED(own = fw_arena_array(arena, fw_effects_force_element, 2 * (size_t)loads->nelement + 1));

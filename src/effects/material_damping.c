@@ -100,6 +100,15 @@ static int count(const fw_effect_case *c) {
     return hinges;
 }
 
+void fw_effects_damps_nothing(const fw_effect_case *c, fw_diags *diags) {
+    const int n = c->scene->ndamping;
+    if (n == 0 || !diags || c->mechanism->nhinge == 0 || called_for(c)) return;
+    fw_diag_warning(diags, 686, c->scene->damping[n - 1].place,
+                    "<material-damping> of %s%s damps nothing: every hinge states a damping of its "
+                    "own, which holds; leave out damping of the <revolute>, or this",
+                    FW_NAMED("scene", c->scene->name));
+}
+
 static void describe(const fw_device *device, const fw_device_scene *s,
                      const fw_effects_words *to) {
     (void)device;

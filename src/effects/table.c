@@ -358,6 +358,8 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
         } else if (e->called_for && rows[i]->leave_out)
             FW_TRY(rows[i]->leave_out(&c, loads));
     }
+    if (!choice->untold) fw_effects_damps_nothing(&c, diags);
+    if (choice->stiffer != 0) FW_TRY(fw_effects_hinges_stiffer(&c, loads, choice->stiffer));
     return fw_effects_hinge_settle(&c, choice, ledger, loads);
 }
 

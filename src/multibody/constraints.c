@@ -372,7 +372,7 @@ void fw_multibody_drift(const fw_multibody_system *sys, const fw_multibody_pose 
         kept(sys, i, pose->t, f);
         r[2 * i] = -f[1];
     }
-    if (m->stretch.law) stretch_drift(m, pose, r);
+    if (m->stretch.law && sys->loading.driven) stretch_drift(m, pose, r);
 }
 
 /* (G v)' at a = 0, of one block that is not a pin */

@@ -97,7 +97,7 @@ void fw_multibody_jacobian(const fw_multibody_model *m, const fw_multibody_pose 
 /* a -= M^-1 G^T lambda */
 void fw_multibody_apply(const fw_multibody_model *m, const fw_multibody_pose *pose,
                         const double *lambda, double *a);
-/* r = Psi_t */
+/* r = Psi_t; 0 where loads are not driven */
 void fw_multibody_drift(const fw_multibody_system *sys, const fw_multibody_pose *pose, double *r);
 /* r = G' v + Psi_tt, so that G a = -r; gamma of the text books is -r */
 void fw_multibody_gamma(const fw_multibody_system *sys, const fw_multibody_pose *pose,

@@ -156,6 +156,58 @@ double fw_quantity_law_rings(const fw_quantity_law *law, double end_s, double om
     return rings > 0 ? rings / far : 0;
 }
 
+typedef struct varied { /* of an acceleration so far: between breaks, at them, and of its slope */
+    double between, jumps, slope;
+    double last[3], last_slope;
+} varied;
+
+/* one piece without a break */
+static void shake_piece(const fw_quantity_law *law, double from, double to, double end_s, varied *v,
+                        fw_quantity_law_shaking *s) {
+    const double most_cells = 1 << 16, a_scene = 1024, least = 32;
+    const double fastest = fw_quantity_law_wave_of(law).fastest_Hz,
+                 wanted = fmax(a_scene * (to - from) / end_s, 24 * fastest * (to - from)),
+                 n = fmin(ceil(fmax(least, wanted)), most_cells), h = (to - from) / n;
+    for (double k = 0; k <= n; k++) {
+        const double t_s = k < n ? from + h * k : to;
+        double now[3];
+        fw_quantity_law_value(law, t_s, 0.5 * (from + to), now);
+        const double by = now[2] - v->last[2];
+        if (k == 0) {
+            s->blows += fabs(now[1] - v->last[1]);
+            v->jumps += fabs(by);
+        } else {
+            v->between += fabs(by);
+            v->slope += fabs(by / h - v->last_slope);
+            v->last_slope = by / h;
+        }
+        if (fabs(now[2]) > s->most) s->most = fabs(now[2]), s->at_s = t_s;
+        memcpy(v->last, now, sizeof now);
+    }
+}
+
+fw_quantity_law_shaking fw_quantity_law_shakes(const fw_quantity_law *law, double end_s,
+                                               double omega_per_s) {
+    double at[JOLTS + 1], from = 0;
+    fw_quantity_law_shaking s = {0};
+    varied v = {0};
+    const int count = fw_quantity_law_breaks_of(law, end_s, at, JOLTS);
+    if (fw_quantity_law_is_constant(law)) return s;
+    if (count > JOLTS) {
+        s.most = s.rings = s.blows = (double)INFINITY;
+        return s;
+    }
+    fw_sort_doubles(at, (size_t)count);
+    at[count] = end_s;
+    for (int i = 0; i <= count; i++) {
+        if (!(at[i] > from)) continue;
+        shake_piece(law, from, at[i], end_s, &v, &s);
+        from = at[i];
+    }
+    if (s.most > 0) s.rings = (v.jumps + fmin(v.between, v.slope / omega_per_s)) / s.most;
+    return s;
+}
+
 /* ---- what it does to an oscillator ---- */
 
 enum { PER_PERIOD = 24 };

@@ -473,6 +473,16 @@ static fw_status level_of(fw_arena *arena, const fw_mechanism *m, const fw_devic
     return FW_OK;
 }
 
+bool fw_statics_takes_hold(const fw_mechanism *m, const fw_device_scene *scene,
+                           const fw_dynamics_motion *x, long events) {
+    bool may = scene && (scene->ntendon > 0 || scene->ncontact > 0);
+    for (int i = 0; i < m->nspring; i++)
+        may = may || m->spring[i].cable;
+    for (int i = 0; i < m->npin; i++)
+        may = may || m->pin[i].stop_stiffness_Nm_per_rad > 0;
+    return may && x->stats.events >= events && !x->loads->quasi_static;
+}
+
 /* exact beams cost some 10 us each: not by itself where there would be very many */
 static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
                                 const fw_dynamics_motion_options *options,
@@ -492,6 +502,10 @@ static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
     return fw_statics_level_stays(arena, step, why, &own->ledger.hinge);
 }
 
+/* times the accuracy wanted, below which pins stand for stated stiffnesses in a motion: at the defaults what `check` has, so that
+   forces of `simulate` are of the same hinges as its verdict */
+static const double moving_stated = 10;
+
 /* with the hinges as they were asked for; auto climbs where the step to the next level is computed
    to change more than the accuracy wanted, and stays where that level has no such motion */
 fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
@@ -501,7 +515,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
     fw_dynamics_motion_options o = *options;
     const fw_effect_choice *asked = &options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
-    double stated = fw_statics_level_stated * accuracy;
+    double stated = moving_stated * accuracy;
     if (options->hinge_accuracy > 0) accuracy = stated = options->hinge_accuracy;
     if (options->hopeless_rhs > 0) FW_TRY(hopeless_each(arena, mechanism, &o.hopeless_rad));
     *motion = NULL;
@@ -536,7 +550,8 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         if (stay_pins) {
             double rings;
             FW_TRY(fw_statics_level_rings(arena, mechanism, scene, found, &rings));
-            stay_pins = rings < fw_statics_level_rings_most && step->blows == 0;
+            stay_pins = rings < fw_statics_level_rings_most && step->blows == 0 &&
+                        !fw_statics_takes_hold(mechanism, scene, found, 1);
         }
         if (tried && !stay_pins) {
             o.effects = options->effects, tried = false; /* as if they had not been tried */
@@ -551,4 +566,22 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         FW_TRY(too_many_beams(arena, mechanism, options, step, motion, &too_many));
         if (too_many) return FW_OK;
     }
+}
+
+fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_device_scene *scene, double by,
+                                  const fw_dynamics_motion *like,
+                                  const fw_dynamics_motion_options *given,
+                                  const fw_dynamics_motion **motion) {
+    fw_dynamics_motion_options o = *given;
+    fw_diags own = fw_diags_new(arena);
+    o.trace = NULL, o.glance = NULL, o.unsettled = NULL, o.other = NULL, o.like = NULL;
+    o.tapes = NULL, o.late_rows = false, o.whole = o.trace_both = false;
+    o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
+    o.samples = like->nsample, o.hinge_accuracy = 1;
+    o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+    o.effects.stiffer = by;
+    const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, motion);
+    if (status != FW_OK) *motion = NULL;
+    return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
 }

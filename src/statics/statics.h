@@ -408,6 +408,17 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
                                 const fw_device_scene *scene,
                                 const fw_dynamics_motion_options *options, fw_diags *diags,
                                 const fw_dynamics_motion **motion);
+/* By the hinges and the tolerance of `like`, which is of the same scene, all flexures 1 + by times as stiff; observe and
+   context of the options look on. *motion NULL: none was found */
+fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *mechanism,
+                                  const fw_device_scene *scene, double by,
+                                  const fw_dynamics_motion *like,
+                                  const fw_dynamics_motion_options *options,
+                                  const fw_dynamics_motion **motion);
+/* A contact, a stop or a cable took hold or let go so many times at least. What that leaves ringing along flexures is in no
+   bound: pins do not stand for them there */
+bool fw_statics_takes_hold(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                           const fw_dynamics_motion *motion, long events);
 
 /* the row of equilibria alone. FW_SOLVER: it ends before the scene does, or there is none; *why
    says where and is good for the ledger. */

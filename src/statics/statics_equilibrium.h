@@ -182,6 +182,17 @@ fw_status fw_statics_equilibrium_again(const fw_statics_equilibrium *w,
 fw_status fw_statics_equilibrium_strained(const fw_statics_equilibrium *w, double share,
                                           fw_diags *silent, fw_statics_equilibrium *other);
 void fw_statics_equilibrium_factor(fw_statics_equilibrium *w, double s);
+
+/* Velocities (nq), SI, that all bodies take at w->y, from rest, where one driver alone begins with 1 m/s or rad/s: an impact
+   by the joints of w (tangent.c). found: false where they have none */
+fw_status fw_statics_taken_along(fw_statics_equilibrium *w, int driver, double *v, bool *found);
+/* gravity, as w has it, by the dead forces of the acceleration a along a field (nq), SI */
+void fw_statics_push(const fw_statics_equilibrium *w, double a, const double *field,
+                     double *gravity);
+/* rad/s: nothing rings along flexures below it */
+double fw_statics_slowest_along(const fw_mechanism *m);
+/* kg or kg m^2 of a coordinate */
+double fw_statics_mass_of(const fw_mechanism *m, int coordinate);
 /* a model of the scene whose loads and drivers follow their laws, and these at one time;
    piece_s: a time in the smooth piece that is meant. arena, mechanism, scene and diags are set */
 fw_status fw_statics_equilibrium_in_time(fw_statics_equilibrium *w, const fw_effects_loads *loads);

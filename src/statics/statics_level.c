@@ -339,7 +339,13 @@ fw_status fw_statics_level_of_motion(fw_arena *arena, const fw_mechanism *m,
    of a turn by sqrt(6 U/K): 3 is the most that its square is above the mean, of a moment that goes from -M to M; pulled along,
    the fibres bear less than that. In: SI; out: largest strain of what rings over the largest of what turns, 1; infinite
    where no equilibrium of flexures that give was found. Cost: as a step, twice for each instant at which a law jumps, and for
-   each law. Source: Clapeyron; Duhamel's integral by parts. Test: judge.examples spring-let-go, arm-stated-pulse. */
+   each law. Source: Clapeyron; Duhamel's integral by parts. Test: judge.examples spring-let-go, arm-stated-pulse.
+
+   What a driver moves hangs on it by its inertia: where nothing else acts, joints take along all bodies by the field v of least
+   energy that goes with its speed (an impact from rest). Its acceleration a is the dead force -M v a on all of them, and rings as
+   a load does (fw_quantity_law_shakes); where its speed jumps by u, flexures give, and what they swing with is the difference of
+   both fields, by joints alone and by pins, too: U <= u^2 T(v_pins - v_joints), each at most all of it. One driver after the other;
+   amplitudes add up. Test: judge.examples driven-*. */
 
 enum { FW_JUMPS = 16 };
 
@@ -361,20 +367,6 @@ static int jumps_of(const fw_device_scene *s, double *t_s) {
     for (int i = 0; i < laws_of(s); i++)
         n += fw_quantity_law_breaks_of(law_of(s, i), s->duration_s, t_s + n, FW_JUMPS - n);
     return n;
-}
-
-/* rad/s: nothing rings along flexures below it */
-static double slowest_along(const fw_mechanism *m) {
-    double k = (double)INFINITY, mass = 0;
-    for (int i = 0; i < m->nhinge; i++) {
-        const fw_flexure_result *r = &m->hinge[i].closed_form;
-        const double stated =
-            m->pin[m->hinge[i].pin].stiffness_Nm_per_rad / r->stiffness_Nm_per_rad;
-        k = fmin(k, stated * fmin(r->kx_N_per_m, r->ky_N_per_m));
-    }
-    for (int i = 0; i < m->nbody; i++)
-        mass += m->body[i].mass_kg;
-    return sqrt(k / (m->nbody * mass));
 }
 
 /* forces of the pins and what flexures give under them, world axes, (4 npin), with laws as they are on this side of t_s */
@@ -463,7 +455,7 @@ static fw_status ring_of_jumps(fw_statics_ringing *r, const fw_device_scene *sce
 /* what they do where they do not */
 static fw_status ring_of_laws(fw_statics_ringing *r, const fw_device_scene *scene,
                               const fw_dynamics_motion *x, bool *found) {
-    const double omega = slowest_along(r->low.mechanism), none = 1e-4;
+    const double omega = fw_statics_slowest_along(r->low.mechanism), none = 1e-4;
     for (int i = 0; i < laws_of(scene) && *found; i++) {
         double t_s;
         const double share =
@@ -474,6 +466,44 @@ static fw_status ring_of_laws(fw_statics_ringing *r, const fw_device_scene *scen
         if (*found) FW_TRY(side_at(r, q, t_s, t_s, r->f[1], found));
         *found = *found && isfinite(share);
         if (*found) add_ring(r, share);
+    }
+    return FW_OK;
+}
+
+static fw_status ring_of_driver(fw_statics_ringing *r, int j, const fw_quantity_law_shaking *s,
+                                const fw_dynamics_motion *x, bool *found) {
+    const size_t nq = (size_t)r->low.model->nq;
+    const double *q = x->q + (size_t)row_at(x, s->at_s) * nq, t_s = s->at_s;
+    double *pins = fw_arena_array(r->low.arena, double, 2 * nq), blow = 0;
+    FW_NEED(pins);
+    double *joints = pins + nq;
+    place(&r->low, q, r->low.y), place(&r->high, q, r->high.y);
+    FW_TRY(fw_statics_taken_along(&r->low, j, pins, found));
+    if (*found) FW_TRY(fw_statics_taken_along(&r->high, j, joints, found));
+    if (*found) FW_TRY(side_at(r, q, t_s, t_s, r->f[0], found));
+    if (!*found) return FW_OK;
+    for (size_t i = 0; i < nq; i++)
+        blow += 0.5 * pow(pins[i] - joints[i], 2) * fw_statics_mass_of(r->low.mechanism, (int)i);
+    for (int i = 0; i < r->low.mechanism->npin; i++)
+        r->ring_J[i] = pow(sqrt(r->ring_J[i]) + s->blows * sqrt(blow), 2);
+    fw_statics_push(&r->low, s->most, pins, r->low.gravity);
+    fw_statics_push(&r->high, s->most, pins, r->gravity);
+    FW_TRY(side_at(r, q, t_s, t_s, r->f[1], found));
+    fw_statics_push(&r->low, -s->most, pins, r->low.gravity);
+    fw_statics_push(&r->high, -s->most, pins, r->gravity);
+    if (*found) add_ring(r, s->rings);
+    return FW_OK;
+}
+
+static fw_status ring_of_drivers(fw_statics_ringing *r, const fw_device_scene *scene,
+                                 const fw_dynamics_motion *x, bool *found) {
+    const fw_mechanism *m = r->low.mechanism;
+    const double omega = fw_statics_slowest_along(m);
+    for (int j = 0; j < m->ndriver && *found; j++) {
+        const fw_quantity_law_shaking s =
+            fw_quantity_law_shakes(&m->driver[j].law, scene->duration_s, omega);
+        *found = isfinite(s.most) && isfinite(s.rings) && isfinite(s.blows);
+        if (*found && (s.rings > 0 || s.blows > 0)) FW_TRY(ring_of_driver(r, j, &s, x, found));
     }
     return FW_OK;
 }
@@ -503,6 +533,7 @@ fw_status fw_statics_level_rings(fw_arena *arena, const fw_mechanism *m,
     memcpy(r.gravity, r.high.gravity, nq * sizeof *r.gravity);
     FW_TRY(ring_of_jumps(&r, scene, x, &found));
     if (found) FW_TRY(ring_of_laws(&r, scene, x, &found));
+    if (found) FW_TRY(ring_of_drivers(&r, scene, x, &found));
     *share = found ? largest_ring(m, x, r.ring_J) : (double)INFINITY;
     return FW_OK;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the forces at a pose derive from, where elements are driven, and their exact derivatives; what pins hold, by the
-   rows of their constraint Jacobian. */
+   rows of their constraint Jacobian, and what they take along. */
+#include "quantity/law_kind.h"
 #include "statics/statics_equilibrium.h"
 #include <math.h>
 #include <string.h>
@@ -437,6 +438,55 @@ static fw_status pins_hold(fw_arena *arena, const fw_mechanism *m, bool *hold) {
         }
     }
     fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+double fw_statics_slowest_along(const fw_mechanism *m) {
+    double k = (double)INFINITY, mass = 0;
+    for (int i = 0; i < m->nhinge; i++) {
+        const fw_flexure_result *r = &m->hinge[i].closed_form;
+        const double stated =
+            m->pin[m->hinge[i].pin].stiffness_Nm_per_rad / r->stiffness_Nm_per_rad;
+        k = fmin(k, stated * fmin(r->kx_N_per_m, r->ky_N_per_m));
+    }
+    for (int i = 0; i < m->nbody; i++)
+        mass += m->body[i].mass_kg;
+    return sqrt(k / (m->nbody * mass));
+}
+
+void fw_statics_push(const fw_statics_equilibrium *w, double a, const double *field,
+                     double *gravity) {
+    const double time = w->model->scale.time_s, length = w->model->scale.length_m;
+    for (int i = 0; i < w->model->nq; i++)
+        gravity[i] -= a * field[i] * time * time / (i % 3 == 2 ? 1 : length);
+}
+
+double fw_statics_mass_of(const fw_mechanism *m, int coordinate) {
+    const fw_mechanism_mass *b = &m->body[coordinate / 3];
+    return coordinate % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg;
+}
+
+fw_status fw_statics_taken_along(fw_statics_equilibrium *w, int driver, double *v, bool *found) {
+    fw_multibody_system *sys = w->system;
+    const fw_multibody_model *all = sys->model;
+    const fw_quantity_law unit = {.kind = &fw_quantity_law_ramp, .start_s = -0.5, .rise_s = 1};
+    fw_multibody_model alone = *all;
+    fw_multibody_block *block = fw_arena_array(w->arena, fw_multibody_block, (size_t)all->nblock);
+    FW_NEED(block);
+    for (int i = 0; i < all->nblock; i++) {
+        block[i] = all->block[i];
+        block[i].law = block[i].driver == driver ? &unit : NULL;
+    }
+    memset(v, 0, (size_t)all->nq * sizeof *v);
+    alone.block = block, alone.stretch.law = NULL;
+    const double piece_s = sys->piece_s;
+    sys->model = &alone, sys->loading.driven = true, sys->piece_s = 0;
+    const fw_multibody_factor *factor =
+        fw_multibody_factorise(sys, fw_multibody_pose_at(sys, 0, w->y));
+    *found = factor && fw_multibody_impact(sys, factor, v);
+    sys->model = all, sys->loading.driven = false, sys->piece_s = piece_s;
+    for (int i = 0; i < all->nq; i++)
+        v[i] *= (i % 3 == 2 ? 1 : all->scale.length_m) / all->scale.time_s;
     return FW_OK;
 }
 

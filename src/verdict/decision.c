@@ -473,8 +473,7 @@ static double moved(const fw_dynamics_motion *x, int n, int row, int body, int a
     return body == FW_GROUND ? 0 : x->q[row * n + 3 * body + axis] - x->q[3 * body + axis];
 }
 
-/* the largest in the scene: (nbody) ways of centres, then turns, then (nhinge) angles */
-static void farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far) {
+void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far) {
     const int nb = m->nbody, n = 3 * nb;
     fw_dynamics_motion_rows(x, 0, x->nsample);
     for (int row = 0; row < x->nsample; row++) {
@@ -526,7 +525,7 @@ static fw_status move_with(fw_arena *arena, const fw_mechanism *m, const fw_devi
     const fw_status status = fw_statics_move_scene(arena, m, &changed, &o, &own, &x);
     if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     *goes = status == FW_OK && !x->ended;
-    if (*goes) farthest(m, x, far);
+    if (*goes) fw_verdict_farthest(m, x, far);
     return FW_OK;
 }
 
@@ -566,7 +565,7 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     double *far = fw_arena_array(arena, double, 3 * (size_t)n), *f = v->shaken[i].factor;
     bool goes = true;
     FW_NEED(far);
-    farthest(m, x, far);
+    fw_verdict_farthest(m, x, far);
     for (int k = 1; k < 3 && goes; k++)
         FW_TRY(
             move_with(arena, m, s, k == 1 ? 1 + e : 1 / (1 + e), x, options, far + k * n, &goes));

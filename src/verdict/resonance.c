@@ -477,6 +477,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
                              fw_verdict_motion_model_error(m, v->motion[i]);
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
         }
+        FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
         if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
         FW_TRY(may_meet(arena, i, f[2 * nh], v));
         FW_TRY(may_ring(arena, i, v));

@@ -204,6 +204,12 @@ fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, i
 fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
                               const fw_dynamics_motion_options *options, bool brief,
                               fw_diags *diags, fw_verdict_variant_verdict *v);
+/* the largest in the scene: (nbody) ways of centres, then turns, then (nhinge) angles */
+void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far);
+/* ringing.c: what of v->shaken[scene] grows where what takes hold again and again meets other phases (FW-D685) */
+fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                                  const fw_dynamics_motion_options *options, bool brief,
+                                  fw_diags *diags, fw_verdict_variant_verdict *v);
 /* v->shaken, whose factors are 1 where no law goes to and fro and loads leave most of the stiffness; bodies (nscene): share
    that they give (fw_verdict_bending_share). Warnings (FW-D642, FW-D672), and what may meet then, or may not, is undecided */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,

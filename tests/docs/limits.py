@@ -62,6 +62,7 @@ CASES = {
     "What drives a joint": ("docs/gallery/copper-nodder/device.xml",
                             ("</mechanism>", '<driver id="hand" joint="A" value="0.1 deg*t/(1 s)"/></mechanism>'),
                             "check --corners none --advice none", "from outside: driver hand moves and holds hinge A.*FW-D598"),
+    "Peaks behind several blows": ("tests/data/between-joint-stops.xml", None, "check --corners none --advice none", "times as large.*FW-D685"),
     "Actuators that find no room": (COMB, ('x="0.43 mm" y="0.44 mm"', 'x="0.75 mm" y="0.1 mm"'), "mask", "FW-D131"),
     "Quasi-static motion with starting": (LEVER, None, "simulate --scene moving --effects none", "starts with velocities.*FW-D254"),
     "Proof of how much bounds": (LEVER, None, "simulate --scene weight", "weight: answer of the modes to it, put on at once"),

@@ -359,6 +359,34 @@ static void rings(void **state) {
     assert_near(fw_quantity_law_rings(NULL, end, w, &at), 0, 0);
 }
 
+/* what hangs on a coordinate at rate w, against exact steps: w^2 times how far it is behind is never more than its acceleration and what that is
+   said to set ringing; a speed that it begins with is a blow of its own */
+static void shakes(void **state) {
+    (void)state;
+    const double w = 300, end = 1;
+    const fw_quantity_law law[] = {
+        {.kind = &fw_quantity_law_half_sine, .start_s = 0.1, .rise_s = 0.2},
+        {.kind = &fw_quantity_law_sine, .frequency_Hz = 3, .phase_rad = pi / 2, .end_s = 9},
+        {.kind = &fw_quantity_law_sine, .frequency_Hz = 20, .phase_rad = pi / 2, .end_s = 9},
+    };
+    for (int i = 0; i < 3; i++) {
+        const fw_quantity_law_shaking s = fw_quantity_law_shakes(&law[i], end, w);
+        const double behind = fw_quantity_law_swing(&law[i], FW_LAW_OF_COORDINATE, end, w, 0);
+        assert_true(w * w * behind <= s.most * (1 + s.rings) + w * s.blows);
+        assert_true(w * w * behind > 0.2 * (s.most + w * s.blows));
+        assert_near(s.blows, i == 0 ? 2 * pi / 0.2 : 0, 1e-9 * pi / 0.2);
+    }
+    const double omega = 6 * pi; /* its acceleration begins at once: a jump of 1, and 4 w T/(2 pi) of its slope, over the rate */
+    const fw_quantity_law_shaking s = fw_quantity_law_shakes(&law[1], end, w);
+    assert_near(s.most, omega * omega, 1e-6 * omega * omega);
+    assert_near(s.rings, 1 + 4 * 3 * omega / w, 0.02);
+    assert_near(fw_quantity_law_shakes(&law[1], end, 1e9).rings, 1, 1e-3);
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 0.25};
+    const fw_quantity_law_shaking straight = fw_quantity_law_shakes(&ramp, end, w);
+    assert_near(straight.blows, 8, 1e-12);
+    assert_near(straight.most, 0, 0);
+}
+
 /* what is said of a law as a whole, before 40001 samples of it: slopes and how they vary, over pieces without a break */
 static void sizes_before_samples(void **state) {
     (void)state;
@@ -424,6 +452,7 @@ int main(void) {
         cmocka_unit_test(expressions),
         cmocka_unit_test(jolts),
         cmocka_unit_test(rings),
+        cmocka_unit_test(shakes),
         cmocka_unit_test(answers),
         cmocka_unit_test(swings),
         cmocka_unit_test(swings_of_several),

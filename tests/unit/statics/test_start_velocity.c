@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Velocities at the start of mechanisms whose flexures must give way to move at all. */
 #include "effects/hinge_rigs.h"
+#include "quantity/law_kind.h"
 #include "statics/statics.h"
 
 static const fw_dynamics_motion *moved(rig *r, fw_effects_hinge_model hinge) {
@@ -111,12 +112,45 @@ static void open_pins_begin_at_rest(void **state) {
     }
 }
 
+/* a crank that a driver turns from the first instant on, and a flail on a flexure of it: the flail is at rest until the flexure
+   pulls it, whatever another body is said to begin with; where it is said to turn with the crank it does, and nothing rings */
+static void flexures_pull_after_a_driver(void **state) {
+    (void)state;
+    const double rate = 50;
+    for (int stated = 0; stated < 3; stated++) {
+        rig r;
+        rig_new(&r, 3, 3);
+        r.body[0] = (fw_mechanism_mass){"crank", 1e-8, 1e-15, 0, 0, 0, {0, 0}};
+        r.body[1] = (fw_mechanism_mass){"flail", 1e-8, 1e-15, 1e-3, 0, 0, {0, 0}};
+        r.body[2] = (fw_mechanism_mass){"other", 1e-8, 1e-15, 0, 3e-3, 0, {0, 0}};
+        rig_hinge(&r, 0, "H", 0, 1, (fw_geometry_vec2){5e-4, 0}, 0, true);
+        rig_hinge(&r, 1, "A", FW_GROUND, 2, (fw_geometry_vec2){1e-3, 3e-3}, 0, true);
+        rig_hinge(&r, 2, "P", FW_GROUND, 0, (fw_geometry_vec2){0, 0}, 0, true);
+        r.pin[2].hinge = FW_NONE, r.pin[2].stiffness_Nm_per_rad = 0, r.m.nhinge = 2;
+        fw_device_driver turn = {.id = "turn", .revolute = 2, .joint = FW_NONE};
+        turn.law = (fw_quantity_law){.kind = &fw_quantity_law_ramp, .rise_s = 1 / rate};
+        r.m.driver = &turn, r.m.ndriver = 1;
+        fw_device_initial start[2] = {{.body = 2, .omega_rad_per_s = 3, .moves_free = true},
+                                      {.body = 1, .vy_m_per_s = rate * 1e-3}};
+        start[1].omega_rad_per_s = rate;
+        r.scene.initial = start, r.scene.ninitial = stated;
+        r.scene.duration_s = 1e-5;
+        const fw_dynamics_motion *x = moved(&r, FW_HINGE_COMPLIANCE);
+        assert_relative(x->v[2], rate, 1e-9);
+        assert_near(x->v[4], stated == 2 ? rate * 1e-3 : 0, 1e-9);
+        assert_near(x->v[5], stated == 2 ? rate : 0, 1e-6);
+        assert_near(x->v[8], stated ? 3 : 0, 1e-9);
+        fw_arena_free(r.arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_stage_starts_as_stated),
         cmocka_unit_test(what_is_not_stated_follows),
         cmocka_unit_test(a_lever_turns_about_its_hinge),
         cmocka_unit_test(open_pins_begin_at_rest),
+        cmocka_unit_test(flexures_pull_after_a_driver),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
