@@ -21,6 +21,7 @@ static fw_status fabricated_of(void *context, fw_arena *arena, const fw_device *
     if (!pf->flow || !layout || !layout->drawn) return FW_OK;
     FW_TRY(fw_plan_mask_facts(arena, device, layout, NULL, v->variant, pf->table,
                               fw_plan_insulated(pf), &facts));
+    FW_TRY(fw_plan_join_swept(context, arena, i, &facts));
     return fw_process_flow_fabricated(arena, pf->flow, &facts, v->variant, &v->input, &v->ninput);
 }
 
@@ -89,6 +90,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
     FW_TRY(fw_plan_need_material(plan));
     FW_TRY(check_cells(plan));
+    FW_TRY(fw_plan_find_swept(plan));
     *verdict = (fw_verdict){.nvariant = plan->nflow};
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_verdict_variant_verdict, (size_t)plan->nflow));
