@@ -191,7 +191,8 @@ FW_API int fw_design_judge(fw_design *design);
 
 /* The answer, as the exit status of the program: 0 accepted, 1 rejected (also when a flow cannot
    make the device), 4 inconclusive (the error band straddles
-   the limit, or a scene may pull in or stays where it is not stable); -1 before fw_design_judge.
+   the limit, or a scene may pull in or stays where it is not stable; after fw_design_fabricate
+   also when dies of a <sweep> are); -1 before fw_design_judge.
    Masks that break rules count as what a flow cannot make; they are drawn while judging. */
 FW_API int fw_design_decision(const fw_design *design);
 

@@ -179,7 +179,8 @@ int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int s
     else if (status == FW_STATUS_NOMEM)
         fprintf(stderr,
                 "flexwright: error: out of memory: a design may take %zu MiB; nothing was written; "
-                "allow more with --memory, or ask for less (fewer --samples, a lower --accuracy)\n",
+                "allow more with --memory, or ask for less (a lower --accuracy, one --flow, fewer "
+                "steps of a <sweep>, of simulate fewer --samples)\n",
                 (options->design.memory_cap ? options->design.memory_cap : FW_ARENA_USUAL) >> 20);
     else if (status != FW_STATUS_OK && !said)
         fprintf(stderr, "flexwright: error: %s; nothing was written\n", fw_status_name(status));

@@ -427,6 +427,9 @@ void fw_mask_order_set_lines(fw_text *out, const fw_mask_table *table, const fw_
 /* unfinished: the search for these two ended before its end */
 void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, bool unfinished,
                               const fw_mask *mask, int plate);
+/* likewise of data that are scaled: sizes as they are in them, bias and arcs of the mask */
+void fw_mask_order_scaled_lines(fw_text *out, double width_m, double space_m, bool unfinished,
+                                const fw_mask *mask, int plate, double scale);
 /* by how much its first layer is drawn outside of what is wanted */
 double fw_mask_plate_bias_m(const fw_mask *mask, int plate);
 void fw_mask_order_extent_line(fw_text *out, fw_geometry_box box);

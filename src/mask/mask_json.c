@@ -339,7 +339,9 @@ static void proven(fw_json *json, const fw_mask *mask) {
     fw_json_text(json, NULL, "areas within the bound");
     fw_json_text(json, NULL, "both sides of every joint on the same grid points");
     if (mask->nbroken == 0)
-        fw_json_text(json, NULL, "width and space of the exact outlines above the rules");
+        fw_json_text(json, NULL,
+                     "width and space above the rules, of exact outlines or of polygons as "
+                     "written, as each rule says");
     fw_json_end(json);
 }
 

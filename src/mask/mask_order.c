@@ -171,7 +171,7 @@ static void least_line(fw_text *out, const char *what, double value_m, bool unfi
 }
 
 /* "-20 um per edge of 6/0, 20 um of 7/0" of a plate with lengths of its own; of the device's "1.1 um per edge" */
-static void bias_line(fw_text *out, const fw_mask *mask, int plate) {
+static void bias_line(fw_text *out, const fw_mask *mask, int plate, double scale) {
     const fw_mask_table *table = mask->table;
     char number[32];
     int said = 0;
@@ -179,7 +179,7 @@ static void bias_line(fw_text *out, const fw_mask *mask, int plate) {
     bool own = plate != table->device_plate;
     for (int k = 0; own && k < table->nlayer; k++) {
         if (!fw_mask_plate_draws(table, plate, k)) continue;
-        double bias_m = fw_mask_layer_bias_m(mask, k);
+        double bias_m = scale * fw_mask_layer_bias_m(mask, k);
         fw_text_printf(&line, "%s%s um %sof %d/%d", said ? ", " : "",
                        fw_number_text(number, sizeof number, bias_m * 1e6, 6),
                        said ? "" : "per edge ", table->layer[k].layer, table->layer[k].datatype);
@@ -187,7 +187,7 @@ static void bias_line(fw_text *out, const fw_mask *mask, int plate) {
     }
     if (!own)
         fw_text_printf(&line, "%s um per edge",
-                       fw_number_text(number, sizeof number, mask->bias_m * 1e6, 6));
+                       fw_number_text(number, sizeof number, scale * mask->bias_m * 1e6, 6));
     fw_text_add(&line, ", in the data already; mask CD bias 0");
     fw_mask_order_line(out, "process bias", fw_text_end(&line) == FW_OK ? line.data : "");
 }
@@ -203,12 +203,17 @@ double fw_mask_plate_bias_m(const fw_mask *mask, int plate) {
 
 void fw_mask_order_size_lines(fw_text *out, double width_m, double space_m, bool unfinished,
                               const fw_mask *mask, int plate) {
+    fw_mask_order_scaled_lines(out, width_m, space_m, unfinished, mask, plate, 1);
+}
+
+void fw_mask_order_scaled_lines(fw_text *out, double width_m, double space_m, bool unfinished,
+                                const fw_mask *mask, int plate, double scale) {
     char line[200], number[32];
     least_line(out, "least feature", width_m, unfinished);
     least_line(out, "least space", space_m, unfinished);
-    bias_line(out, mask, plate);
+    bias_line(out, mask, plate, scale);
     snprintf(line, sizeof line, "1 nm; arcs within %s nm",
-             fw_number_text(number, sizeof number, mask->tolerance_m * 1e9, 6));
+             fw_number_text(number, sizeof number, scale * mask->tolerance_m * 1e9, 6));
     fw_mask_order_line(out, "grid", line);
 }
 

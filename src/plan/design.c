@@ -364,10 +364,14 @@ int fw_design_judge(fw_design *design) {
 int fw_design_decision(const fw_design *design) {
     if (!design || !(design->done & FW_DONE_JUDGED)) return -1;
     const fw_plan *plan = design->plan;
-    if (plan->verdict.decision == FW_REJECT) return 1;
-    for (int i = 0; i < plan->nflow; i++)
-        if (plan->flow[i].flow && plan->flow[i].flow->manufacturable == 0) return 1;
-    return plan->verdict.decision == FW_INCONCLUSIVE ? 4 : 0;
+    bool open = plan->verdict.decision == FW_INCONCLUSIVE,
+         rejected = plan->verdict.decision == FW_REJECT;
+    for (const fw_plan_flow *pf = plan->flow; pf < plan->flow + plan->nflow; pf++) {
+        open = open || pf->dies;
+        rejected = rejected || (pf->dies && pf->dies_decision == FW_REJECT) ||
+                   (pf->flow && pf->flow->manufacturable == 0);
+    }
+    return rejected ? 1 : open ? 4 : 0;
 }
 
 static fw_status fabricate_work(fw_design *d, void *argument) {

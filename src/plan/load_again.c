@@ -170,39 +170,243 @@ fw_status fw_plan_sweep_settings(fw_plan *plan, int v, fw_device_set **out, doub
     return FW_OK;
 }
 
-/* the outline of step v, as far as it can be drawn; what is wrong with it is said when it is
-   planned */
-static fw_status enlarge(fw_plan *plan, fw_arena *arena, int v, fw_geometry_box *die) {
-    fw_diags silent = fw_diags_new(arena);
-    const fw_device *device;
-    const fw_layout *layout;
+/* "step 2 (pitch = 300 um)" */
+fw_status fw_plan_step_name(fw_plan *plan, int v, const char **name) {
+    const fw_device_wafer_asked *w = &plan->device->wafer;
+    fw_text text = fw_text_new(plan->arena);
     fw_device_set *set;
     double value[2];
     FW_TRY(fw_plan_sweep_settings(plan, v, &set, value));
-    fw_status status = fw_plan_device_again(
-        plan, arena, set, plan->options.nset + plan->device->wafer.nsweep, &silent, &device);
-    if (status == FW_OK) status = fw_layout_build(arena, device, &silent, &layout);
-    if (status == FW_OK && layout->drawn) {
-        die->x1 = fmax(die->x1, die->x0 + layout->die.x1 - layout->die.x0);
-        die->y1 = fmax(die->y1, die->y0 + layout->die.y1 - layout->die.y0);
+    fw_text_printf(&text, "step %d (", v + 1);
+    for (int k = 0; k < w->nsweep; k++)
+        fw_text_printf(&text, "%s%.60s = %s", k ? ", " : "", set[plan->options.nset + k].path,
+                       set[plan->options.nset + k].value);
+    fw_text_add(&text, ")");
+    FW_TRY(fw_text_end(&text));
+    *name = text.data;
+    return FW_OK;
+}
+
+/* ---- what the devices of a swept wafer hand to a flow together ----
+   They lie in one bath and one plasma, and one bias is on their plate. So every one of them is computed with the narrowest
+   opening and line of all, the mean of their areas and edges, and of a release with the farthest that any of them needs
+   and the least that any of them bears. The device of the description is one of them: it stands in for a step that has no
+   mask, and has a mask of its own. Theory: docs/theory/wafer.md. Test: test_swept.c. */
+
+typedef struct of_flow { /* as it is gathered */
+    fw_process_mask_facts facts;
+    fw_release release;
+    int n;
+} of_flow;
+
+/* of every opening by its name the narrowest of all devices, as "gap of hinge A of step 1 (w = 3 um)" */
+static fw_status add_gaps(fw_plan *plan, const char *name, const fw_process_mask_facts *f,
+                          fw_process_mask_facts *all) {
+    const size_t n = (size_t)all->ngap, more = n + (size_t)f->ngap;
+    fw_process_mask_gap *gap = fw_arena_grow(plan->arena, all->gap, n, more, sizeof *gap);
+    FW_NEED(gap);
+    all->gap = gap;
+    for (int i = 0; i < f->ngap; i++) {
+        const size_t length = strlen(f->gap[i].name);
+        int at = 0;
+        while (at < all->ngap && (strncmp(gap[at].name, f->gap[i].name, length) != 0 ||
+                                  strncmp(gap[at].name + length, " of ", 4) != 0))
+            at++;
+        if (at < all->ngap && gap[at].gap_m <= f->gap[i].gap_m) continue;
+        gap[at] = f->gap[i];
+        FW_NEED(gap[at].name = fw_arena_printf(plan->arena, "%s of %s", f->gap[i].name, name));
+        if (at == all->ngap) all->ngap++;
     }
+    return FW_OK;
+}
+
+/* what may be lost, and of what moves the part that is free last */
+static fw_status add_release(fw_plan *plan, const char *name, const fw_release *r, fw_release *to) {
+    const size_t n = (size_t)to->npart;
+    FW_NEED(to->part =
+                fw_arena_grow(plan->arena, to->part, n, n + (size_t)r->npart, sizeof *to->part));
+    for (int i = 0; i < r->npart; i++) {
+        if (r->part[i].duty == FW_RELEASE_MOVES && i != r->slowest) continue;
+        fw_release_part *p = &to->part[to->npart];
+        *p = r->part[i];
+        FW_NEED(p->label = fw_arena_printf(plan->arena, "%s of %s", p->label ? p->label : "a piece",
+                                           name));
+        if (i == r->slowest && !(to->needed_m >= r->needed_m))
+            to->slowest = to->npart, to->needed_m = r->needed_m;
+        if (i == r->weakest && !(to->lost_m <= r->lost_m))
+            to->weakest = to->npart, to->lost_m = r->lost_m;
+        to->npart++;
+    }
+    to->share = r->share;
+    return FW_OK;
+}
+
+/* one drawing in one flow; marked: with the marks of the flow */
+static fw_status add_to_flow(fw_plan *plan, fw_arena *scratch, const char *name,
+                             const fw_device *device, const fw_layout *layout,
+                             const fw_mechanism_variant *variant, const fw_plan_flow *pf,
+                             of_flow *to) {
+    const fw_layout *marked;
+    fw_layout_no_room no_room;
+    fw_process_mask_facts f, *all = &to->facts;
+    const fw_release *r;
+    const bool insulated = fw_plan_insulated(pf);
+    FW_TRY(fw_mask_frame_marks(scratch, pf->table, layout, &marked, &no_room));
+    FW_TRY(fw_plan_mask_facts(scratch, device, layout, marked, variant, pf->table, insulated, &f));
+    to->n++;
+    all->structure_area_m2 += f.structure_area_m2;
+    all->die_area_m2 += f.die_area_m2;
+    all->perimeter_m += f.perimeter_m;
+    all->biased_perimeter_m += f.biased_perimeter_m;
+    all->narrowest_slot_m = fmin(all->narrowest_slot_m, f.narrowest_slot_m);
+    all->narrowest_line_m = fmin(all->narrowest_line_m, f.narrowest_line_m);
+    all->deepest_hinge_width_m = fmin(all->deepest_hinge_width_m, f.deepest_hinge_width_m);
+    FW_TRY(add_gaps(plan, name, &f, all));
+    if (!fw_process_flow_releases(pf->flow)) return FW_OK;
+    FW_TRY(fw_release_solve(scratch, marked, insulated, fw_process_flow_frees_all(pf->flow),
+                            fw_process_flow_bond(pf->flow), &r));
+    return add_release(plan, name, r, &to->release);
+}
+
+/* a device as far as it can be drawn; what is wrong with it is said when it is planned */
+static fw_status add_device(fw_plan *plan, fw_arena *scratch, const char *name,
+                            const fw_device *device, const fw_verdict_variant_verdict *variant,
+                            of_flow *of, fw_plan_swept *swept) {
+    fw_diags silent = fw_diags_new(scratch);
+    const fw_layout *layout = NULL;
+    fw_status status = fw_layout_build(scratch, device, &silent, &layout);
+    if (status == FW_GEOMETRY || status == FW_INPUT) return FW_OK;
+    FW_TRY(status);
+    if (!layout->drawn) return FW_OK;
+    swept->width_m = fmax(swept->width_m, layout->die.x1 - layout->die.x0);
+    swept->height_m = fmax(swept->height_m, layout->die.y1 - layout->die.y0);
+    for (int i = 0; i < plan->nflow; i++)
+        if (plan->flow[i].flow && plan->flow[i].table)
+            FW_TRY(add_to_flow(plan, scratch, name, device, layout,
+                               variant ? variant[i].variant : &plan->flow[i].variant,
+                               &plan->flow[i], &of[i]));
+    return FW_OK;
+}
+
+static fw_status add_step(fw_plan *plan, fw_arena *scratch, int v, of_flow *of,
+                          fw_plan_swept *swept) {
+    const fw_device *device = NULL;
+    const char *name;
+    fw_device_set *set;
+    double value[2];
+    fw_verdict_variant_verdict *variant =
+        fw_arena_array(scratch, fw_verdict_variant_verdict, (size_t)plan->nflow);
+    FW_NEED(variant);
+    FW_TRY(fw_plan_step_name(plan, v, &name));
+    FW_TRY(fw_plan_sweep_settings(plan, v, &set, value));
+    fw_status status = fw_plan_restated(plan, scratch, set + plan->options.nset,
+                                        plan->device->wafer.nsweep, &device, variant);
+    if (status == FW_OK) status = add_device(plan, scratch, name, device, variant, of, swept);
     return fw_plan_is_final(status) ? status : FW_OK;
+}
+
+static fw_status finish(fw_plan *plan, const of_flow *of, fw_plan_swept *swept) {
+    for (int i = 0; i < plan->nflow; i++) {
+        fw_process_mask_facts *f = &swept->of[i];
+        fw_release *release = fw_arena_one(plan->arena, fw_release);
+        const double share = of[i].n > 0 ? 1.0 / of[i].n : 0.0;
+        FW_NEED(release);
+        *release = of[i].release;
+        *f = of[i].facts;
+        f->structure_area_m2 *= share, f->die_area_m2 *= share;
+        f->perimeter_m *= share, f->biased_perimeter_m *= share;
+        if (release->npart > 0) f->release = release;
+        if (release->slowest < 0 || release->weakest < 0) continue;
+        FW_NEED(
+            f->release_change = fw_arena_printf(
+                plan->arena,
+                "leave what comes free so late or holds so little out of the <sweep>, or give %s "
+                "closer openings (release-pitch) or %s more to hold by",
+                release->part[release->slowest].label, release->part[release->weakest].label));
+    }
+    return FW_OK;
+}
+
+fw_status fw_plan_find_swept(fw_plan *plan) {
+    const fw_device_wafer_asked *w = &plan->device->wafer;
+    if (plan->options.dies > 0) return FW_OK; /* a step: its plan has those of the whole wafer */
+    plan->swept = NULL;
+    if (!w->asked || w->nsweep == 0) return FW_OK;
+    fw_plan_swept *swept = fw_arena_one(plan->arena, fw_plan_swept);
+    of_flow *of = fw_arena_array(plan->arena, of_flow, (size_t)plan->nflow);
+    FW_NEED(swept && of ? of : NULL);
+    FW_NEED(swept->of = fw_arena_array(plan->arena, fw_process_mask_facts, (size_t)plan->nflow));
+    for (int i = 0; i < plan->nflow; i++) {
+        of[i].facts.narrowest_slot_m = of[i].facts.narrowest_line_m =
+            of[i].facts.deepest_hinge_width_m = (double)INFINITY;
+        of[i].release = (fw_release){
+            .slowest = -1, .weakest = -1, .needed_m = (double)NAN, .lost_m = (double)NAN};
+    }
+    fw_arena *scratch = fw_arena_part(plan->arena, plan->options.memory_cap);
+    FW_NEED(scratch);
+    fw_mark empty = fw_arena_mark(scratch);
+    fw_status status =
+        add_device(plan, scratch, "the device of the description", plan->device, NULL, of, swept);
+    for (int v = 0; v < fw_plan_sweep_steps(w) && status == FW_OK; v++) {
+        fw_arena_rewind(scratch, empty);
+        status = add_step(plan, scratch, v, of, swept);
+    }
+    fw_arena_free(scratch);
+    FW_TRY(status);
+    plan->swept = swept;
+    return finish(plan, of, swept);
+}
+
+static fw_status join_releases(fw_arena *arena, const fw_release *all, const fw_release **own) {
+    const fw_release *r = *own;
+    fw_release *both = fw_arena_one(arena, fw_release);
+    FW_NEED(both);
+    *both = *r;
+    FW_NEED(both->part = fw_arena_array(arena, fw_release_part, (size_t)(r->npart + all->npart)));
+    memcpy(both->part, r->part, (size_t)r->npart * sizeof *r->part);
+    memcpy(both->part + r->npart, all->part, (size_t)all->npart * sizeof *r->part);
+    both->npart = r->npart + all->npart;
+    if (all->slowest >= 0 && !(r->needed_m >= all->needed_m))
+        both->slowest = r->npart + all->slowest, both->needed_m = all->needed_m;
+    if (all->weakest >= 0 && !(r->lost_m <= all->lost_m))
+        both->weakest = r->npart + all->weakest, both->lost_m = all->lost_m;
+    *own = both;
+    return FW_OK;
+}
+
+fw_status fw_plan_join_swept(const fw_plan *plan, fw_arena *arena, int flow,
+                             fw_process_mask_facts *facts) {
+    const fw_process_mask_facts *all = plan->swept ? &plan->swept->of[flow] : NULL;
+    if (!all || !(all->die_area_m2 > 0.0) || !(facts->die_area_m2 > 0.0)) return FW_OK;
+    const int ngap = facts->ngap + all->ngap;
+    fw_process_mask_gap *gap = fw_arena_array(arena, fw_process_mask_gap, (size_t)ngap + 1);
+    FW_NEED(gap);
+    for (int i = 0; i < ngap; i++)
+        gap[i] = i < facts->ngap ? facts->gap[i] : all->gap[i - facts->ngap];
+    facts->gap = gap, facts->ngap = ngap;
+    facts->structure_area_m2 = all->structure_area_m2, facts->die_area_m2 = all->die_area_m2;
+    facts->perimeter_m = all->perimeter_m, facts->biased_perimeter_m = all->biased_perimeter_m;
+    facts->narrowest_slot_m = fmin(facts->narrowest_slot_m, all->narrowest_slot_m);
+    facts->narrowest_line_m = fmin(facts->narrowest_line_m, all->narrowest_line_m);
+    facts->deepest_hinge_width_m = fmin(facts->deepest_hinge_width_m, all->deepest_hinge_width_m);
+    facts->release_change = all->release_change ? all->release_change : facts->release_change;
+    return facts->release && all->release ? join_releases(arena, all->release, &facts->release)
+                                          : FW_OK;
 }
 
 fw_status fw_plan_count_dies(fw_plan *plan) {
     const fw_device_wafer_asked *w = &plan->device->wafer;
     plan->dies = plan->options.dies > 0 ? plan->options.dies : 1;
     if (plan->options.dies > 0 || !w->asked || !plan->layout || !plan->layout->drawn) return FW_OK;
+    if (!plan->swept) FW_TRY(fw_plan_find_swept(plan));
     fw_arena *scratch = fw_arena_part(plan->arena, plan->options.memory_cap);
     FW_NEED(scratch);
     fw_geometry_box die = plan->layout->die;
-    fw_status status = FW_OK;
-    for (int v = 0; w->nsweep > 0 && v < fw_plan_sweep_steps(w) && status == FW_OK; v++) {
-        fw_mark empty = fw_arena_mark(scratch);
-        status = enlarge(plan, scratch, v, &die);
-        fw_arena_rewind(scratch, empty);
+    if (plan->swept) {
+        die.x1 = fmax(die.x1, die.x0 + plan->swept->width_m);
+        die.y1 = fmax(die.y1, die.y0 + plan->swept->height_m);
     }
-    if (status == FW_OK) status = fw_wafer_dies(scratch, w, die, &plan->dies);
+    fw_status status = fw_wafer_dies(scratch, w, die, &plan->dies);
     fw_arena_free(scratch);
     if (plan->dies == 0) plan->dies = 1; /* why, the wafer says */
     return status;

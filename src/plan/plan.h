@@ -80,6 +80,9 @@ typedef struct fw_plan_flow { /* one variant and, when it is a flow, its pack, m
     const char *coupons_sha256;
     const char *coupons_lack; /* "slots (D11), cd (D08)": read by steps, and without room; NULL */
     const fw_wafer *wafer;    /* NULL: none asked for, or no mask */
+    /* of its sweep, what is judged worse than the description; NULL: nothing is. "342 of 514 dies are inconclusive in FLOW" */
+    const char *dies, *dies_count;
+    fw_verdict_decision dies_decision; /* of the worst of them; where dies is not NULL */
     const fw_wafer *single; /* without <wafer>, but with <order>: the plate of one die; else NULL */
     fw_text wafer_gds;      /* composed once, as above */
     const char *wafer_sha256;
@@ -145,6 +148,7 @@ typedef struct fw_plan {
     size_t base_length;
     struct fw_plan **step; /* (nstep) plans of the steps of a wafer's sweeps; NULL: not planned */
     int nstep;
+    const struct fw_plan_swept *swept; /* what all devices of its wafer have; NULL: no sweep */
 } fw_plan;
 
 fw_plan *fw_plan_new(const fw_plan_options *options); /* NULL: out of memory */

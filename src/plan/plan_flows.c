@@ -351,6 +351,7 @@ static fw_status facts_of(fw_plan *plan, fw_plan_flow *pf, fw_process_mask_facts
     facts->release = pf->release;
     facts->hold = pf->hold;
     facts->release_change = pf->release_change;
+    FW_TRY(fw_plan_join_swept(plan, plan->arena, (int)(pf - plan->flow), facts));
     return pf->wafer ? add_wafer_facts(plan->arena, pf->wafer, facts) : FW_OK;
 }
 
@@ -367,7 +368,7 @@ static fw_status compute_flow(fw_plan *plan, fw_plan_flow *pf, const fw_process_
     facts.pads = contents.pads;
     facts.redraw = redraw;
     FW_TRY(fw_process_flow_compute(plan->arena, pf->flow, drawn ? &facts : NULL, diags));
-    if (pf->flow->no_window && !pf->release_change && !redraw->judging) {
+    if (pf->flow->no_window && !facts.release_change && !redraw->judging) {
         fw_diags said = fw_diags_new(plan->arena);
         FW_TRY(find_change(plan, pf, &pf->release_change));
         facts.release_change = pf->release_change;
@@ -470,7 +471,7 @@ static fw_status draw_change(redrawn_flow *of, double gap_m, double thickness_m,
         FW_TRY(widened_device(other.arena, other.device, gap_m, &device));
         if (of->dense) device.ncell = 0;
         other.device = &device;
-        other.layout = NULL;
+        other.layout = NULL, other.swept = NULL; /* all of them would have such gaps */
         pf->release = NULL, pf->hold = NULL;
         fw_status status = fw_layout_build(other.arena, &device, &other.diags, &other.layout);
         if (status != FW_GEOMETRY && status != FW_INPUT) FW_TRY(status);
@@ -564,6 +565,8 @@ static fw_status find(fw_plan *plan, fw_plan_flow *pf, const fw_verdict_variant_
     if (judged_drawn)
         FW_TRY(
             fw_plan_edge_facts(plan->arena, plan->device, layout, pf, &pf->variant, &of_verdict));
+    if (judged_drawn)
+        FW_TRY(fw_plan_join_swept(plan, plan->arena, (int)(pf - plan->flow), &of_verdict));
     FW_TRY(facts_of(plan, pf, &of_times));
     FW_TRY(fw_plan_flow_again(plan, pf, &flow));
     const fw_measuring_request request = {.device = plan->device,

@@ -20,6 +20,7 @@ static fw_status fabricated_of(void *context, fw_arena *arena, const fw_device *
     fw_process_mask_facts facts;
     if (!pf->flow || !layout || !layout->drawn) return FW_OK;
     FW_TRY(fw_plan_edge_facts(arena, device, layout, pf, v->variant, &facts));
+    FW_TRY(fw_plan_join_swept(context, arena, i, &facts));
     return fw_process_flow_fabricated(arena, pf->flow, &facts, v->variant, &v->input, &v->ninput);
 }
 
@@ -88,6 +89,7 @@ fw_status fw_plan_judge(fw_plan *plan) {
     fw_verdict *verdict = &plan->verdict;
     FW_TRY(fw_plan_need_material(plan));
     FW_TRY(check_cells(plan));
+    FW_TRY(fw_plan_find_swept(plan));
     *verdict = (fw_verdict){.nvariant = plan->nflow};
     FW_NEED(verdict->variant =
                 fw_arena_array(plan->arena, fw_verdict_variant_verdict, (size_t)plan->nflow));

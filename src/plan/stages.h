@@ -107,6 +107,18 @@ int fw_plan_sweep_steps(const fw_device_wafer_asked *asked);
 /* the settings of a plan and those of step v behind them: of two for one parameter the last holds.
    value: of every sweep, SI */
 fw_status fw_plan_sweep_settings(fw_plan *plan, int v, fw_device_set **set, double *value);
+/* "step 2 (pitch = 300 um)" */
+fw_status fw_plan_step_name(fw_plan *plan, int v, const char **name);
+/* what all devices of a swept wafer hand to its flows together: load_again.c */
+typedef struct fw_plan_swept {
+    fw_process_mask_facts *of; /* (nflow) no area: nothing is drawn */
+    double width_m, height_m;  /* of the largest die */
+} fw_plan_swept;
+/* plan->swept, NULL without a sweep; the plan of a step keeps what its wafer has */
+fw_status fw_plan_find_swept(fw_plan *plan);
+/* the facts of one of its devices become those that its flow is computed with; nothing without a sweep */
+fw_status fw_plan_join_swept(const fw_plan *plan, fw_arena *arena, int flow,
+                             fw_process_mask_facts *facts);
 /* does it end the whole plan, not one step of it? */
 bool fw_plan_is_final(fw_status status);
 /* plan->dies, from what <wafer> asks for */

@@ -27,6 +27,7 @@ static fw_status run_step(fw_plan *plan, int v, double *value, const char **why)
     step->directory = plan->directory;
     step->drawing = plan->drawing;
     step->ndrawing = plan->ndrawing;
+    step->swept = plan->swept; /* one plate, one bath: what all have counts for each */
     fw_status status =
         fw_plan_load_memory(step, plan->source_file, plan->source, plan->source_length);
     if (status == FW_OK) status = fw_plan_judge(step);
@@ -57,28 +58,125 @@ static fw_wafer_variant variant_of(const fw_plan *plan, int flow) {
     return v;
 }
 
-/* what is said of a step whose dies are other ones */
-static void say(fw_plan *plan, const fw_device_wafer_asked *w, const fw_wafer_variant *v, int index,
-                const char *flow) {
-    char name[160] = "";
-    size_t used = 0;
-    for (int k = 0; k < w->nsweep; k++) {
-        const fw_device_sweep *s = &w->sweep[k];
-        fw_quantity_unit u = {.factor = 1};
-        char number[40];
-        if (*s->unit) fw_quantity_unit_parse(s->unit, strlen(s->unit), &u, NULL, NULL);
-        fw_number_text(number, sizeof number, fw_quantity_unit_from_si(&u, v->value[k]), 9);
-        const char *part =
-            fw_arena_printf(plan->arena, "%s%.60s = %s %s", k ? ", " : "",
-                            plan->device->parameter[s->parameter].name, number, s->unit);
-        if (!part || used + strlen(part) >= sizeof name) continue;
-        memcpy(name + used, part, strlen(part) + 1);
-        used += strlen(part);
+/* a step whose dies are other ones, once for all flows in which it is so for the same reason */
+static fw_status say_replaced(fw_plan *plan, int v) {
+    bool *told = fw_arena_array(plan->arena, bool, (size_t)plan->nflow);
+    const char *name;
+    FW_NEED(told);
+    FW_TRY(fw_plan_step_name(plan, v, &name));
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_wafer *w = plan->flow[i].wafer;
+        fw_text flows = fw_text_new(plan->arena);
+        if (!w || told[i] || w->variant[v].mask) continue;
+        for (int k = i; k < plan->nflow; k++) {
+            const fw_wafer *other = plan->flow[k].wafer;
+            if (!other || other->variant[v].mask ||
+                !fw_text_same(other->variant[v].why, w->variant[v].why))
+                continue;
+            told[k] = true;
+            fw_text_printf(&flows, "%s%s", flows.length ? ", " : "", plan->flow[k].use->ref);
+        }
+        FW_TRY(fw_text_end(&flows));
+        fw_diag_warning(
+            &plan->diags, 194, plan->device->wafer.sweep[0].place,
+            "<sweep>: %s in flow %s: %s; its dies are those of the description as it stands", name,
+            flows.data, w->variant[v].why ? w->variant[v].why : "no mask");
     }
-    fw_diag_warning(&plan->diags, 194, w->sweep[0].place,
-                    "<sweep>: step %d (%s) in flow %s: %s; its dies are those of the description "
-                    "as it stands",
-                    index + 1, name, flow, v->why ? v->why : "no mask");
+    return plan->diags.failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- the judgement of all dies ---- */
+
+/* a reason without the names of devices: "link stage of step 2 (pitch = 300 um) is free last" -> "link stage is free last" */
+static const char *without_names(fw_arena *arena, const char *reason) {
+    static const char step[] = " of step ", own[] = " of the device of the description";
+    fw_text text = fw_text_new(arena);
+    while (*reason) {
+        const char *end = strncmp(reason, step, sizeof step - 1) == 0 ? strchr(reason, ')') : NULL;
+        if (end)
+            reason = end + 1;
+        else if (strncmp(reason, own, sizeof own - 1) == 0)
+            reason += sizeof own - 1;
+        else
+            fw_text_printf(&text, "%c", *reason++);
+    }
+    return fw_text_end(&text) == FW_OK ? text.data : NULL;
+}
+
+/* why the step's own flow refuses it or does not guarantee it, where that is not said of all of them already; NULL: it does not */
+static fw_status own_reason(fw_arena *arena, const fw_process_flow *step,
+                            const fw_process_flow *all, const char **out) {
+    const char *why = step->fails         ? step->fails
+                      : step->nreason > 0 ? step->reason[0]
+                                          : NULL,
+               *plain;
+    *out = NULL;
+    if (!why || step->manufacturable == 1) return FW_OK;
+    FW_NEED(plain = without_names(arena, why));
+    for (int i = 0; i < all->nreason; i++) {
+        const char *other = without_names(arena, all->reason[i]);
+        FW_NEED(other);
+        if (strcmp(other, plain) == 0) return FW_OK;
+    }
+    *out = why;
+    return FW_OK;
+}
+
+/* what a flow cannot make of one step it cannot make of the wafer, on which its dies stand */
+static fw_status judge_steps(fw_plan *plan, int flow) {
+    fw_plan_flow *pf = &plan->flow[flow];
+    for (int v = plan->nstep - 1; pf->wafer && v >= 0; v--) {
+        const fw_process_flow *step = plan->step[v] ? plan->step[v]->flow[flow].flow : NULL;
+        const fw_wafer_variant *x = &pf->wafer->variant[v];
+        const char *why, *name;
+        if (!step || !x->mask || x->dies == 0) continue;
+        FW_TRY(own_reason(plan->arena, step, pf->flow, &why));
+        if (!why) continue;
+        FW_TRY(fw_plan_step_name(plan, v, &name));
+        FW_NEED(why = fw_arena_printf(plan->arena, "%s of the <sweep>, %d dies: %s", name, x->dies,
+                                      why));
+        FW_TRY(fw_process_flow_add_reason(plan->arena, pf->flow, step->manufacturable, why));
+    }
+    return FW_OK;
+}
+
+static fw_verdict_decision decision_of(const fw_wafer_variant *v) {
+    for (int d = FW_ACCEPT; v->decision && d <= FW_REJECT; d++)
+        if (strcmp(v->decision, fw_verdict_decision_text((fw_verdict_decision)d)) == 0)
+            return (fw_verdict_decision)d;
+    return FW_ACCEPT;
+}
+
+/* dies of a sweep that are judged worse than the device of the description, whose verdict is the headline */
+static fw_status count_worse(fw_plan *plan, int flow) {
+    fw_plan_flow *pf = &plan->flow[flow];
+    const fw_wafer *w = pf->wafer;
+    fw_text steps = fw_text_new(plan->arena);
+    int worse[FW_REJECT + 1] = {0};
+    for (int v = 0; w && plan->nstep > 0 && v < w->nvariant; v++) {
+        const fw_wafer_variant *x = w->variant[v].mask ? &w->variant[v] : &w->stand_in;
+        const fw_verdict_decision d = decision_of(x);
+        const int dies = w->variant[v].dies;
+        const char *name, *why = NULL;
+        if (dies == 0 || !fw_verdict_is_worse(d, plan->verdict.decision)) continue;
+        FW_TRY(fw_plan_step_name(plan, v, &name));
+        const fw_verdict *judged = x == &w->stand_in ? &plan->verdict : &plan->step[v]->verdict;
+        for (int k = 0; k < judged->variant[flow].nreason && !why; k++)
+            if (judged->variant[flow].reason[k].decision == d)
+                FW_TRY(fw_verdict_reason_words(plan->arena, judged, flow, k, &why));
+        worse[d] += dies;
+        fw_text_printf(&steps, "%s%s, %d dies, %s%s%s", steps.length ? "; " : "", name, dies,
+                       d == FW_REJECT ? "rejected" : "inconclusive", why ? " because " : "",
+                       why ? why : "");
+    }
+    if (steps.length == 0) return FW_OK;
+    FW_TRY(fw_text_end(&steps));
+    pf->dies_decision = worse[FW_REJECT] > 0 ? FW_REJECT : FW_INCONCLUSIVE;
+    FW_NEED(pf->dies = fw_arena_printf(plan->arena, "in %s: %s", pf->use->ref, steps.data));
+    FW_NEED(pf->dies_count = fw_arena_printf(
+                plan->arena, "%d of %d dies are %s in %s", worse[pf->dies_decision], w->dies,
+                pf->dies_decision == FW_REJECT ? "rejected" : "inconclusive", pf->use->ref));
+    return FW_OK;
 }
 
 /* an edge that moves by e changes a line by 2e. Swept dies are on one plate: the least of all that are accepted */
@@ -120,7 +218,6 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
                                : (fw_wafer_variant){.utilisation = (double)NAN, .why = why[i]};
         for (int k = 0; k < w->nsweep; k++)
             v[i].value[k] = value[i][k];
-        if (!v[i].mask) say(plan, w, &v[i], i, pf->use->ref);
     }
     fw_wafer_width_effect effect = {.left_m = (double)NAN, .looked_m = (double)NAN};
     narrow_effect(plan, flow, &effect);
@@ -142,8 +239,10 @@ static fw_status make(fw_plan *plan, int flow, const double (*value)[2], const c
                                            .tolerance_m = pf->mask->tolerance_m,
                                            .vertex_limit = pf->mask->vertex_limit,
                                            .flattening = pf->mask->flattening}};
-    if (!w->asked) return fw_wafer_build(plan->arena, &input, &plan->diags, &pf->single);
-    FW_TRY(fw_wafer_build(plan->arena, &input, &plan->diags, &pf->wafer));
+    const fw_wafer **made = w->asked ? &pf->wafer : &pf->single;
+    FW_TRY(fw_wafer_build(plan->arena, &input, &plan->diags, made));
+    FW_TRY(fw_wafer_check_orders(plan->arena, *made, &plan->diags));
+    if (!w->asked) return FW_OK;
     pf->wafer_gds = fw_text_new(plan->arena);
     FW_TRY(fw_wafer_write_gds(pf->wafer, &pf->wafer_gds));
     return fw_plan_hash(plan, &pf->wafer_gds, &pf->wafer_sha256);
@@ -196,6 +295,8 @@ static fw_status make_all(fw_plan *plan) {
     }
     for (int i = 0; i < plan->nflow; i++)
         if (plan->flow[i].mask) FW_TRY(make(plan, i, (const double(*)[2])value, why));
+    for (int v = 0; v < plan->nstep; v++)
+        FW_TRY(say_replaced(plan, v));
     return FW_OK;
 }
 
@@ -213,5 +314,9 @@ fw_status fw_plan_fabricate(fw_plan *plan) {
     if (plan->options.drawn_alone) return FW_OK;
     FW_TRY(make_all(plan));
     FW_TRY(fw_plan_compute_wafers(plan));
+    for (int i = 0; i < plan->nflow; i++) {
+        FW_TRY(judge_steps(plan, i));
+        FW_TRY(count_worse(plan, i));
+    }
     return fw_plan_schedules(plan);
 }

@@ -20,7 +20,9 @@ static fw_report_flow *report_flows(fw_plan *plan) {
                              plan->flow[i].measuring,
                              plan->flow[i].release_svg.length ? &plan->flow[i].release_svg : NULL,
                              plan->flow[i].wiring,
-                             plan->flow[i].tethers};
+                             plan->flow[i].tethers,
+                             plan->flow[i].dies,
+                             plan->flow[i].dies_count};
     return flow;
 }
 

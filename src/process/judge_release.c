@@ -499,7 +499,7 @@ void fw_process_release_json(const fw_process_flow *flow, fw_json *json) {
     fw_json_text(json, "slowest", r->slowest < 0 ? NULL : r->part[r->slowest].label);
     fw_json_text(json, "weakest", r->weakest < 0 ? NULL : r->part[r->weakest].label);
     fw_json_list(json, "parts");
-    for (int i = 0; i < r->npart; i++)
+    for (int i = 0; i < r->own; i++)
         part(json, &r->part[i], run - foot);
     fw_json_end(json);
     hold_json(flow, json);

@@ -144,6 +144,7 @@ void fw_process_warn_exact(const fw_quantity *q, const fw_quantity *was, fw_diag
     const bool exact = !q->unknown && !q->interval && !(q->uncertainty > 0.0),
                chosen = was && !was->unknown && !(was->uncertainty > 0.0);
     if (!exact || chosen || is_count(was ? was : q)) return;
+    if (q->unit && fw_quantity_unit_currency(q->unit)) return; /* an offer is an exact number */
     if (q->status == FW_MEASURED)
         fw_diag_warning(diags, 531, q->place,
                         "'%s' is measured, and stated without an uncertainty (u = 0), so that "

@@ -215,8 +215,8 @@ fw_status fw_recipe_write_release_svg(fw_arena *arena, const fw_process_flow *fl
     fw_svg_paper(out, "#ffffff");
     cells(&p);
     edges(&p, layout, islands);
-    mark(&p, &r->part[r->slowest], "free last");
-    if (r->weakest >= 0) mark(&p, &r->part[r->weakest], "lost first");
+    if (r->slowest < r->own) mark(&p, &r->part[r->slowest], "free last");
+    if (r->weakest >= 0 && r->weakest < r->own) mark(&p, &r->part[r->weakest], "lost first");
     key(&p, MARGIN + 12.0);
     scale_bar(&p, below - 24.0);
     FW_TRY(say(&p, arena, below + 12.0));

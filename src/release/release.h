@@ -37,6 +37,7 @@ typedef struct fw_release_part {
 typedef struct fw_release {
     fw_release_part *part; /* (npart) in the order of the pieces */
     int npart;
+    int own; /* the first so many are of this drawing; what is behind them lies on other dies */
     double share; /* of its bond that what stays must keep */
     /* the window, as drawn: parts -1 and NaN where there is none of the kind */
     int slowest;      /* what moves and is free last */

@@ -128,6 +128,7 @@ fw_status fw_release_solve(fw_arena *arena, const fw_layout *layout, bool island
     *release = r;
     r->share = share;
     FW_TRY(fw_release_parts(arena, layout, islands, &part_of, &r->part, &r->npart));
+    r->own = r->npart;
     for (int i = 0; whole && i < r->npart; i++)
         if (r->part[i].duty == FW_RELEASE_STAYS && r->part[i].body != FW_ISLAND)
             r->part[i].duty = FW_RELEASE_EITHER;

@@ -79,6 +79,7 @@ fw_status fw_report_banner(fw_report_page *page) {
               fw_report_decision_word(v->decision));
     if (top.unmade)
         fw_markup(out, "<p class=\"why\">But it cannot be made in {s}.</p>\n", top.unmade);
+    if (top.dies) fw_markup(out, "<p class=\"why\">But {s}.</p>\n", top.dies);
     if (v->drawn != v->decision)
         fw_markup(out, "<p class=\"why\">The drawn geometry alone: {r}.</p>\n",
                   fw_report_decision_word(v->drawn));

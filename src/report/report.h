@@ -33,6 +33,8 @@ typedef struct fw_report_flow { /* one process flow of the device */
     const fw_text *release;        /* picture of when every place is free; NULL: none */
     const fw_wiring *wiring;       /* NULL: nothing is drawn */
     const fw_statics_tethers *tethers; /* what breaks them; NULL: none */
+    /* steps of a sweep whose dies are judged worse than the device, and how many dies that are; NULL: none are */
+    const char *dies, *dies_count;
 } fw_report_flow;
 
 typedef struct fw_report_input {

@@ -266,6 +266,8 @@ typedef struct fw_report_summary {
     fw_verdict_check governing, governing_drawn;
     bool governs;       /* something was run */
     const char *unmade; /* flows that cannot make what is not rejected; NULL: none is known */
+    const char
+        *dies; /* "342 of 514 dies are inconclusive in FLOW"; NULL: none is worse than the device */
     fw_report_summary_line *line; /* (nline) in the order in which they are read */
     int nline;
 } fw_report_summary;

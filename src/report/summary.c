@@ -227,6 +227,19 @@ static fw_status unmade(fw_arena *arena, const fw_report_input *in, fw_report_su
     return FW_OK;
 }
 
+/* dies of a sweep are devices of their own, with verdicts of their own */
+static fw_status other_dies(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
+    fw_text list = fw_text_new(arena);
+    for (int i = 0; i < in->nflow; i++) {
+        if (!in->flow[i].dies) continue;
+        fw_text_printf(&list, "%s%s", list.length ? ", " : "", in->flow[i].dies_count);
+        FW_TRY(add(s, "dies", in->flow[i].dies));
+    }
+    FW_TRY(fw_text_end(&list));
+    if (list.length) s->dies = list.data;
+    return FW_OK;
+}
+
 /* First what already the values assumed say no to; then what they are; then how much more there is. */
 static fw_status guarantees(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     for (int i = 0; i < in->nflow; i++) {
@@ -284,7 +297,7 @@ static fw_status ends_early(fw_arena *arena, const fw_verdict *v, fw_report_summ
 
 fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_report_summary *s) {
     const fw_verdict *v = in->verdict;
-    size_t most = 8 + 2 * (size_t)in->nflow;
+    size_t most = 8 + 3 * (size_t)in->nflow;
     for (int i = 0; i < v->nvariant; i++)
         most += (size_t)v->variant[i].nreason;
     const int all = FW_CHECK_HINGES | FW_CHECK_REQUIREMENTS;
@@ -298,6 +311,7 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
     FW_TRY(layout_faults(arena, in->layout, s));
     const bool drawn = !in->layout || in->layout->nfault == 0;
     if (drawn && v->decision != FW_REJECT) FW_TRY(unmade(arena, in, s));
+    FW_TRY(other_dies(arena, in, s));
     const bool rejected =
         v->decision == FW_REJECT; /* what rejects comes before what is not known */
     FW_TRY(reasons_of(arena, v, FW_REJECT, "rejected because", s));

@@ -322,6 +322,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     if (v->drawn != v->decision)
         fw_text_printf(out, " (as drawn: %s)", fw_report_decision_word(v->drawn));
     if (top.unmade) fw_text_printf(out, ", but cannot be made in %s", top.unmade);
+    if (top.dies) fw_text_printf(out, ", but %s", top.dies);
     fw_text_add(out, "\n");
     summary(out, &top);
     if (style.detail >= 0 && top.has_drawn) governing(out, top.drawn.hinge, input);

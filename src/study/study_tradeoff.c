@@ -243,6 +243,7 @@ static fw_status process(const fw_study_problem *p, fw_study_tradeoff *t) {
     if (!pf || !pf->flow || !p->plan->layout || !p->plan->layout->drawn) return FW_OK;
     FW_TRY(
         fw_plan_edge_facts(p->arena, p->plan->device, p->plan->layout, pf, &pf->variant, &facts));
+    FW_TRY(fw_plan_join_swept(p->plan, p->arena, (int)(pf - p->plan->flow), &facts));
     FW_TRY(
         fw_process_flow_fabricated(p->arena, pf->flow, &facts, &pf->variant, &v.input, &v.ninput));
     fw_study_tradeoff_point nominal = {0};

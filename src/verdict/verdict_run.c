@@ -3,6 +3,7 @@
    decide, and then as the flows make it. */
 #include "base/constants.h"
 #include "statics/statics.h"
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>

@@ -204,6 +204,10 @@ fw_status fw_wafer_write_written_order(const fw_wafer *wafer, const fw_wafer_wri
 fw_status fw_wafer_write_written_order_json(const fw_wafer *wafer, const fw_wafer_written *written,
                                             const fw_output_file *file, int nfile, fw_text *out);
 
+/* What is ordered against the plate's reading (FW-D688), what the verdict bears (FW-D689) and what a shop promises
+   (FW-D697). Test: test_wafer_written.c */
+fw_status fw_wafer_check_orders(fw_arena *arena, const fw_wafer *wafer, fw_diags *diags);
+
 /* of one plate of the flow, for the mask shop, with the files that go with it */
 fw_status fw_wafer_write_order(const fw_wafer *wafer, int plate, const fw_output_file *file,
                                int nfile, fw_text *out);

@@ -245,7 +245,7 @@ static fw_status plate(fw_json *json, const fw_wafer *w, const fw_wafer_sum *s) 
 
 static void variant(fw_json *json, const fw_wafer *w, int v) {
     const fw_device_wafer_asked *asked = &w->device->wafer;
-    const fw_wafer_variant *u = &w->variant[v];
+    const fw_wafer_variant *u = &w->variant[v], *stands = fw_wafer_stood_in(u) ? &w->stand_in : u;
     fw_json_line(json, 4);
     fw_json_object(json, NULL);
     fw_json_whole(json, "variant", v + 1);
@@ -259,8 +259,8 @@ static void variant(fw_json *json, const fw_wafer *w, int v) {
     }
     fw_json_end(json);
     fw_json_whole(json, "dies", u->dies);
-    fw_json_text(json, "verdict", u->decision);
-    fw_json_number(json, "utilisation", u->utilisation, 12);
+    fw_json_text(json, "verdict", stands->decision);
+    fw_json_number(json, "utilisation", stands->utilisation, 12);
     fw_json_truth(json, "nominal_instead", fw_wafer_stood_in(u));
     fw_json_text(json, "why", u->why);
     fw_json_end(json);

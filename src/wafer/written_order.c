@@ -32,6 +32,7 @@ typedef struct sheet {
     double width_m, space_m; /* least ones of the written polygons; INFINITY: none below 100 um */
     bool unfinished;         /* the search for them ended before its end */
     said thickness, cd, registration, defect;
+    said bearable; /* CD tolerance with which the verdict stays what it is, whatever is stated */
     fw_wafer_beside beside;
     measured *site;
     int nsite, room;
@@ -77,29 +78,37 @@ static bool of_device(const sheet *s) {
 
 /* Half of the way by which lines of the device's plate may be off before something that the verdict accepts is not: a
    hinge, a requirement, a distance. That is first order, so no more than the verdict's corners went themselves; and a
-   tenth of the least feature. Of another plate, which no hinge asks: a third of its overlay. In: effect, m. Out: m,
-   downwards to 10 nm. */
-static said cd_of(const sheet *s, double least_m) {
+   tenth of the least feature. Of another plate, which no hinge asks: a third of its overlay. All of that is of the wafer,
+   on which a plate of scale k is k times smaller. In: effect, m; least_m of the plate. Out: m on the plate, downwards to
+   10 nm. */
+static said bearable_cd(const sheet *s, double least_m) {
     const fw_wafer_width_effect *e = &s->wafer->effect;
+    const double scale = s->written->asked->scale;
     said best = {0.1 * least_m, s->unfinished
                                     ? "a tenth of the least feature or space that was found"
                                     : "a tenth of the least feature or space"};
-    if (!isnan(s->written->asked->cd_m)) return (said){s->written->asked->cd_m, "stated"};
     if (!of_device(s)) {
-        const double third = closest_overlay(s) / 3;
+        const double third = scale * closest_overlay(s) / 3;
         if (third < best.m) best = (said){third, "a third of the closest overlay"};
     } else {
-        if (0.5 * e->left_m < best.m)
-            best = (said){0.5 * e->left_m, "half of what the verdict has left"};
-        if (e->looked_m < best.m)
-            best = (said){e->looked_m, "as far again as the verdict's corners have moved lines"};
+        if (0.5 * scale * e->left_m < best.m)
+            best = (said){0.5 * scale * e->left_m, "half of what the verdict has left"};
+        if (scale * e->looked_m < best.m)
+            best = (said){scale * e->looked_m,
+                          "as far again as the verdict's corners have moved lines"};
     }
     best.m = downwards(best.m, 10e-9);
     return best;
 }
 
+static said cd_of(const sheet *s) {
+    const double stated = s->written->asked->cd_m;
+    return isnan(stated) ? s->bearable : (said){stated, "stated"};
+}
+
 static said registration_of(const sheet *s) {
-    double stated = s->written->asked->registration_m, overlay = closest_overlay(s);
+    double stated = s->written->asked->registration_m,
+           overlay = s->written->asked->scale * closest_overlay(s);
     if (!isnan(stated)) return (said){stated, "stated"};
     if (!isnan(overlay)) return (said){overlay / 3, "a third of the closest overlay of the flow"};
     return (said){(double)NAN, "not asked for: the flow aligns no mask to another"};
@@ -186,7 +195,8 @@ static fw_status gather(fw_arena *arena, const fw_wafer *w, const fw_wafer_writt
     double least = fmin(width, space) * asked->scale;
     if (!isfinite(least)) least = FW_MASK_LOOK_M;
     s->thickness = thickness_of(s);
-    s->cd = cd_of(s, least);
+    s->bearable = bearable_cd(s, least);
+    s->cd = cd_of(s);
     s->registration = registration_of(s);
     const char *third = s->unfinished ? "a third of the least feature or space that was found"
                                       : "a third of the least feature or space";
@@ -310,6 +320,32 @@ static void content(const sheet *s, fw_text *out) {
     fw_mask_order_line(out, "scale", text);
 }
 
+/* are the data already what the reading asks for, seen with the chrome up? -1: the reading does not say */
+static int as_read(const sheet *s) {
+    return s->order.mirror < 0 ? -1 : s->written->mirrored == (s->order.mirror == 1);
+}
+
+static const char *mirror_words(const sheet *s) {
+    switch (as_read(s)) {
+    case 1:
+        return s->written->mirrored
+                   ? "done: the data are the mirror image of the drawing; write them as they are"
+                   : "none: the data are as drawn; write them as they are";
+    case 0:
+        return s->written->mirrored
+                   ? "to be undone: the data are the mirror image of the drawing; mirror them when "
+                     "writing (x becomes -x), so that the plate reads as said above"
+                   : "to be done: the data are as drawn; mirror them when writing (x becomes -x), "
+                     "so "
+                     "that the plate reads as said above";
+    }
+    return s->written->mirrored
+               ? "the data are the mirror image of the drawing; the reading does not "
+                 "say what is wanted: ask before writing"
+               : "the data are as drawn; the reading does not say what is wanted: "
+                 "ask before writing";
+}
+
 static void reading(const sheet *s, fw_text *out) {
     char text[200], edge[32];
     const fw_device_order_asked *o = s->written->asked;
@@ -325,11 +361,7 @@ static void reading(const sheet *s, fw_text *out) {
         fw_mask_order_line(out, "inverted", text);
     }
     fw_mask_order_line(out, "reading", s->row.reading);
-    fw_mask_order_line(
-        out, "mirror",
-        s->written->mirrored
-            ? "done: the data are the mirror image of the drawing; write them as they are"
-            : "none: the data are as drawn; write them as they are");
+    fw_mask_order_line(out, "mirror", mirror_words(s));
 }
 
 static void sites(const sheet *s, fw_text *out) {
@@ -369,13 +401,65 @@ fw_status fw_wafer_write_written_order(const fw_wafer *w, const fw_wafer_written
     reading(&s, out);
     beside(&s, out);
     glass(&s, out);
-    fw_mask_order_size_lines(out, s.width_m, s.space_m, s.unfinished, s.any, written->of);
+    fw_mask_order_scaled_lines(out, s.width_m, s.space_m, s.unfinished, s.any, written->of,
+                               written->asked->scale);
     tolerances(&s, out);
     sites(&s, out);
     fw_text_add(out, "\nfiles: sha256, bytes, name\n");
     for (int i = 0; i < nfile; i++)
         fw_text_printf(out, "%s  %zu  %s\n", file[i].sha256, file[i].size, file[i].name);
     return fw_text_end(out);
+}
+
+/* ---- what the order asks for, against what the verdict and a shop bear ---- */
+
+/* lines within less than this, of either kind, no shop promises: laser writers hold 0.1 to 0.3 um, electron beams a few
+   hundredths on the best plates (assumed) */
+static const double FINEST_CD_M = 30e-9;
+
+static void check_cd(const sheet *s, fw_place place, const char *plate, fw_diags *diags) {
+    char is[32], bears[32], finest[32];
+    fw_number_text(is, sizeof is, s->cd.m * 1e6, 4);
+    fw_number_text(bears, sizeof bears, s->bearable.m * 1e6, 4);
+    fw_number_text(finest, sizeof finest, FINEST_CD_M * 1e6, 4);
+    if (s->cd.m > s->bearable.m * (1 + 1e-9) && s->wafer->effect.left_m >= 0)
+        fw_diag_warning(diags, 689, place,
+                        "%s: a CD tolerance of %s um is stated, and +-%s um is %s%s%s: lines that "
+                        "are off by what is stated may change the verdict",
+                        plate, is, bears, s->bearable.from, of_device(s) ? ", decided by " : "",
+                        of_device(s) ? s->wafer->effect.says : "");
+    if (s->cd.m < FINEST_CD_M)
+        fw_diag_warning(
+            diags, 697, place,
+            "%s: a CD tolerance of +-%s um is asked for (%s%s%s), and finer than %s um "
+            "no shop promises one: give the device more room there, or order the plate at "
+            "a larger scale",
+            plate, is, s->cd.from, of_device(s) ? ", decided by " : "",
+            of_device(s) ? s->wafer->effect.says : "", finest);
+}
+
+fw_status fw_wafer_check_orders(fw_arena *arena, const fw_wafer *w, fw_diags *diags) {
+    for (int p = 0; p < fw_mask_plates(w->table); p++) {
+        const fw_mask_plate_row row = fw_mask_plate_at(w->table, p);
+        const fw_device_order_asked *asked = fw_device_order_of(&w->device->wafer, row.id);
+        fw_wafer_written written = {.of = p, .asked = asked};
+        sheet s;
+        const fw_place place = asked->place.file ? asked->place : w->device->wafer.place;
+        const char *plate = fw_arena_printf(arena, "<order>: plate%s%s of flow %s",
+                                            row.id ? " " : "", row.id ? row.id : "", w->flow);
+        FW_NEED(plate);
+        FW_TRY(gather(arena, w, &written, &s));
+        written.mirrored =
+            asked->mirror == FW_MIRROR_READ ? s.order.mirror == 1 : asked->mirror == FW_MIRROR_YES;
+        if (as_read(&s) == 0)
+            fw_diag_warning(diags, 688, place,
+                            "%s: mirror=\"%s\" leaves data that are not what its reading (%s) asks "
+                            "for: its sheet asks the shop to mirror them when it writes; leave "
+                            "mirror out, and they are written as they are",
+                            plate, asked->mirror == FW_MIRROR_YES ? "yes" : "no", row.reading);
+        if (!w->rejected) check_cd(&s, place, plate, diags);
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
 }
 
 /* ---- for programs ----
@@ -408,6 +492,10 @@ static void json_data(fw_json *json, const sheet *s) {
                    9);
     json_line(json, "reading", s->row.reading);
     fw_json_truth(json, "mirrored_in_data", written->mirrored);
+    if (as_read(s) < 0)
+        fw_json_null(json, "mirror_when_writing");
+    else
+        fw_json_truth(json, "mirror_when_writing", as_read(s) == 0);
     fw_json_number(json, "scale_in_data", written->asked->scale, 12);
     fw_json_line(json, 2);
     fw_json_number(json, "polygons", sums->polygons, 15);
@@ -424,7 +512,8 @@ static void json_data(fw_json *json, const sheet *s) {
     fw_json_number(json, "min_feature_um", s->width_m * 1e6, 9);
     fw_json_number(json, "min_space_um", s->space_m * 1e6, 9);
     if (s->unfinished) fw_json_truth(json, "unfinished", true);
-    fw_json_number(json, "bias_um_per_edge", fw_mask_plate_bias_m(s->any, written->of) * 1e6, 9);
+    fw_json_number(json, "bias_um_per_edge",
+                   written->asked->scale * fw_mask_plate_bias_m(s->any, written->of) * 1e6, 9);
     fw_json_truth(json, "bias_in_data", true);
     fw_json_whole(json, "mask_cd_bias_um", 0);
     fw_json_whole(json, "grid_nm", 1);

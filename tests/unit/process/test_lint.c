@@ -636,6 +636,7 @@ static void uncertainties_make_sense(void **state) {
               {"litho.edge", "value=\"0\" u=\"0.1\" unit=\"um\"", 0},
               {"al.overetch", "value=\"0.1\" u=\"0\" unit=\"1\"", 0},
               {"pan.T", "value=\"22\" u=\"0\" unit=\"Cel\"", 531},
+              {"rie.price", "value=\"60\" u=\"0\" unit=\"EUR/h\"", 0}, /* an offer is exact */
               {"pan.serves", "value=\"1\" u=\"0\" unit=\"1\"", 0}};
     for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
         diags = fw_diags_new(arena);

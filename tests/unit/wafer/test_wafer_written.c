@@ -221,9 +221,103 @@ static void unfinished(void **state) {
     }
 }
 
+static const fw_diag *said(const plate *p, int number) {
+    for (size_t i = 0; i < p->diags.count; i++)
+        if (p->diags.item[i].number == number) return &p->diags.item[i];
+    return NULL;
+}
+
+/* data that are not what the reading asks for are to be mirrored by whoever writes them, and the sheet says so */
+static void mirror_against_reading(void **state) {
+    (void)state;
+    static const char *const reading[] = {"right-reading chrome down", "wrong-reading chrome down", "as you like"};
+    for (int r = 0; r < 3; r++)
+        for (int mirror = 0; mirror < 2; mirror++) {
+            plate *p = plate_new(240);
+            p->table.reading = reading[r];
+            p->device.wafer.order.mirror = mirror ? FW_MIRROR_YES : FW_MIRROR_NO;
+            const fw_wafer *w = plate_build(p);
+            fw_wafer_written own = written(p, w, 0);
+            fw_text out = fw_text_new(p->arena), json = fw_text_new(p->arena);
+            assert_int_equal(fw_wafer_check_orders(p->arena, w, &p->diags), FW_OK);
+            assert_int_equal(fw_wafer_write_written_order(w, &own, NULL, 0, &out), FW_OK);
+            assert_int_equal(fw_wafer_write_written_order_json(w, &own, NULL, 0, &json), FW_OK);
+            const bool wanted = r == 0, as_read = mirror == wanted;
+            assert_int_equal(said(p, 688) != NULL, r < 2 && !as_read);
+            assert_int_equal(strstr(out.data, "; write them as they are") != NULL, r < 2 && as_read);
+            assert_int_equal(strstr(out.data, "mirror them when writing") != NULL, r < 2 && !as_read);
+            assert_int_equal(strstr(out.data, "ask before writing") != NULL, r == 2);
+            assert_non_null(strstr(json.data, r == 2       ? "\"mirror_when_writing\": null"
+                                              : as_read ? "\"mirror_when_writing\": false"
+                                                        : "\"mirror_when_writing\": true"));
+            fw_arena_free(p->arena);
+        }
+}
+
+static double after(const fw_text *text, const char *key) {
+    const char *at = strstr(text->data, key);
+    assert_non_null(at);
+    return atof(at + strlen(key));
+}
+
+/* what holds on the wafer is as much larger on a plate of that scale: bias, arcs, tolerances */
+static void scale_of_sheet(void **state) {
+    (void)state;
+    fw_text out[2];
+    double bias_um[2], cd_um[2], registration_um[2];
+    plate *p[2];
+    for (int i = 0; i < 2; i++) {
+        p[i] = plate_new(240);
+        p[i]->device.wafer.order.mirror = FW_MIRROR_NO;
+        p[i]->input.effect = (fw_wafer_width_effect){.says = "hinge A", .left_m = 0.2e-6, .looked_m = 1e-6};
+        p[i]->input.overlay_m = 3e-6;
+        p[i]->input.mask.bias_m = 0.5e-6;
+        const fw_wafer *w;
+        assert_int_equal(build_with(p[i], i ? 5 : 1, (double)NAN, true, &w), FW_OK);
+        fw_wafer_written own = written(p[i], w, 0);
+        fw_text json = fw_text_new(p[i]->arena);
+        out[i] = fw_text_new(p[i]->arena);
+        ((fw_mask *)(uintptr_t)w->cell[0].mask)->bias_m = 0.5e-6;
+        assert_int_equal(fw_wafer_write_written_order(w, &own, NULL, 0, &out[i]), FW_OK);
+        assert_int_equal(fw_wafer_write_written_order_json(w, &own, NULL, 0, &json), FW_OK);
+        bias_um[i] = after(&json, "\"bias_um_per_edge\": ");
+        cd_um[i] = after(&json, "\"cd_tolerance_um\": ");
+        registration_um[i] = after(&json, "\"registration_um\": ");
+        assert_non_null(strstr(out[i].data, i ? "arcs within 25 nm" : "arcs within 5 nm"));
+        assert_non_null(strstr(out[i].data, i ? "2.5 um per edge" : "0.5 um per edge"));
+    }
+    assert_relative(bias_um[1], 5 * bias_um[0], 1e-9);
+    assert_relative(cd_um[0], 0.1, 1e-9);
+    assert_relative(cd_um[1], 0.5, 1e-9);
+    assert_relative(registration_um[0], 1, 1e-9);
+    assert_relative(registration_um[1], 5, 1e-9);
+    fw_arena_free(p[0]->arena);
+    fw_arena_free(p[1]->arena);
+}
+
+/* a tolerance that is stated is held against what the verdict bears, and what is asked for against what shops promise */
+static void held_against(void **state) {
+    (void)state;
+    const double stated[] = {(double)NAN, 0.25e-6, 0.05e-6}, left[] = {0.2e-6, 0.006e-6};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 2; k++) {
+            plate *p = plate_new(240);
+            p->device.wafer.order.cd_m = stated[i];
+            p->input.effect = (fw_wafer_width_effect){.says = "hinge A", .left_m = left[k], .looked_m = 1e-6};
+            const fw_wafer *w = plate_build(p);
+            assert_int_equal(fw_wafer_check_orders(p->arena, w, &p->diags), FW_OK);
+            assert_int_equal(said(p, 689) != NULL, stated[i] > 0.5 * left[k]);
+            assert_int_equal(said(p, 697) != NULL, isnan(stated[i]) && k == 1);
+            if (said(p, 689)) assert_non_null(strstr(said(p, 689)->message, "hinge A"));
+            fw_arena_free(p->arena);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(inverted), cmocka_unit_test(scaled),
                                        cmocka_unit_test(scale_and_size), cmocka_unit_test(several),
-                                       cmocka_unit_test(lettering), cmocka_unit_test(unfinished)};
+                                       cmocka_unit_test(lettering), cmocka_unit_test(unfinished),
+                                       cmocka_unit_test(mirror_against_reading),
+                                       cmocka_unit_test(scale_of_sheet), cmocka_unit_test(held_against)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
