@@ -370,8 +370,8 @@ typedef struct fw_process_flow {
     fw_process_material *process_material; /* (nprocess_material) */
     fw_process_corner *corner;             /* (ncorner) */
     fw_process_finished *finished;         /* (nfinished) */
-    const char **open_point; /* (nopen_point) what the source leaves open and cannot be computed */
-    const char **open_until; /* (nopen_point) ids of the quantities that close it, all of them; NULL: none do */
+    /* (nopen_point) what the source leaves open; ids of the quantities that close it, NULL: none do */
+    const char **open_point, **open_until;
     fw_process_consumable *consumable;   /* (nconsumable) */
     fw_process_bath *bath;               /* (nbath) */
     fw_process_alternative *alternative; /* (nalternative) */
@@ -483,9 +483,8 @@ fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, co
                                       const char *lacks, fw_diags *diags, fw_process_flow **flow);
 /* the step with this id that the device does not need; NULL: there is none */
 const fw_process_left_out *fw_process_flow_left_out(const fw_process_flow *flow, const char *id);
-/* computes every step's time, the bias and the judgement from the mask's own numbers. May be called
-   again with other facts. facts NULL or without any area: no mask yet, what needs it is NOT
-   COMPUTABLE. */
+/* computes every step's time, the bias and the judgement from the mask's own numbers. May be called again with other facts.
+   facts NULL or without any area: no mask yet, what needs it is NOT COMPUTABLE. */
 fw_status fw_process_flow_compute(fw_arena *arena, fw_process_flow *flow,
                                   const fw_process_mask_facts *facts, fw_diags *diags);
 /* after fw_process_flow_compute: adds to the judgement whether rotor and stator of the drives (n)
