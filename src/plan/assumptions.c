@@ -8,6 +8,11 @@
 #include <stdio.h>
 #include <string.h>
 
+const fw_device_material *fw_plan_material(const fw_plan *plan, const fw_plan_flow *pf,
+                                           const char *id) {
+    return fw_device_material_find(pf->materials.count > 0 ? &pf->materials : &plan->materials, id);
+}
+
 __attribute__((format(printf, 2, 3))) static fw_status assume(fw_plan *plan, const char *format,
                                                               ...) {
     if (plan->nassumption == plan->assumption_capacity) {

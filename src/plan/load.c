@@ -300,11 +300,6 @@ fw_status fw_plan_need_material(fw_plan *plan) {
                          material_names(plan, NULL));
 }
 
-const fw_device_material *fw_plan_material(const fw_plan *plan, const fw_plan_flow *pf,
-                                           const char *id) {
-    return fw_device_material_find(pf->materials.count > 0 ? &pf->materials : &plan->materials, id);
-}
-
 /* the description's own material, as the flow has it: what explicit masses and stiffnesses refer to */
 static fw_status own_material(fw_plan *plan, const fw_plan_flow *pf, fw_device_material *material) {
     const fw_device *d = plan->device;

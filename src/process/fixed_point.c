@@ -31,12 +31,6 @@ static double depth_of(const fw_process_flow *flow, const fw_process_change *c,
     return own && thickness_m > 0.0 ? thickness_m : known(c->thickness);
 }
 
-/* A time that rests on a guess is nobody's plan: such a lag is shown, and judged, beside the time
-   of wide openings, until it is measured. */
-bool fw_process_lag_is_guess(const fw_quantity *lag) {
-    return lag && !lag->unknown && lag->status == FW_ASSUMED;
-}
-
 static bool lags(const char *name) {
     const fw_process_law *law = fw_process_law_find(name);
     return law && law->lags;

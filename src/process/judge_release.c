@@ -64,14 +64,6 @@ static bool is_solved(const fw_process_change *c) {
     return c->reach && c->reach->status == FW_DERIVED;
 }
 
-bool fw_process_release_solves(const fw_process_flow *flow, const fw_quantity *q) {
-    for (int i = 0; i < flow->nstep; i++)
-        for (int k = 0; k < flow->step[i].nchange; k++)
-            if (q && is_solved(&flow->step[i].change[k]) && flow->step[i].change[k].reach == q)
-                return true;
-    return false;
-}
-
 double fw_process_release_run(const fw_process_flow *flow, const fw_process_step *step,
                               double reach_m) {
     return reach_m * (1.0 + step->overrun) * flow->release_wide;

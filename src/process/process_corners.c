@@ -211,198 +211,6 @@ fw_status fw_process_corners_follow(fw_arena *arena, fw_process_flow *flow) {
     return FW_OK;
 }
 
-/* ---- what the device itself loses ---- */
-
-typedef struct lost { /* in one step */
-    double loss_m, u_m;
-    const char *missing;
-    bool never;
-} lost;
-
-/* does the mask give it, or a step on the way? Whether or not that was done by now */
-static bool comes_later(const fw_process_flow *flow, const fw_quantity *q) {
-    for (int i = 0; i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        if (s->planned == q) return true;
-        for (int k = 0; k < s->nderive; k++)
-            if (s->derive[k].q == q) return true;
-    }
-    return q->id && fw_process_quantity_computed(q);
-}
-
-/* the step's arguments with the reach of a release in the place of what the pack leaves to the mask; *l says what is not
-   known of them */
-static void arguments_with(const fw_process_flow *flow, const fw_process_step *s,
-                           const fw_quantity *reach, fw_process_argument *list, lost *l) {
-    for (int i = 0; i < s->nargument; i++) {
-        const fw_quantity *q = s->argument[i].q;
-        const bool solved = fw_process_release_solves(flow, q),
-                   later = !solved && comes_later(flow, q);
-        list[i] = s->argument[i];
-        if (solved) list[i].q = reach;
-        if (!later && !(solved && reach->unknown)) continue;
-        l->missing = q->id;
-        l->never = l->never || later;
-    }
-}
-
-static const fw_quantity *of_name(const fw_process_step *s, const fw_process_argument *list,
-                                  const char *name) {
-    for (int i = 0; i < s->nargument; i++)
-        if (strcmp(list[i].name, name) == 0) return list[i].q;
-    return NULL;
-}
-
-static const char *first_unknown(const fw_process_step *s, const fw_process_argument *list) {
-    for (int i = 0; i < s->nargument; i++)
-        if (list[i].q->unknown && list[i].q->id) return list[i].q->id;
-    return "an input of its time";
-}
-
-/* l = r T (1 + overrun), T by the step's own law; where r is the R of the law `rate` it cancels in l, and need not be known.
-   u of fw_process_lost_uncertainty. */
-static fw_status by_rate(fw_arena *arena, const fw_process_step *s, const fw_quantity *r,
-                         const fw_process_argument *list, lost *l) {
-    const fw_process_law *law = fw_process_law_find(s->law);
-    const fw_quantity *d = of_name(s, list, "thickness"), *R = of_name(s, list, "rate");
-    fw_process_argument wide[FW_LAW_ARGUMENTS];
-    fw_quantity none;
-    fw_process_law_answer T;
-    const double u_rate = r->unknown || r->value == 0.0 ? 0.0 : r->uncertainty / fabs(r->value);
-    if (law->by_rate && R == r && !d->unknown) {
-        const double of_d = d->value != 0.0 ? d->uncertainty / fabs(d->value) : 0.0;
-        l->loss_m = d->value * (1.0 + s->overrun);
-        l->u_m = fw_process_lost_uncertainty(true, u_rate, hypot(of_d, u_rate)) * l->loss_m;
-        return FW_OK;
-    }
-    fw_process_law_use use = fw_process_law_of_step(s, list);
-    use.argument = fw_process_law_wide(&use, wide, &none, true);
-    FW_TRY(fw_process_law_evaluate(arena, &use, &T));
-    if (!T.computable)
-        l->missing = first_unknown(s, list);
-    else if (r->unknown)
-        l->missing = r->id;
-    if (l->missing) return FW_OK;
-    l->loss_m = r->value * T.value * (1.0 + s->overrun);
-    l->u_m =
-        fw_process_lost_uncertainty(R == r, u_rate, T.value > 0.0 ? T.uncertainty / T.value : 0.0) *
-        l->loss_m;
-    return FW_OK;
-}
-
-/* l = d (T/T_wide) (1 + overrun)/S: fw_process_exposed_loss */
-static fw_status by_selectivity(fw_arena *arena, const fw_process_step *s, const fw_quantity *S,
-                                const fw_quantity *reach, const fw_process_argument *list,
-                                lost *l) {
-    fw_process_argument wide[FW_LAW_ARGUMENTS];
-    fw_quantity none;
-    fw_process_law_answer own, open;
-    fw_process_law_use use = fw_process_law_of_step(s, list);
-    const double deep = fw_process_step_depth(s, reach->unknown ? (double)NAN : reach->value);
-    use.argument = fw_process_law_wide(&use, wide, &none, true);
-    FW_TRY(fw_process_law_evaluate(arena, &use, &own));
-    use.argument = list;
-    use.argument = fw_process_law_wide(&use, wide, &none, false);
-    FW_TRY(fw_process_law_evaluate(arena, &use, &open));
-    if (S->unknown)
-        l->missing = S->id;
-    else if (isnan(deep))
-        l->missing = "how much the step takes off";
-    else if (use.law->lags && !(own.computable && open.computable && open.value > 0.0))
-        l->missing = first_unknown(s, list);
-    if (l->missing) return FW_OK;
-    const double slowed = use.law->lags ? own.value / open.value : 1.0;
-    l->loss_m = deep * slowed * (1.0 + s->overrun) / S->value;
-    l->u_m = l->loss_m * S->uncertainty / S->value;
-    return FW_OK;
-}
-
-static fw_status lost_in(fw_arena *arena, const fw_process_flow *flow, const fw_process_step *s,
-                         const fw_process_exposed *x, const fw_quantity *reach, lost *l) {
-    fw_process_argument list[FW_LAW_ARGUMENTS];
-    *l = (lost){0};
-    if (!fw_process_law_find(s->law) || s->nargument > FW_LAW_ARGUMENTS) {
-        l->missing = "the time of its law";
-        return FW_OK;
-    }
-    arguments_with(flow, s, reach, list, l);
-    if (l->missing) return FW_OK;
-    return x->rate ? by_rate(arena, s, x->rate, list, l)
-                   : by_selectivity(arena, s, x->selectivity, reach, list, l);
-}
-
-/* losses of all steps, a release of which runs so far */
-static fw_status wear_with(fw_arena *arena, const fw_process_flow *flow, const fw_quantity *reach,
-                           fw_process_wear *w) {
-    bool released = false;
-    *w = (fw_process_wear){0};
-    for (int i = 0; flow->material && i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        for (int k = 0; k < s->nchange; k++)
-            released = released || s->change[k].reach;
-        for (int k = 0; k < s->nexposed && fw_process_step_is_wet(s); k++) {
-            const fw_process_exposed *x = &s->exposed[k];
-            lost l;
-            if (strcmp(x->material, flow->material) != 0) continue;
-            if (!w->step) w->step = s, w->exposed = x;
-            FW_TRY(lost_in(arena, flow, s, x, reach, &l));
-            if (l.missing && !w->missing) w->missing = l.missing, w->never = l.never;
-            w->loss_m += l.loss_m;
-            w->after_m += released ? l.loss_m : 0.0;
-            w->uncertainty_m = hypot(w->uncertainty_m, l.u_m);
-        }
-    }
-    return FW_OK;
-}
-
-/* Sum over the steps that say <exposed> of the device's own material, losses added, uncertainties in quadrature. Walls stand
-   by what they lose from the release on further out when it begins, a, so that its reach is way + a, and a grows with it:
-     a = f(way + a),   by Aitken's extrapolation, exact at once where f is linear, as for the law `rate`;
-   f' >= 1: the bath takes the device as fast as it frees it, and no reach is enough. Error: 1e-12 relative. Cost: some three
-   evaluations of each law. Source: docs/theory/process.md, "What a step takes along". Test: test_wear.c. */
-fw_status fw_process_flow_wear(fw_arena *arena, const fw_process_flow *flow, double way_m,
-                               fw_process_wear *wear) {
-    enum { MOST = 30 };
-    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
-    fw_quantity reach = {.unknown = isnan(way_m),
-                         .value = way_m,
-                         .uncertainty = edge && !edge->unknown ? edge->uncertainty : 0.0,
-                         .dimension = FW_DIM_LENGTH,
-                         .unit = "um",
-                         .status = FW_DERIVED};
-    double a = 0.0;
-    for (int i = 0; i < MOST; i++) {
-        reach.value = fmax(way_m + a, 0.0);
-        FW_TRY(wear_with(arena, flow, &reach, wear));
-        const double once = wear->after_m;
-        if (reach.unknown || fabs(once - a) <= 1e-12 * fabs(way_m)) return FW_OK;
-        reach.value = fmax(way_m + once, 0.0);
-        FW_TRY(wear_with(arena, flow, &reach, wear));
-        const double first = once - a, second = wear->after_m - once;
-        if (fabs(second) >= fabs(first)) break;
-        a += first * first / (first - second);
-    }
-    wear->loss_m = wear->after_m = wear->uncertainty_m = 0.0;
-    wear->missing = "a reach that is enough: the device is taken as fast as it is freed";
-    wear->never = true;
-    return FW_OK;
-}
-
-bool fw_process_flow_wears_by_reach(const fw_process_flow *flow) {
-    for (int i = 0; flow->material && i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        bool takes = false, reaches = false;
-        for (int k = 0; k < s->nexposed; k++)
-            takes = takes || strcmp(s->exposed[k].material, flow->material) == 0;
-        for (int k = 0; k < s->nargument; k++)
-            reaches = reaches || fw_process_release_solves(flow, s->argument[k].q);
-        for (int k = 0; k < s->nchange; k++)
-            reaches = reaches || fw_process_release_solves(flow, s->change[k].reach);
-        if (takes && reaches && fw_process_step_is_wet(s)) return true;
-    }
-    return false;
-}
-
 /* ---- inputs of the verdict ---- */
 
 static void set_range(fw_verdict_fabrication_input *in, const fw_quantity *q) {
@@ -525,4 +333,141 @@ fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flo
         *ninput += wear_input(&edges->wear, variant, &list[*ninput]);
     *input = list;
     return fw_process_corners_independent(arena, list, *ninput);
+}
+
+/* ---- do corners move what is made? ----
+   A corner is what the verdict looks at the ends of. One that names what the device is not made by is dropped there, and
+   what is uncertain and has none is taken for exact: both accept what is not known. Test: test_corners.c. */
+
+static bool is_uncertain(const fw_quantity *q) {
+    return q->unknown || q->uncertainty > 0.0;
+}
+
+/* the change by whose anisotropy q the device is cut, or what masks it; any where q is NULL */
+static const fw_process_change *cut_by(const fw_process_flow *f, const fw_quantity *q,
+                                       const fw_process_step **by) {
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++) {
+            const fw_process_change *c = &f->step[i].change[k];
+            if (!c->anisotropy || (q && c->anisotropy != q) ||
+                !fw_process_where_is_of_device(f, c->where))
+                continue;
+            *by = &f->step[i];
+            return c;
+        }
+    return NULL;
+}
+
+/* the step that sets q, is timed with it, or makes a layer so thick */
+static const fw_process_step *taken_by(const fw_process_flow *f, const fw_quantity *q) {
+    for (int i = 0; i < f->nstep; i++) {
+        const fw_process_step *s = &f->step[i];
+        bool takes = fw_process_step_sets(s, q);
+        for (int k = 0; k < s->nargument; k++)
+            takes = takes || s->argument[k].q == q;
+        for (int k = 0; k < s->nchange; k++)
+            takes = takes || s->change[k].thickness == q;
+        if (takes) return s;
+    }
+    return NULL;
+}
+
+/* the step that makes another layer than the device's so thick; NULL: none does */
+static const fw_process_step *of_another(const fw_process_flow *f, const fw_quantity *q) {
+    for (int i = 0; i < f->nstep && q != f->thickness; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            if (f->step[i].change[k].thickness == q && f->material &&
+                strcmp(f->step[i].change[k].material, f->material) != 0)
+                return &f->step[i];
+    return NULL;
+}
+
+static void lint_corner(fw_process_pack *pack, const fw_process_corner *c) {
+    const fw_process_flow *f = pack->flow;
+    const fw_process_step *s = NULL;
+    const fw_process_change *cut;
+    switch (c->of) {
+    case FW_CORNER_ANISOTROPY:
+        if (!c->q || cut_by(f, c->q, &s)) return;
+        cut = cut_by(f, NULL, &s);
+        fw_diag_error(pack->diags, 664, c->place,
+                      "the corner '%s' names '%s', by which no step cuts the device: it moves "
+                      "nothing%s%s%s%s%s",
+                      c->name, c->q->id, cut ? "; step " : "; leave it out", cut ? s->id : "",
+                      cut ? " cuts it with '" : "", cut ? cut->anisotropy->id : "", cut ? "'" : "");
+        return;
+    case FW_CORNER_THICKNESS:
+        if (c->q && (s = of_another(f, c->q)))
+            fw_diag_error(pack->diags, 664, c->place,
+                          "the corner '%s' names '%s', which is the thickness of another layer "
+                          "(step %s): it says nothing of the device's, '%s'",
+                          c->name, c->q->id, s->id, f->thickness ? f->thickness->id : "");
+        return;
+    case FW_CORNER_EDGE:
+    case FW_CORNER_LOCAL:
+    case FW_CORNER_TAPER:
+        if (c->q && (s = taken_by(f, c->q)))
+            fw_diag_error(pack->diags, 664, c->place,
+                          "the corner '%s' names '%s', with which step %s works: it is not where "
+                          "an edge or a wall comes out; name what is measured of that, as '%s'",
+                          c->name, c->q->id, s->id, FW_PROCESS_PRINTED_EDGE);
+        return;
+    case FW_CORNER_YOUNGS:
+        return;
+    }
+}
+
+static bool has_corner(const fw_process_flow *f, const fw_quantity *q) {
+    for (int i = 0; i < f->ncorner; i++)
+        if (f->corner[i].q == q || f->corner[i].assumed == q || f->corner[i].within == q)
+            return true;
+    return false;
+}
+
+static bool has_corner_of(const fw_process_flow *f, fw_process_corner_of of, bool etched) {
+    for (int i = 0; i < f->ncorner; i++)
+        if (f->corner[i].of == of && (!etched || f->corner[i].etched)) return true;
+    return false;
+}
+
+static void lint_lacking(fw_process_pack *pack, const fw_quantity *q, fw_place place,
+                         const char *moves, const char *corner) {
+    fw_diag_warning(pack->diags, 665, place,
+                    "'%s' is not known exactly and %s, but no corner has it: the verdict takes it "
+                    "for exact; add <corner of=\"%s\" .../>",
+                    q->id, moves, corner);
+}
+
+/* ... and what of a step moves edges */
+static void lint_moving(fw_process_pack *pack, const fw_process_step *s,
+                        const fw_process_change *c) {
+    const fw_process_flow *f = pack->flow;
+    if (!fw_process_where_is_of_device(f, c->where)) return;
+    if (c->anisotropy && is_uncertain(c->anisotropy) && !has_corner(f, c->anisotropy))
+        lint_lacking(pack, c->anisotropy, c->place, "moves the walls of the device", "anisotropy");
+    const fw_quantity *rate = fw_process_step_argument(s, "rate");
+    if (c->isotropic && rate && is_uncertain(rate) && !has_corner_of(f, FW_CORNER_EDGE, true))
+        lint_lacking(pack, rate, c->place, "moves every edge as far sideways as down",
+                     "edge\" etched=\"yes");
+}
+
+fw_status fw_process_lint_corners(fw_process_pack *pack) {
+    static const char made[] = "made.";
+    const fw_process_flow *f = pack->flow;
+    for (int i = 0; i < f->ncorner; i++)
+        lint_corner(pack, &f->corner[i]);
+    for (int i = 0; i < f->nstep; i++)
+        for (int k = 0; k < f->step[i].nchange; k++)
+            lint_moving(pack, &f->step[i], &f->step[i].change[k]);
+    for (int i = 0; i < f->nquantity; i++) {
+        const fw_quantity *q = f->quantity[i];
+        if (!q->id || !is_uncertain(q) || has_corner(f, q)) continue;
+        if (strcmp(q->id, FW_PROCESS_PRINTED_EDGE) == 0)
+            lint_lacking(pack, q, q->place, "moves every edge that is printed", "edge");
+        else if (strncmp(q->id, made, strlen(made)) == 0)
+            lint_lacking(pack, q, q->place, "says how the device is made", "...");
+        else if (q == f->thickness && !has_corner_of(f, FW_CORNER_THICKNESS, false))
+            lint_lacking(pack, q, q->place, "is the thickness of the device's layer", "thickness");
+    }
+    return FW_OK;
 }

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "process/films.h"
+#include "process/pack.h"
 #include "process/process_law.h"
 #include "base/text.h"
 #include "base/sort.h"
@@ -322,4 +324,209 @@ const fw_process_argument *fw_process_law_wide(const fw_process_law_use *use,
         out = true;
     }
     return out ? list : use->argument;
+}
+
+/* A time that rests on a guess is nobody's plan: such a lag is shown, and judged, beside the time
+   of wide openings, until it is measured. */
+bool fw_process_lag_is_guess(const fw_quantity *lag) {
+    return lag && !lag->unknown && lag->status == FW_ASSUMED;
+}
+
+bool fw_process_release_solves(const fw_process_flow *flow, const fw_quantity *q) {
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++)
+            if (q && flow->step[i].change[k].reach == q && q->status == FW_DERIVED) return true;
+    return false;
+}
+
+/* ---- what the device itself loses ---- */
+
+typedef struct lost { /* in one step */
+    double loss_m, u_m;
+    const char *missing;
+    bool never;
+} lost;
+
+/* does the mask give it, or a step on the way? Whether or not that was done by now */
+static bool comes_later(const fw_process_flow *flow, const fw_quantity *q) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        if (s->planned == q) return true;
+        for (int k = 0; k < s->nderive; k++)
+            if (s->derive[k].q == q) return true;
+    }
+    return q->id && fw_process_quantity_computed(q);
+}
+
+/* the step's arguments with the reach of a release in the place of what the pack leaves to the mask; *l says what is not
+   known of them */
+static void arguments_with(const fw_process_flow *flow, const fw_process_step *s,
+                           const fw_quantity *reach, fw_process_argument *list, lost *l) {
+    for (int i = 0; i < s->nargument; i++) {
+        const fw_quantity *q = s->argument[i].q;
+        const bool solved = fw_process_release_solves(flow, q),
+                   later = !solved && comes_later(flow, q);
+        list[i] = s->argument[i];
+        if (solved) list[i].q = reach;
+        if (!later && !(solved && reach->unknown)) continue;
+        l->missing = q->id;
+        l->never = l->never || later;
+    }
+}
+
+static const fw_quantity *of_name(const fw_process_step *s, const fw_process_argument *list,
+                                  const char *name) {
+    for (int i = 0; i < s->nargument; i++)
+        if (strcmp(list[i].name, name) == 0) return list[i].q;
+    return NULL;
+}
+
+static const char *first_unknown(const fw_process_step *s, const fw_process_argument *list) {
+    for (int i = 0; i < s->nargument; i++)
+        if (list[i].q->unknown && list[i].q->id) return list[i].q->id;
+    return "an input of its time";
+}
+
+/* l = r T (1 + overrun), T by the step's own law; where r is the R of the law `rate` it cancels in l, and need not be known.
+   u of fw_process_lost_uncertainty. */
+static fw_status by_rate(fw_arena *arena, const fw_process_step *s, const fw_quantity *r,
+                         const fw_process_argument *list, lost *l) {
+    const fw_process_law *law = fw_process_law_find(s->law);
+    const fw_quantity *d = of_name(s, list, "thickness"), *R = of_name(s, list, "rate");
+    fw_process_argument wide[FW_LAW_ARGUMENTS];
+    fw_quantity none;
+    fw_process_law_answer T;
+    const double u_rate = r->unknown || r->value == 0.0 ? 0.0 : r->uncertainty / fabs(r->value);
+    if (law->by_rate && R == r && !d->unknown) {
+        const double of_d = d->value != 0.0 ? d->uncertainty / fabs(d->value) : 0.0;
+        l->loss_m = d->value * (1.0 + s->overrun);
+        l->u_m = fw_process_lost_uncertainty(true, u_rate, hypot(of_d, u_rate)) * l->loss_m;
+        return FW_OK;
+    }
+    fw_process_law_use use = fw_process_law_of_step(s, list);
+    use.argument = fw_process_law_wide(&use, wide, &none, true);
+    FW_TRY(fw_process_law_evaluate(arena, &use, &T));
+    if (!T.computable)
+        l->missing = first_unknown(s, list);
+    else if (r->unknown)
+        l->missing = r->id;
+    if (l->missing) return FW_OK;
+    l->loss_m = r->value * T.value * (1.0 + s->overrun);
+    l->u_m =
+        fw_process_lost_uncertainty(R == r, u_rate, T.value > 0.0 ? T.uncertainty / T.value : 0.0) *
+        l->loss_m;
+    return FW_OK;
+}
+
+/* l = d (T/T_wide) (1 + overrun)/S: fw_process_exposed_loss */
+static fw_status by_selectivity(fw_arena *arena, const fw_process_step *s, const fw_quantity *S,
+                                const fw_quantity *reach, const fw_process_argument *list,
+                                lost *l) {
+    fw_process_argument wide[FW_LAW_ARGUMENTS];
+    fw_quantity none;
+    fw_process_law_answer own, open;
+    fw_process_law_use use = fw_process_law_of_step(s, list);
+    const double deep = fw_process_step_depth(s, reach->unknown ? (double)NAN : reach->value);
+    use.argument = fw_process_law_wide(&use, wide, &none, true);
+    FW_TRY(fw_process_law_evaluate(arena, &use, &own));
+    use.argument = list;
+    use.argument = fw_process_law_wide(&use, wide, &none, false);
+    FW_TRY(fw_process_law_evaluate(arena, &use, &open));
+    if (S->unknown)
+        l->missing = S->id;
+    else if (isnan(deep))
+        l->missing = "how much the step takes off";
+    else if (use.law->lags && !(own.computable && open.computable && open.value > 0.0))
+        l->missing = first_unknown(s, list);
+    if (l->missing) return FW_OK;
+    const double slowed = use.law->lags ? own.value / open.value : 1.0;
+    l->loss_m = deep * slowed * (1.0 + s->overrun) / S->value;
+    l->u_m = l->loss_m * S->uncertainty / S->value;
+    return FW_OK;
+}
+
+static fw_status lost_in(fw_arena *arena, const fw_process_flow *flow, const fw_process_step *s,
+                         const fw_process_exposed *x, const fw_quantity *reach, lost *l) {
+    fw_process_argument list[FW_LAW_ARGUMENTS];
+    *l = (lost){0};
+    if (!fw_process_law_find(s->law) || s->nargument > FW_LAW_ARGUMENTS) {
+        l->missing = "the time of its law";
+        return FW_OK;
+    }
+    arguments_with(flow, s, reach, list, l);
+    if (l->missing) return FW_OK;
+    return x->rate ? by_rate(arena, s, x->rate, list, l)
+                   : by_selectivity(arena, s, x->selectivity, reach, list, l);
+}
+
+/* losses of all steps, a release of which runs so far */
+static fw_status wear_with(fw_arena *arena, const fw_process_flow *flow, const fw_quantity *reach,
+                           fw_process_wear *w) {
+    bool released = false;
+    *w = (fw_process_wear){0};
+    for (int i = 0; flow->material && i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        for (int k = 0; k < s->nchange; k++)
+            released = released || s->change[k].reach;
+        for (int k = 0; k < s->nexposed && fw_process_step_is_wet(s); k++) {
+            const fw_process_exposed *x = &s->exposed[k];
+            lost l;
+            if (strcmp(x->material, flow->material) != 0) continue;
+            if (!w->step) w->step = s, w->exposed = x;
+            FW_TRY(lost_in(arena, flow, s, x, reach, &l));
+            if (l.missing && !w->missing) w->missing = l.missing, w->never = l.never;
+            w->loss_m += l.loss_m;
+            w->after_m += released ? l.loss_m : 0.0;
+            w->uncertainty_m = hypot(w->uncertainty_m, l.u_m);
+        }
+    }
+    return FW_OK;
+}
+
+/* Sum over the steps that say <exposed> of the device's own material, losses added, uncertainties in quadrature. Walls stand
+   by what they lose from the release on further out when it begins, a, so that its reach is way + a, and a grows with it:
+     a = f(way + a),   by Aitken's extrapolation, exact at once where f is linear, as for the law `rate`;
+   f' >= 1: the bath takes the device as fast as it frees it, and no reach is enough. Error: 1e-12 relative. Cost: some three
+   evaluations of each law. Source: docs/theory/process.md, "What a step takes along". Test: test_wear.c. */
+fw_status fw_process_flow_wear(fw_arena *arena, const fw_process_flow *flow, double way_m,
+                               fw_process_wear *wear) {
+    enum { MOST = 30 };
+    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
+    fw_quantity reach = {.unknown = isnan(way_m),
+                         .value = way_m,
+                         .uncertainty = edge && !edge->unknown ? edge->uncertainty : 0.0,
+                         .dimension = FW_DIM_LENGTH,
+                         .unit = "um",
+                         .status = FW_DERIVED};
+    double a = 0.0;
+    for (int i = 0; i < MOST; i++) {
+        reach.value = fmax(way_m + a, 0.0);
+        FW_TRY(wear_with(arena, flow, &reach, wear));
+        const double once = wear->after_m;
+        if (reach.unknown || fabs(once - a) <= 1e-12 * fabs(way_m)) return FW_OK;
+        reach.value = fmax(way_m + once, 0.0);
+        FW_TRY(wear_with(arena, flow, &reach, wear));
+        const double first = once - a, second = wear->after_m - once;
+        if (fabs(second) >= fabs(first)) break;
+        a += first * first / (first - second);
+    }
+    wear->loss_m = wear->after_m = wear->uncertainty_m = 0.0;
+    wear->missing = "a reach that is enough: the device is taken as fast as it is freed";
+    wear->never = true;
+    return FW_OK;
+}
+
+bool fw_process_flow_wears_by_reach(const fw_process_flow *flow) {
+    for (int i = 0; flow->material && i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        bool takes = false, reaches = false;
+        for (int k = 0; k < s->nexposed; k++)
+            takes = takes || strcmp(s->exposed[k].material, flow->material) == 0;
+        for (int k = 0; k < s->nargument; k++)
+            reaches = reaches || fw_process_release_solves(flow, s->argument[k].q);
+        for (int k = 0; k < s->nchange; k++)
+            reaches = reaches || fw_process_release_solves(flow, s->change[k].reach);
+        if (takes && reaches && fw_process_step_is_wet(s)) return true;
+    }
+    return false;
 }

@@ -40,39 +40,6 @@ const char *fw_process_state_key(fw_process_state state) {
     return rows[state].key;
 }
 
-bool fw_process_step_is_op(const fw_process_step *s, const char *op) {
-    return strcmp(s->op, op) == 0;
-}
-
-bool fw_process_step_on_back(const fw_process_step *s) {
-    bool back = s->align.to && s->align.back;
-    for (int k = 0; k < s->nchange; k++)
-        back = back || (strcmp(s->change[k].kind, "pattern") == 0 && s->change[k].back);
-    return back;
-}
-
-const fw_process_hazard *fw_process_step_liquid(const fw_process_step *s) {
-    for (int i = s->nhazard - 1; i >= 0; i--)
-        if (s->hazard[i]->wets) return s->hazard[i];
-    return NULL;
-}
-
-/* operations that are always done in a liquid, whatever the pack says of its chemicals */
-static bool always_in_liquid(const fw_process_step *s) {
-    static const char *const op[] = {"anodise", "displace", "develop", "plate", "wet-etch"};
-    for (size_t i = 0; i < sizeof op / sizeof *op; i++)
-        if (fw_process_step_is_op(s, op[i])) return true;
-    return false;
-}
-
-bool fw_process_step_in_liquid(const fw_process_step *s) {
-    static const char *const may[] = {"clean", "strip", "release"};
-    if (always_in_liquid(s)) return true;
-    for (size_t i = 0; i < sizeof may / sizeof *may; i++)
-        if (fw_process_step_is_op(s, may[i])) return fw_process_step_liquid(s) != NULL;
-    return false;
-}
-
 bool fw_process_step_takes_wet(const fw_process_step *s) {
     if (s->equipment && s->equipment->vacuum) return false;
     for (int i = 0; i < s->nfinish; i++)

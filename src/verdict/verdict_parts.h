@@ -43,7 +43,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
    from there comes nearer */
 extern const char fw_verdict_unstable_there[];
 void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, int first);
-/* ringing.c: a warning where a scene ends with a hinge still on the way up (FW-D691), and v->ends_early */
+/* ends_early.c: a warning where a scene ends with a hinge still on the way up (FW-D691), and v->ends_early */
 fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
                                 const fw_dynamics_motion *motion,
                                 const fw_dynamics_motion_options *options, fw_diags *diags,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From devices and what <wafer> asks for to places, cells and arrays. */
-#include "wafer/wafer_parts.h"
+#include "wafer/wafer.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -12,7 +12,7 @@
    Cost: constant. Test: test_wafer_grid.c. */
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "wafer/wafer_parts.h"
+#include "wafer/wafer.h"
 #include <math.h>
 #include <stdio.h>
 

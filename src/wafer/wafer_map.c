@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wafer map as a table: one line per place, for wafer probers, spreadsheets and whoever picks
    dies. x and y are of the die's middle from the wafer's centre. */
-#include "wafer/wafer_parts.h"
+#include "wafer/wafer.h"
 #include "base/svg.h"
 #include <math.h>
 #include <string.h>

@@ -9,7 +9,7 @@
    layer, as the crosses of a die are cut out of its frame. */
 #include "layout/layout_text.h"
 #include "geometry/segment.h"
-#include "wafer/wafer_parts.h"
+#include "wafer/wafer.h"
 #include <math.h>
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include "geometry/segment.h"
 #include "mask/mask.h"
 #include "mask/mask_writers.h"
-#include "wafer/wafer_parts.h"
+#include "wafer/wafer.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
