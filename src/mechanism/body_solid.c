@@ -446,10 +446,10 @@ fw_status fw_mechanism_solid_of(fw_arena *arena, const fw_mechanism_line *line, 
     }
     s.edge_m = as->edge_m, s.close = as->close;
     const double narrow_m = as->narrow_m;
+    const double cells = as->cells > 0 ? as->cells : as->close ? CLOSELY : CELLS;
     const double wide = s.box.x1 - s.box.x0, high = s.box.y1 - s.box.y0,
                  material = as->area_m2 > 0 ? as->area_m2 : wide * high,
-                 least_m =
-                     fmax(sqrt(material / (as->close ? CLOSELY : CELLS)), sqrt(wide * high / GRID)),
+                 least_m = fmax(sqrt(material / cells), sqrt(wide * high / GRID)),
                  cell_m = fmax(fmin(fmax(wide, high) / ACROSS, narrow_m / NARROW), least_m);
     if (!(cell_m > 0) || (narrow_m > 0 && !(cell_m < narrow_m))) return FW_OK;
     const size_t size = 9 * (size_t)n * (size_t)n;

@@ -270,6 +270,7 @@ typedef struct fw_mechanism_solid_mesh {
     double narrow_m; /* its narrowest place; 0: not known, cells are as small as can be */
     double edge_m;   /* by which edges stand out as made */
     double area_m2;  /* of its material, by which cells are counted; 0: of the box about it */
+    int cells;       /* at most, fine; 0: as many as are wanted of its kind */
     bool close; /* what edges cut is neither softer nor stiffer than it is; else softer: a bound */
 } fw_mechanism_solid_mesh;
 fw_status fw_mechanism_solid_of(fw_arena *arena, const fw_mechanism_line *line, int nline,

@@ -578,6 +578,8 @@ fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *m,
     o.trace = NULL, o.glance = NULL, o.unsettled = NULL, o.other = NULL, o.like = NULL;
     o.tapes = NULL, o.late_rows = false, o.whole = o.trace_both = false;
     o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
+    if (o.alone)
+        o.integrator = like->integrator; /* found by trying: what gives along itself is stiff */
     o.samples = like->nsample, o.hinge_accuracy = 1;
     o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
     o.effects.stiffer = by;

@@ -484,10 +484,9 @@ fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *
    What throws back meets what the last blow left by its phase, and behind some blows peaks turn on a per mille of a stiffness. So
    where something takes hold a second time the scene is moved again with flexures stiffer and softer by thirds of what they are
    off by; what it comes to, and a quarter more since the largest may lie between, is a factor on bands. A run that does not get
-   to its end tells nothing: half. In: v->motion. Error: an estimate. Cost: six motions; of corners none. Source:
+   to its end tells nothing: half. In: v->motion. Error: an estimate. Cost: six motions, two where these change
+   nothing; of corners none. Source:
    docs/theory/verdict.md. Test: test_hinge.py blows_that_come_again */
-
-enum { THIRDS = 3 };
 
 typedef struct
     hold { /* f (2 x (nhinge + 1)): more and less of every hinge, and of what goes farthest */
@@ -529,6 +528,14 @@ static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_d
     return FW_OK;
 }
 
+/* more than a stiffness changes where nothing is thrown */
+static bool hold_changes(const hold *h, size_t nhinge, double stiffer) {
+    const double in_proportion = 1.5;
+    for (size_t k = 0; k < 2 * nhinge + 2; k++)
+        if (fabs(h->f[k] - 1) > in_proportion * stiffer) return true;
+    return false;
+}
+
 fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
                                   const fw_dynamics_motion_options *options, bool brief,
                                   fw_diags *diags, fw_verdict_variant_verdict *v) {
@@ -547,8 +554,10 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
         h.f[k] = 1;
     fw_verdict_farthest(m, x, h.far);
     bool whole = h.saw != NULL;
-    for (int k = -THIRDS; k <= THIRDS && whole; k++)
-        if (k != 0) FW_TRY(hold_stiffer(arena, m, s, e * k / THIRDS, x, options, &h, &whole));
+    static const int thirds[] = {
+        -3, 2, -2, -1, 1, 3}; /* where the first two change nothing phases do not matter */
+    for (int k = 0; k < 6 && whole && (k != 2 || hold_changes(&h, nh, e)); k++)
+        FW_TRY(hold_stiffer(arena, m, s, e * thirds[k] / 3, x, options, &h, &whole));
     double up = 1, down = 1, *to = v->shaken[i].factor;
     for (size_t k = 0; k < 2 * nh + 2; k += 2) {
         if (!whole) h.f[k] = fmax(h.f[k], 1 + half), h.f[k + 1] = fmin(h.f[k + 1], half);

@@ -533,11 +533,13 @@ class SlenderArms(unittest.TestCase):
         return decision, low, high
 
     def test_slender_arms_press_less(self):
-        decision, low, high = self.holds("grips", 359e-6)  # rigid ones press with 472
+        # rigid ones press with 472; the arm as a beam at a rigid block leaves 359, and with what its root and the block give
+        # besides (5.3 M/(E h w^2), O'Donnell 1960, and 12 M L/(E h b^3)) 350.5; the others 185 and 182.3, 728 and 723
+        decision, low, high = self.holds("grips", 350.5e-6)
         self.assertEqual(decision, "reject")
-        self.assertLess(high - low, 0.08 * 359e-6)
-        self.holds("grips", 185e-6, "kw=30 N/m", "arm=60 um")
-        self.holds("grips", 728e-6, "kw=20 N/m", "arm=100 um", "gap=20 um")
+        self.assertLess(high - low, 0.08 * 350e-6)
+        self.holds("grips", 182.3e-6, "kw=30 N/m", "arm=60 um")
+        self.holds("grips", 723e-6, "kw=20 N/m", "arm=100 um", "gap=20 um")
         decision, low, _ = self.holds("grips", 472e-6, "arm=400 um", "gripmin=200 uN")
         self.assertEqual(decision, "accept")
         text = (ROOT / "tests/data/arms/grips.xml").read_text()  # a spring in place of the workpiece: 2.53 mN rigid, of which 0.76 are left
@@ -548,7 +550,7 @@ a-y="0 mm" b="ground" b-x="2.8 mm" b-y="0.5 mm" stiffness="kw" length="0.5 mm" d
             device.write_text(text)
             done = run("check", device, "--corners", "none", "--advice", "none", "--json")
         low, high = json.loads(done.stdout)["requirements"][0]["band"]
-        self.assertTrue(-2.05e-3 < low < -1.93e-3 < high < -1.8e-3, (low, high))
+        self.assertTrue(-2.05e-3 < low < -1.885e-3 < high < -1.8e-3, (low, high))
 
     def test_arms_are_in_every_motion(self):
         """the force of a motion and of an equilibrium are one, the ledger says that arms give; two things on one
@@ -570,7 +572,7 @@ a-y="0 mm" b="ground" b-x="2.8 mm" b-y="0.5 mm" stiffness="kw" length="0.5 mm" d
             said = json.loads(run("check", other, "--corners", "none", "--advice", "none", "--json").stdout)
         low, high = said["requirements"][0]["band"]
         self.assertEqual(said["verdict"], "inconclusive")
-        self.assertTrue(low < 359e-6 < high, (low, high))
+        self.assertTrue(low < 350.5e-6 < high, (low, high))
 
     def test_slender_arms_are_soft_at_their_ends(self):
         self.assertEqual(self.holds("stiff", 1.33)[0], "inconclusive")

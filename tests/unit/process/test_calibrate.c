@@ -429,7 +429,7 @@ static void of_open_areas(void **state) {
         const char *cells;
         double A, u;
         bool good;
-    } of[] = {{"176.7,2\n", 176.7e-4, 2e-4, true}, {"176.7,\n", 176.7e-4, 0.1e-4 / sqrt(12.0), true}, {",\n", 0, 0, true}, {"-3,1\n", 0, 0, false}, {"x,1\n", 0, 0, false}};
+    } of[] = {{"176.7,2\n", 176.7e-4, 2e-4, true}, {"176.7,\n", 176.7e-4, 0.1e-4 * 0.28867513459481287, true}, {",\n", 0, 0, true}, {"-3,1\n", 0, 0, false}, {"x,1\n", 0, 0, false}};
     for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
         fw_process_measurement *row;
         int nread;
