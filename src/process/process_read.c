@@ -235,6 +235,22 @@ static void report_duplicates(fw_process_pack *pack) {
     }
 }
 
+/* the quantities until which a point is open are ones of the flow */
+static fw_status check_open_points(fw_process_pack *pack) {
+    for (const fw_xml_record *e = pack->root->first_child; e; e = e->next) {
+        const fw_xml_attribute *until =
+            fw_xml_is(e, "open-point") ? fw_process_pack_get(e, "until") : NULL;
+        for (const char *at = until ? until->value : ""; *at;) {
+            const size_t n = strcspn(at, " ");
+            fw_xml_attribute one = *until;
+            FW_NEED(one.value = fw_arena_strndup(pack->arena, at, n));
+            if (n > 0) fw_process_pack_find(pack, &one, FW_ID_QUANTITY);
+            at += n + strspn(at + n, " ");
+        }
+    }
+    return FW_OK;
+}
+
 static fw_status read_everything(fw_process_pack *pack) {
     for (int part = 0; part < 2; part++) {
         const fw_xml_record *root = part == 0 ? pack->base : pack->root;
@@ -252,7 +268,7 @@ static fw_status read_everything(fw_process_pack *pack) {
         }
     qsort(pack->id, (size_t)pack->nid, sizeof *pack->id, by_id);
     report_duplicates(pack);
-    return FW_OK;
+    return check_open_points(pack);
 }
 
 static void read_head(fw_process_pack *pack) {

@@ -28,6 +28,7 @@ typedef struct change {
 static void mistakes_of_a_flow(void **state) {
     (void)state;
     static const change bad[] = {
+        {SILICON, "until=\"rie.kappa", "until=\"rie.kapa", 165, "there is no quantity with this id"},
         /* left on the device, on its back or on its pads, by a pack that says nothing of its end */
         {SILICON, "    <change kind=\"remove\" material=\"thermal-paste\"/>\n", "", 644, "'thermal-paste' left on the back in the structure"},
         {GLASS, "<finished material=\"pad-gold\" is=\"present\" where=\"pad\"/>", "", 644, "'pad-gold' left on the device"},
