@@ -78,7 +78,7 @@ static void bars(void **state) {
 static double bent_stretch(double wide, double cells, double turn, double edge_m, fw_arena *arena) {
     double most[2];
     for (int k = 0; k < 2; k++) {
-        const double length = (10 + 10 * k) * wide;
+        const double length = (20 + 20 * k) * wide; /* of one cell size */
         const fw_geometry_vec2 corner[4] = {{0, 0}, {length, 0}, {length, wide}, {0, wide}},
                                a = fw_geometry_vec_rotate((fw_geometry_vec2){0, 0.5 * wide}, turn),
                                b = fw_geometry_vec_rotate((fw_geometry_vec2){length, 0.5 * wide}, turn);
@@ -88,6 +88,7 @@ static double bent_stretch(double wide, double cells, double turn, double edge_m
             .middle = fw_geometry_vec_rotate((fw_geometry_vec2){0.5 * length, 0.5 * wide}, turn),
             .narrow_m = 4 * wide / cells,
             .edge_m = edge_m,
+            .area_m2 = length * wide,
             .close = true};
         const double bend[ROWS] = {1, 0, 0, -1, 0, 0};
         drawing *d = fw_arena_one(arena, drawing);
@@ -97,7 +98,7 @@ static double bent_stretch(double wide, double cells, double turn, double edge_m
         assert_true(s.known);
         most[k] = energy(s.fine, bend);
     }
-    return (most[1] - most[0]) * pow(wide + 2 * edge_m, 3) / (6 * 10 * wide);
+    return (most[1] - most[0]) * pow(wide + 2 * edge_m, 3) / (6 * 20 * wide);
 }
 
 static void slender_bars_closely(void **state) {
