@@ -54,8 +54,6 @@ double fw_effects_hinge_give_most(const fw_effect_case *c, int pin);
    the same at all times. Once for each set of loads */
 fw_status fw_effects_hinges_warm(fw_arena *arena, fw_effects_loads *loads, double part,
                                  double varying, const fw_quantity_law *law);
-/* FW-D686 where <material-damping> finds every hinge with a damping of its own (material_damping.c) */
-void fw_effects_damps_nothing(const fw_effect_case *c, fw_diags *diags);
 /* all flexures, pins or released, have their stiffness times 1 + part, before anything is made exact */
 fw_status fw_effects_hinges_stiffer(const fw_effect_case *c, fw_effects_loads *loads, double part);
 /* the closed forms among the elements become exact beams, in a copy of the elements */

@@ -362,6 +362,8 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     int (*count)(const fw_effect_case *c); /* instances; NULL: 1 */
     /* of an active effect, before add: errors and warnings on what is asked of it; NULL: none */
     fw_status (*check)(const fw_effect_case *c, fw_diags *diags);
+    /* of what is not called for: a warning where the scene states it all the same; NULL: nothing calls for it else */
+    void (*idle)(const fw_effect_case *c, fw_diags *diags);
     bool calms; /* left out by auto only where hinges are pins: those that give vibrate on without
                    it, and every step has to follow them */
     /* of what is called for: puts behind the reason, in every mode, what a reader has to know;

@@ -100,9 +100,10 @@ static int count(const fw_effect_case *c) {
     return hinges;
 }
 
-void fw_effects_damps_nothing(const fw_effect_case *c, fw_diags *diags) {
+/* every hinge has a damping of its own */
+static void idle(const fw_effect_case *c, fw_diags *diags) {
     const int n = c->scene->ndamping;
-    if (n == 0 || !diags || c->mechanism->nhinge == 0 || called_for(c)) return;
+    if (n == 0 || c->mechanism->nhinge == 0) return;
     fw_diag_warning(diags, 686, c->scene->damping[n - 1].place,
                     "<material-damping> of %s%s damps nothing: every hinge states a damping of its "
                     "own, which holds; leave out damping of the <revolute>, or this",
@@ -119,6 +120,7 @@ const fw_effect_row fw_effect_material_damping = {
     .id = "material-damping",
     .summary = "loss factor of the flexures' material, as the scene states it",
     .called_for = called_for,
+    .idle = idle,
     .bound = bound,
     .by_rate = true,
     .calms = true,

@@ -346,6 +346,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &ledger->item[i];
         if (e->called_for && rows[i]->note) FW_TRY(rows[i]->note(&c, &e->reason));
+        if (!e->called_for && rows[i]->idle && !choice->untold && diags) rows[i]->idle(&c, diags);
         bool forced, was;
         forced = fw_effects_hinge_forced(e->id, choice->hinge, &was);
         if (choice->mode == FW_EFFECTS_AUTO && e->called_for && !e->active && !forced &&
@@ -358,7 +359,6 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
         } else if (e->called_for && rows[i]->leave_out)
             FW_TRY(rows[i]->leave_out(&c, loads));
     }
-    if (!choice->untold) fw_effects_damps_nothing(&c, diags);
     if (choice->stiffer != 0) FW_TRY(fw_effects_hinges_stiffer(&c, loads, choice->stiffer));
     return fw_effects_hinge_settle(&c, choice, ledger, loads);
 }

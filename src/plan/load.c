@@ -423,6 +423,13 @@ static fw_status read_flow(fw_plan *plan, const fw_plan_flow *pf, fw_process_flo
     return apply_packs(plan, *flow);
 }
 
+/* one without is not read a second time for them */
+static bool has_materials(const char *xml, size_t n) {
+    static const char own[] = "<material", with_prefix[] = ":material";
+    return memmem(xml, n, own, sizeof own - 1) ||
+           memmem(xml, n, with_prefix, sizeof with_prefix - 1);
+}
+
 static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     const char *name = fw_arena_printf(plan->arena, "processes/%s.xml", pf->use->ref);
     FW_NEED(name);
@@ -432,8 +439,9 @@ static fw_status load_flow(fw_plan *plan, fw_plan_flow *pf) {
     pf->flow_sha256 = plan->input[plan->ninput - 1].sha256;
     pf->file = name, pf->xml = xml, pf->xml_length = n;
     FW_TRY(read_flow(plan, pf, &pf->flow));
-    FW_TRY(fw_device_materials_of_flow(plan->arena, name, xml, n, &plan->materials, &plan->diags,
-                                       &pf->materials));
+    if (has_materials(xml, n))
+        FW_TRY(fw_device_materials_of_flow(plan->arena, name, xml, n, &plan->materials,
+                                           &plan->diags, &pf->materials));
     name = fw_arena_printf(plan->arena, "masks/%s.xml", pf->use->ref);
     FW_NEED(name);
     FW_TRY(read_data(plan, name, pf->use->place, &xml, &n));
