@@ -189,6 +189,7 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
     fw_mechanism_plates_reach r =
         fw_mechanism_plates_reached(&is->rigid, is->x, NULL, curvature, middle);
     to->sure_m = r.lowest_m;
+    const double top_m = r.highest_m; /* of rigid bodies, as sure_m is */
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
     load_scene(is, p, s, left, curvature, &middle, &to->dynamic);
     r = fw_mechanism_plates_reached(p, is->x, is->ring, curvature, middle);
@@ -196,7 +197,7 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
     double down = 0, up = 0;
     if (is->hangs > 0) FW_TRY(hang_over(arena, is, p, s, left, &down, &up));
     to->lowest_m = (fmin(to->sure_m, r.lowest_m) - down) * more,
-    to->highest_m = (r.highest_m + up) * more;
+    to->highest_m = (fmax(top_m, r.highest_m) + up) * more;
     to->tilt_rad = r.tilt_rad * more;
     if (r.low != FW_NONE) to->body = fw_text_name(m->body[r.low].id);
     return judge_touch(arena, is, s, v, to);

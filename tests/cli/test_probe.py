@@ -709,14 +709,15 @@ class Probe(unittest.TestCase):
                 "maximum": (p["maximum"], p["error"], p["maximum"] - begins),
                 "parasitic": (p["across"], 0, p["across"])}[measure]
             self.near(r["value"], value, 1e-12)
-            self.near(r["band"][1] - value, value - r["band"][0], 1e-6)
+            # jaws that take hold of the bead again are moved with flexures stiffer and softer (decision 188): the two ends differ by that
+            self.near(r["band"][1] - value, value - r["band"][0], 2e-3)
             off = r["band"][1] - value - error
             if measure == "parasitic":  # its own error is not printed
                 self.assertTrue(0 < off < 0.05 * value)
             elif abs(goes) > 1e-6:
                 shares[probe].append(off / abs(goes))
             else:
-                self.assertLess(abs(off), 1e-12)
+                self.assertLess(abs(off), 0.05e-6)  # of blows that come again, wherever it stands
         for probe, found in shares.items():
             self.assertGreater(len(found), 1)
             self.assertGreater(min(found), 1e-3)
