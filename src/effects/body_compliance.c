@@ -12,7 +12,6 @@
    Theory: docs/theory/effects/body-compliance.md. Test: test_body_compliance.c. */
 #include "effects/effect.h"
 #include "maths/dense.h"
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -28,8 +27,7 @@ typedef struct yielding {         /* data */
 
 typedef struct point_spring {
     double length_m, stiffness_N_per_m, damping_Ns_per_m;
-    bool cable;
-} point_spring;
+} point_spring; /* a cable has a switch */
 
 static double spring_stretch(const fw_effects_force_element *e, const fw_effects_port_state *s,
                              double u[2], double *length, double *rate) {
@@ -510,7 +508,7 @@ static fw_status spring_element(const fw_effect_case *c, fw_effects_loads *loads
     point_spring *s = fw_arena_one(c->arena, point_spring);
     fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &spring_class, 2);
     if (!s || !e) return FW_NOMEM;
-    *s = (point_spring){k->length_m, k->stiffness_N_per_m, k->damping_Ns_per_m, k->cable};
+    *s = (point_spring){k->length_m, k->stiffness_N_per_m, k->damping_Ns_per_m};
     if (k->id) e->id = k->id;
     e->place = k->place;
     e->port[0] = (fw_effects_port){k->body_a, k->ax_m, k->ay_m};
