@@ -43,7 +43,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
    from there comes nearer */
 extern const char fw_verdict_unstable_there[];
 void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, int first);
-/* ends_early.c: a warning where a scene ends with a hinge still on the way up (FW-D691), and v->ends_early */
+/* moved_again.c: a warning where a scene ends with a hinge still on the way up (FW-D691), and v->ends_early */
 fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
                                 const fw_dynamics_motion *motion,
                                 const fw_dynamics_motion_options *options, fw_diags *diags,
@@ -200,13 +200,13 @@ fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const f
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);
-/* decision.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672) */
+/* moved_again.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672) */
 fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
                               const fw_dynamics_motion_options *options, bool brief,
                               fw_diags *diags, fw_verdict_variant_verdict *v);
 /* the largest in the scene: (nbody) ways of centres, then turns, then (nhinge) angles */
 void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far);
-/* ringing.c: what of v->shaken[scene] grows where what takes hold again and again meets other phases (FW-D685) */
+/* moved_again.c: what of v->shaken[scene] grows where what takes hold again and again meets other phases (FW-D685) */
 fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                   const fw_dynamics_motion_options *options, bool brief,
                                   fw_diags *diags, fw_verdict_variant_verdict *v);

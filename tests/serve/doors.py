@@ -135,6 +135,9 @@ class Doors(unittest.TestCase):
                 if re.search(r'src="mask"', row):
                     continue
                 value = float(was[1]) if was else 1.0
+                # what a step's sheet only prints has the unit that its pack gives it; nothing computes with it, so nothing knows another
+                rest = re.sub(rf'<set [^>]*q="{re.escape(identity)}"[^>]*/>', "", pack.replace(row, ""))
+                printed_only = not re.search(rf'(?<![\w.-]){re.escape(identity)}(?![\w.-])', rest)
                 for kind, (now, of) in enumerate(((value * 1e12 or 1e12, unit), (-abs(value) * 1e3 - 1e6, unit), (value, "kg2"),
                                                   (value * 1.01, unit))):
                     if not ALL and (number + kind) % (96 if kind == 3 else 29):  # what is fine costs most
@@ -152,7 +155,8 @@ class Doors(unittest.TestCase):
                         by_lab = check("-", "--flow", flow, "--lab", self.here / "lab.xml", input=device)
                         by_pack = check("-", "--flow", flow, input=device, environment={"FLEXWRIGHT_DATA": str(data)})
                         by_page = self.preview(device, lab={"lab.xml": lab}, options={"flow": flow})
-                        self.assertEqual(by_lab[0] == 3, by_pack[0] == 3, f"laboratory {by_lab}, pack {by_pack}")
+                        if not (kind == 2 and printed_only):
+                            self.assertEqual(by_lab[0] == 3, by_pack[0] == 3, f"laboratory {by_lab}, pack {by_pack}")
                         self.assertEqual(by_lab, by_page, "preview")
                         refused += by_lab[0] == 3
                         if kind == 2:

@@ -1,0 +1,368 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Scenes that end while the device goes up.
+
+   A hinge whose peak is at the last instant and that still turns on, by more than a few per cent of it in the lowest mode:
+   v/omega. The same scene then lasts a period of that mode longer, in which every single mode comes to its next peak, and
+   its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
+   comes behind it. Test: test_program.py, EndsEarly */
+#include "base/constants.h"
+#include "statics/statics.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+static const double fw_few_per_cent = 0.03, fw_hardly_turned = 1e-3; /* of what a hinge bears */
+static const double hardly_moves = 0.05;                             /* of the farthest way */
+
+/* s; 0: nothing swings */
+static fw_status longest_period(fw_arena *arena, const fw_mechanism *m,
+                                const fw_device_scene *scene, double *period_s) {
+    const fw_statics_mode_options o = {.accuracy = 1e-3};
+    const fw_statics_modes *modes = NULL;
+    fw_diags own = fw_diags_new(arena);
+    *period_s = 0;
+    fw_status status = fw_statics_small_motions(arena, m, scene, &o, &own, &modes);
+    if (status == FW_CANCELLED || status == FW_NOMEM) return status;
+    for (int i = 0; status == FW_OK && modes && i < modes->count; i++)
+        if (modes->mode[i].omega_rad_per_s > 0)
+            *period_s = fmax(*period_s, 2 * FW_PI / modes->mode[i].omega_rad_per_s);
+    return FW_OK;
+}
+
+/* rad/s by which a hinge that is at its peak there turns on at the end; 0: it does not */
+static double turns_on(const fw_mechanism *m, const fw_dynamics_motion *x, int hinge) {
+    const int pin = m->hinge[hinge].pin, a = m->pin[pin].body_a, b = m->pin[pin].body_b;
+    const double *v = x->v + (size_t)(x->nsample - 1) * 3 * (size_t)x->nbody;
+    const double rate = (b == FW_GROUND ? 0 : v[3 * b + 2]) - (a == FW_GROUND ? 0 : v[3 * a + 2]);
+    if (x->peak[pin].t_s < x->end_s * (1 - 1e-9)) return 0;
+    return fmax(0, x->peak[pin].angle_rad > 0 ? rate : -rate);
+}
+
+/* the hinge that turns on farthest beyond its peak, for its size, by its speed and a period */
+static int goes_on(const fw_mechanism *m, const fw_dynamics_motion *x, double period_s) {
+    double most = fw_few_per_cent;
+    int which = FW_NONE;
+    for (int k = 0; k < m->nhinge; k++) {
+        const double peak = fabs(x->peak[m->hinge[k].pin].angle_rad);
+        const double on = turns_on(m, x, k) * period_s / (2 * FW_PI);
+        if (on > most * peak) most = on / peak, which = k;
+    }
+    return which;
+}
+
+static fw_status last_longer(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                             const fw_dynamics_motion *x, double more_s,
+                             const fw_dynamics_motion_options *options,
+                             const fw_dynamics_motion **longer) {
+    fw_device_scene changed = *scene;
+    fw_dynamics_motion_options o = *options;
+    fw_diags own = fw_diags_new(arena);
+    changed.duration_s += more_s;
+    o.observe = NULL, o.glance = NULL, o.trace = NULL, o.other = NULL, o.unsettled = NULL;
+    o.tapes = NULL, o.like = NULL, o.whole = o.trace_both = false;
+    o.samples = 2, o.looser = 1, o.effects.hinge = x->ledger.hinge.used;
+    *longer = NULL;
+    fw_status status = fw_statics_move_scene(arena, m, &changed, &o, &own, longer);
+    if (status != FW_OK) *longer = NULL;
+    return status == FW_CANCELLED || status == FW_NOMEM ? status : FW_OK;
+}
+
+/* FW-D691: how far hinge k would have gone where the scene had lasted longer; NULL: no farther */
+static const char *would_go(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                            const fw_dynamics_motion *x, const fw_dynamics_motion *longer, int k,
+                            double period_s) {
+    const int pin = m->hinge[k].pin;
+    const double peak = fabs(x->peak[pin].angle_rad), degree = FW_DEG_PER_RAD;
+    const double far = longer ? fabs(longer->peak[pin].angle_rad)
+                              : peak + turns_on(m, x, k) * period_s / (2 * FW_PI);
+    const bool times = far > 3 * peak;
+    char end[32], at[32], to[32], by[32], least[32];
+    const double least_rad = fw_hardly_turned * m->hinge[k].closed_form.limit_angle_rad;
+    if (!(far > peak * (1 + fw_few_per_cent)) || far < least_rad) return NULL;
+    return fw_arena_printf(
+        arena,
+        "%s%s ends at %s ms with hinge %s at its peak, %s deg, and still on its way: within a "
+        "period of the lowest mode it goes on to %s deg%s, %s%s, and nothing of that is "
+        "judged; let the scene last %s ms at least",
+        FW_NAMED("scene", scene->name), fw_number_text(end, sizeof end, 1e3 * x->end_s, 4),
+        fw_text_name(m->pin[pin].id), fw_number_text(at, sizeof at, peak * degree, 3),
+        fw_number_text(to, sizeof to, far * degree, 3), longer ? "" : " by its speed alone",
+        fw_number_text(by, sizeof by, times ? far / peak : 100 * (far / peak - 1), 2),
+        times ? " times as far" : " % farther",
+        fw_number_text(least, sizeof least, 1e3 * (x->end_s + period_s), 3));
+}
+
+fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
+                                const fw_dynamics_motion *x,
+                                const fw_dynamics_motion_options *options, fw_diags *diags,
+                                fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *longer;
+    const fw_verdict_strain_monitor *saw = options->context;
+    double period_s;
+    if (v->corner || (saw && saw->trial)) return FW_OK; /* what is drawn says it for all */
+    if (x->loads->quasi_static || x->ended || x->nsample < 1) return FW_OK;
+    fw_dynamics_motion_rows(x, x->nsample - 1, 1);
+    if (goes_on(m, x, (double)INFINITY) == FW_NONE) return FW_OK;
+    FW_TRY(longest_period(arena, m, scene, &period_s));
+    const int k = goes_on(m, x, period_s);
+    if (k == FW_NONE) return FW_OK;
+    FW_TRY(last_longer(arena, m, scene, x, period_s, options, &longer));
+    const char *text = would_go(arena, m, scene, x, longer, k, period_s);
+    if (!text) return FW_OK;
+    fw_diag_warning(diags, 691, scene->place, "%s", text);
+    if (!v->ends_early) v->ends_early = text;
+    return FW_OK;
+}
+
+/* ---- what loads leave of the stiffness ----
+   Bands hold what a stiffness is off by in proportion, and a displacement goes by what loads leave of it: by the inverse of
+   that share, and without end at a fold. So where a scene's loads leave less than `soft` of it, the scene is moved twice
+   more, with its loads (1 + e) and 1/(1 + e) times as large, e = what hinges, and bodies where that moves anything, may give more than computed: that is
+   the device with all of its stiffness so much less, or more. What goes further than in proportion, f over (1 + e), is a factor on what
+   moves, as near a resonance: of a hinge by its angle, of bodies by the one of which that is most; those that go less than a
+   twentieth of the largest way are left out. Where there is no such motion the device may have snapped: undecided.
+   Inputs: v->left, motions. Error: one e for all that gives; heat, stress and drivers stay as they are. Cost: two motions,
+   of such scenes alone. Test: test_effects.py, NearAFold */
+
+static const double soft = 0.8;
+
+/* how far a coordinate of a body is from where it began; the ground stays */
+static double moved(const fw_dynamics_motion *x, int n, int row, int body, int axis) {
+    return body == FW_GROUND ? 0 : x->q[row * n + 3 * body + axis] - x->q[3 * body + axis];
+}
+
+/* 0 for what moves less than a thousandth of the rest: what a symmetric device has of turns is rounding, of which no ratio tells
+   anything. Turns count by how far from their body's frame its pins lie */
+static void at_rest(const fw_mechanism *m, double *far) {
+    const double hardly = 1e-3;
+    const int nb = m->nbody, n = 2 * nb + m->nhinge;
+    double arm = 0, most = 0;
+    for (int k = 0; k < m->npin; k++) {
+        const fw_mechanism_pin *pin = &m->pin[k];
+        if (pin->body_a != FW_GROUND) arm = fmax(arm, hypot(pin->ax_m, pin->ay_m));
+        if (pin->body_b != FW_GROUND) arm = fmax(arm, hypot(pin->bx_m, pin->by_m));
+    }
+    for (int i = 0; i < n; i++)
+        most = fmax(most, (i < nb ? 1 : arm) * far[i]);
+    for (int i = 0; i < n; i++)
+        if (!((i < nb ? 1 : arm) * far[i] > hardly * most)) far[i] = 0;
+}
+
+void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far) {
+    const int nb = m->nbody, n = 3 * nb;
+    fw_dynamics_motion_rows(x, 0, x->nsample);
+    for (int row = 0; row < x->nsample; row++) {
+        for (int b = 0; b < nb; b++) {
+            far[b] = fmax(far[b], hypot(moved(x, n, row, b, 0), moved(x, n, row, b, 1)));
+            far[nb + b] = fmax(far[nb + b], fabs(moved(x, n, row, b, 2)));
+        }
+        for (int h = 0; h < m->nhinge; h++) {
+            const fw_mechanism_pin *pin = &m->pin[m->hinge[h].pin];
+            const double angle =
+                moved(x, n, row, pin->body_b, 2) - moved(x, n, row, pin->body_a, 2);
+            far[2 * nb + h] = fmax(far[2 * nb + h], fabs(angle));
+        }
+    }
+    at_rest(m, far);
+}
+
+static double largest_of(const double *x, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
+
+/* largest (way 1) or least (-1) of now over was, of those of n that moved at all; 1: none did */
+static double change(const double *was, const double *now, int n, int way) {
+    const double most = largest_of(was, n);
+    double by = way > 0 ? 0 : HUGE_VAL;
+    for (int i = 0; i < n; i++)
+        if (was[i] > hardly_moves * most)
+            by = way > 0 ? fmax(by, now[i] / was[i]) : fmin(by, now[i] / was[i]);
+    return most > 0 ? by : 1;
+}
+
+/* the ways of a scene with its loads `by` times as large; *goes false: there is no such motion, or it is not the whole of it */
+static fw_status move_with(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                           double by, const fw_dynamics_motion *like,
+                           const fw_dynamics_motion_options *given, double *far, bool *goes) {
+    fw_device_scene changed = *scene;
+    fw_dynamics_motion_options o = *given;
+    fw_diags own = fw_diags_new(arena);
+    const fw_dynamics_motion *x;
+    FW_TRY(fw_device_own_scene(arena, &changed));
+    fw_effects_scale(&changed, by);
+    o.observe = NULL, o.trace = NULL, o.glance = NULL, o.unsettled = NULL, o.other = NULL;
+    o.like = NULL, o.tapes = NULL, o.late_rows = false;
+    o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
+    o.samples = like->nsample, o.hinge_accuracy = 1;
+    o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+    const fw_status status = fw_statics_move_scene(arena, m, &changed, &o, &own, &x);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    *goes = status == FW_OK && !x->ended;
+    if (*goes) fw_verdict_farthest(m, x, far);
+    return FW_OK;
+}
+
+static fw_status tell_soft(fw_arena *arena, const fw_device_scene *s, double left, double e,
+                           bool goes, double most, bool brief, fw_diags *diags,
+                           fw_verdict_variant_verdict *v) {
+    char part[32], off[32], times[32];
+    const char *start = fw_arena_printf(
+        arena,
+        "%s%s: its loads leave %s %% of the stiffness of the device's softest motion, and with "
+        "loads larger by the %s %% that hinges and bodies may give more than computed",
+        FW_NAMED("scene", s->name), fw_number_text(part, sizeof part, 100 * left, 2),
+        fw_number_text(off, sizeof off, 100 * e, 2));
+    FW_NEED(start);
+    if (!goes)
+        return fw_verdict_scene_reason(
+            v, s, 672, FW_INCONCLUSIVE, 0.9 / (1 + e),
+            fw_arena_printf(arena, "%s no motion to its end was found: it may snap", start));
+    if (!brief && most > 1.1)
+        fw_diag_warning(
+            diags, 672, s->place,
+            "%s it moves %s times as far, which the bands hold: keep away from where it "
+            "snaps or buckles (flexwright statics --path says where that is)",
+            start, fw_number_text(times, sizeof times, most * (1 + e), 3));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, double e,
+                              const fw_dynamics_motion_options *options, bool brief,
+                              fw_diags *diags, fw_verdict_variant_verdict *v) {
+    const fw_device_scene *s = &m->device->scene[i];
+    const fw_dynamics_motion *x = v->motion[i];
+    const int nb = 2 * m->nbody, n = nb + m->nhinge;
+    fw_effects_load_scaling loads;
+    fw_effects_find_loads(s, &loads);
+    if (!(v->left[i] < soft) || x->ended || loads.count == 0 || !(e > 0) || isinf(e)) return FW_OK;
+    double *far = fw_arena_array(arena, double, 3 * (size_t)n), *f = v->shaken[i].factor;
+    bool goes = true;
+    FW_NEED(far);
+    fw_verdict_farthest(m, x, far);
+    for (int k = 1; k < 3 && goes; k++)
+        FW_TRY(
+            move_with(arena, m, s, k == 1 ? 1 + e : 1 / (1 + e), x, options, far + k * n, &goes));
+    double most = 1;
+    for (int k = 1; k < 3 && goes; k++) {
+        const int way = k == 1 ? 1 : -1, pins = m->nbody;
+        const double over = k == 1 ? 1 / (1 + e) : 1 + e, *now = far + k * n;
+        const double part[3] = {over * change(far, now, pins, way),
+                                over * change(far + pins, now + pins, pins, way),
+                                over * change(far + nb, now + nb, m->nhinge, way)};
+        const double all = way * fmax(way * part[0], way * part[1]);
+        for (int h = 0; h <= m->nhinge; h++) {
+            double *to = &f[2 * h + k - 1];
+            *to *= way * fmax(way * (h < m->nhinge ? part[2] : all), way);
+        }
+        v->shaken[i].late = fmax(v->shaken[i].late, fabs(all - 1));
+        if (way > 0) most = fmax(all, part[2]);
+    }
+    return tell_soft(arena, s, v->left[i], e, goes, most, brief, diags, v);
+}
+
+/* ---- what takes hold again and again ----
+   What throws back meets what the last blow left by its phase, and behind some blows peaks turn on a per mille of a stiffness. So
+   where something takes hold a second time the scene is moved again with flexures stiffer and softer by thirds of what they are
+   off by; what it comes to, and a quarter more since the largest may lie between, is a factor on bands. A run that does not get
+   to its end tells nothing: half. In: v->motion. Error: an estimate. Cost: six motions, two where these change
+   nothing; of corners none. Source:
+   docs/theory/verdict.md. Test: test_hinge.py blows_that_come_again */
+
+typedef struct
+    hold { /* f (2 x (nhinge + 1)): more and less of every hinge, and of what goes farthest */
+    const fw_verdict_strain_monitor *saw;
+    double *far, *now, *f;
+} hold;
+
+static void hold_factor(double now, double was, double *f) {
+    const double more = 1.25, part = was > 0 ? now / was - 1 : 0;
+    f[0] = fmax(f[0], 1 + more * part);
+    f[1] = fmin(f[1], fmax(0, 1 + more * part));
+}
+
+static void hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw, const hold *h) {
+    const int nb = m->nbody, nh = m->nhinge;
+    const double hardly_strained = 1e-3;
+    double most[2] = {0};
+    double strained = 0;
+    for (int k = 0; k < nh; k++)
+        strained = fmax(strained, h->saw->hinge[k].strain.value);
+    for (int k = 0; k < nh; k++)
+        if (h->saw->hinge[k].strain.value > hardly_strained * strained)
+            hold_factor(saw->hinge[k].strain.value, h->saw->hinge[k].strain.value, h->f + 2 * k);
+    for (int i = 0; i < 2 * nb; i++)
+        most[i >= nb] = fmax(most[i >= nb], h->far[i]);
+    for (int i = 0; i < 2 * nb; i++)
+        if (h->far[i] > hardly_moves * most[i >= nb])
+            hold_factor(h->now[i], h->far[i], h->f + 2 * nh);
+}
+
+static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                              double by, const fw_dynamics_motion *like,
+                              const fw_dynamics_motion_options *given, const hold *h, bool *whole) {
+    fw_dynamics_motion_options o = *given;
+    const fw_dynamics_motion *x;
+    fw_verdict_strain_monitor monitor;
+    FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
+    o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    FW_TRY(fw_statics_move_stiffer(arena, m, scene, by, like, &o, &x));
+    *whole = x && !x->ended && !monitor.no_memory;
+    memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
+    if (*whole) fw_verdict_farthest(m, x, h->now), hold_run(m, &monitor, h);
+    return FW_OK;
+}
+
+/* more than a stiffness changes where nothing is thrown */
+static bool hold_changes(const hold *h, size_t nhinge, double stiffer) {
+    const double in_proportion = 1.5;
+    for (size_t k = 0; k < 2 * nhinge + 2; k++)
+        if (fabs(h->f[k] - 1) > in_proportion * stiffer) return true;
+    return false;
+}
+
+fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
+                                  const fw_dynamics_motion_options *options, bool brief,
+                                  fw_diags *diags, fw_verdict_variant_verdict *v) {
+    const long again = 3; /* it takes hold, lets go, and takes hold */
+    const double least = 5e-3, largest = 5e-2, told = 0.03, half = 0.5;
+    const fw_device_scene *s = &m->device->scene[i];
+    const fw_dynamics_motion *x = v->motion[i];
+    const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
+    const double e = fmin(fmax(fw_verdict_motion_lasting_error(m), least), largest);
+    if (!x || v->corner || nh == 0 || x->ended || !fw_statics_takes_hold(m, s, x, again))
+        return FW_OK;
+    hold h = {.saw = x->observed};
+    FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
+    h.now = h.far + n, h.f = h.now + n;
+    for (size_t k = 0; k < 2 * nh + 2; k++)
+        h.f[k] = 1;
+    fw_verdict_farthest(m, x, h.far);
+    bool whole = h.saw != NULL;
+    static const int thirds[] = {
+        -3, 2, -2, -1, 1, 3}; /* where the first two change nothing phases do not matter */
+    for (int k = 0; k < 6 && whole && (k != 2 || hold_changes(&h, nh, e)); k++)
+        FW_TRY(hold_stiffer(arena, m, s, e * thirds[k] / 3, x, options, &h, &whole));
+    double up = 1, down = 1, *to = v->shaken[i].factor;
+    for (size_t k = 0; k < 2 * nh + 2; k += 2) {
+        if (!whole) h.f[k] = fmax(h.f[k], 1 + half), h.f[k + 1] = fmin(h.f[k + 1], half);
+        to[k] *= h.f[k], to[k + 1] *= h.f[k + 1];
+        up = fmax(up, h.f[k]), down = fmin(down, h.f[k + 1]);
+    }
+    v->shaken[i].late = fmax(v->shaken[i].late, fmax(up - 1, 1 - down));
+    if (brief || !(fmax(up - 1, 1 - down) > told)) return FW_OK;
+    char most[32], fewest[32], off[32];
+    fw_diag_warning(
+        diags, 685, s->place,
+        "%s%s: what takes hold %ld times or so throws back by the phase that it meets: "
+        "with flexures stiffer or softer by up to %s %% its peaks are %s to %s times as "
+        "large, which the bands hold; damping, or fewer blows, make them surer",
+        FW_NAMED("scene", s->name), (x->stats.events + 1) / 2,
+        fw_number_text(off, sizeof off, 100 * e, 2), fw_number_text(fewest, sizeof fewest, down, 3),
+        fw_number_text(most, sizeof most, up, 3));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
