@@ -318,13 +318,8 @@ static fw_status solid_of_body(fw_arena *arena, held *h, const fw_mechanism_load
     FW_NEED(h->end = fw_arena_array(arena, fw_mechanism_solid_end, most));
     FW_NEED(h->load = fw_arena_array(arena, int, most));
     for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        if ((i % 2 ? pin->body_b : pin->body_a) != h->body) continue;
-        const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, i % 2),
-                               root = i % 2 ? pin->root_b_m : pin->root_a_m;
-        h->end[h->n++] = (fw_mechanism_solid_end){
-            .pin = at,
-            .root = vec_add(at, fw_geometry_vec_rotate(root, m->drawn[h->body].phi_rad))};
+        fw_mechanism_solid_end here = {0};
+        if (fw_mechanism_hinge_end(m, h->body, i, &here.pin, &here.root)) h->end[h->n++] = here;
     }
     h->nhinge = h->n;
     const fw_geometry_vec2 middle = m->layout->body[h->body].centroid;

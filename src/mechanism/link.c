@@ -86,6 +86,17 @@ fw_geometry_vec2 fw_mechanism_pin_place(const fw_mechanism *m, const fw_mechanis
                 : fw_mechanism_local_place(m, pin->body_a, pin->ax_m, pin->ay_m);
 }
 
+bool fw_mechanism_hinge_end(const fw_mechanism *m, int body, int i, fw_geometry_vec2 *at,
+                            fw_geometry_vec2 *root) {
+    const int side = i % 2;
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+    if ((side ? pin->body_b : pin->body_a) != body) return false;
+    *at = fw_mechanism_pin_place(m, pin, side);
+    *root = vec_add(
+        *at, fw_geometry_vec_rotate(side ? pin->root_b_m : pin->root_a_m, m->drawn[body].phi_rad));
+    return true;
+}
+
 /* ---- after a free strain ---- */
 
 /* Bodies and ground that have become longer: a free strain changes where the joints sit on a body,

@@ -176,6 +176,11 @@ void fw_mechanism_frame_acceleration(const fw_mechanism_mass *body, double phi_r
 fw_geometry_vec2 fw_mechanism_pin_place(const fw_mechanism *mechanism, const fw_mechanism_pin *pin,
                                         int side);
 
+/* where hinge i/2 ends in the body, on side i % 2: its pin, and where its flexure begins there, both in the drawn pose. false: that
+   side is of another body */
+bool fw_mechanism_hinge_end(const fw_mechanism *mechanism, int body, int i, fw_geometry_vec2 *pin,
+                            fw_geometry_vec2 *root);
+
 /* in the pose q (3 nbody), from its image on body a to that on body b: what a flexure there is displaced by */
 fw_geometry_vec2 fw_mechanism_pin_opened(const fw_mechanism_pin *pin, const double *q);
 

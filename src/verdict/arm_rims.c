@@ -366,11 +366,8 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
     FW_TRY(fw_verdict_pierced_boxes(arena, &outline));
     held[0] = layout->body[body].centroid;
     for (int k = 0; k < 2 * m->nhinge; k++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[k / 2].pin];
-        if ((k % 2 ? pin->body_b : pin->body_a) != body) continue;
-        const fw_geometry_vec2 root =
-            fw_geometry_vec_rotate(k % 2 ? pin->root_b_m : pin->root_a_m, m->drawn[body].phi_rad);
-        held[nheld++] = vec_add(fw_mechanism_pin_place(m, pin, k % 2), root);
+        fw_geometry_vec2 pin;
+        if (fw_mechanism_hinge_end(m, body, k, &pin, &held[nheld])) nheld++;
     }
     for (int i = 0; i < WAYS_OUT && outline.n > 0; i++) {
         const double angle = i * FW_TURN / WAYS_OUT,

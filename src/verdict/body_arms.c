@@ -475,15 +475,9 @@ typedef struct end { /* of a hinge, or where a load acts: pin and root are that 
 
 static int ends_of(const fw_mechanism *m, int body, fw_verdict_arm *arm, end *out) {
     int n = 0;
-    for (int k = 0; k < m->nhinge; k++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
-        for (int side = 0; side < 2; side++) {
-            if ((side ? pin->body_b : pin->body_a) != body) continue;
-            fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, side),
-                             root = side ? pin->root_b_m : pin->root_a_m;
-            out[n++] = (end){&arm[2 * k + side], at,
-                             vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
-        }
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        fw_geometry_vec2 pin, root;
+        if (fw_mechanism_hinge_end(m, body, i, &pin, &root)) out[n++] = (end){&arm[i], pin, root};
     }
     return n;
 }

@@ -421,12 +421,9 @@ static fw_status make_solid(fw_arena *arena, const solids *s, int body, fw_mecha
         fw_arena_array(arena, fw_mechanism_solid_end, 2 * (size_t)m->nhinge + 1);
     FW_NEED(end);
     for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
-        const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, i % 2),
-                               root = i % 2 ? pin->root_b_m : pin->root_a_m;
-        end[n++] = (fw_mechanism_solid_end){
-            .pin = at, .root = vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad))};
+        fw_mechanism_solid_end here = {0};
+        if (!fw_mechanism_hinge_end(m, body, i, &here.pin, &here.root)) continue;
+        end[n++] = here;
         if (s->arm[i].known) narrow = fmin(narrow, s->arm[i].narrow_m);
     }
     const int nhinge = n;

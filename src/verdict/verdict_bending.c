@@ -414,14 +414,9 @@ static fw_status straight_arms(fw_arena *arena, const fw_mechanism *m, const fw_
         fw_mechanism_edges edge;
         FW_TRY(fw_mechanism_edges_of(arena, layout, body, &edge));
         for (int i = 0; *known && i < 2 * m->nhinge; i++) {
-            const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-            if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
-            const fw_geometry_vec2 root = i % 2 ? pin->root_b_m : pin->root_a_m,
-                                   at = fw_mechanism_pin_place(m, pin, i % 2);
-            *known =
-                edge.all.n > 0 &&
-                walk(layout, &edge, at,
-                     vec_add(at, fw_geometry_vec_rotate(root, m->drawn[body].phi_rad)), &arm[i]);
+            fw_geometry_vec2 pin, root;
+            if (fw_mechanism_hinge_end(m, body, i, &pin, &root))
+                *known = edge.all.n > 0 && walk(layout, &edge, pin, root, &arm[i]);
         }
     }
     return FW_OK;
