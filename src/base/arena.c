@@ -121,7 +121,7 @@ const fw_cancel *fw_arena_request(const fw_arena *arena) {
 }
 
 fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes) {
-    fw_arena *arena = fw_arena_new(cap_bytes);
+    fw_arena *arena = fw_arena_new(cap_bytes ? cap_bytes : whole->cap);
     if (!arena) return NULL;
     arena->cancel = whole->cancel;
     arena->progress = whole->progress;

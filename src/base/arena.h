@@ -60,10 +60,11 @@ fw_arena *fw_arena_new(size_t cap_bytes);
 void fw_arena_free(fw_arena *arena); /* NULL allowed */
 
 /* The arena of a design is what all of its work has in hand, so it carries the request to stop that
-   work. A new arena has none; an arena for a part of the work has that of the whole. */
+   work. A new arena has none; an arena for a part of the work has that of the whole, and may take as much as the whole may where
+   its cap is 0. */
 void fw_arena_stop_with(fw_arena *arena, const fw_cancel *cancel); /* NULL: never stopped */
-fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes);  /* as fw_arena_new */
-const fw_cancel *fw_arena_request(const fw_arena *arena);          /* or NULL */
+fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes);
+const fw_cancel *fw_arena_request(const fw_arena *arena); /* or NULL */
 bool fw_arena_cancelled(const fw_arena *arena);
 /* likewise of those who are told: parts of the arena that are made from then on tell them, too */
 void fw_arena_tell_with(fw_arena *arena, const fw_progress *progress); /* NULL: nobody */

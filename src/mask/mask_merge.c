@@ -186,12 +186,10 @@ static void extend(fw_mask *m, fw_geometry_box b) {
                                fmax(m->box.y1, b.y1)};
 }
 
-fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *o,
-                         const fw_mask **out, fw_mask_merge_sums *sums) {
-    joined j = {0};
-    fw_geometry_merged merged;
-    FW_TRY(collect(arena, mask, o, &j));
-    FW_TRY(fw_geometry_merge(arena, j.input, j.n, j.term, j.nterm, o->vertices, &merged));
+/* what is joined, as it is written */
+static fw_status keep_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *o,
+                             const fw_geometry_merged *merged, const fw_mask **out,
+                             fw_mask_merge_sums *sums) {
     fw_mask *m = fw_arena_one(arena, fw_mask);
     FW_NEED(m);
     *m = *mask;
@@ -202,17 +200,17 @@ fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_mer
     m->nfinding = m->nbroken = 0;
     m->vertex_limit = o->vertices;
     m->box = (fw_geometry_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    m->nshape = merged.n;
-    FW_NEED(m->shape = fw_arena_array(arena, fw_mask_shape, (size_t)merged.n + 1));
-    *sums = (fw_mask_merge_sums){.cuts = merged.cuts,
-                                 .holes = merged.holes,
-                                 .rounded = merged.rounded,
-                                 .clear_m = merged.clear_m,
-                                 .area_m2 = 0.5e-18 * (double)merged.area2_dbu};
-    for (int i = 0; i < merged.n; i++) {
+    m->nshape = merged->n;
+    FW_NEED(m->shape = fw_arena_array(arena, fw_mask_shape, (size_t)merged->n + 1));
+    *sums = (fw_mask_merge_sums){.cuts = merged->cuts,
+                                 .holes = merged->holes,
+                                 .rounded = merged->rounded,
+                                 .clear_m = merged->clear_m,
+                                 .area_m2 = 0.5e-18 * (double)merged->area2_dbu};
+    for (int i = 0; i < merged->n; i++) {
         fw_geometry_polygon p;
         fw_mask_shape *s = &m->shape[i];
-        FW_TRY(placed(arena, &merged.polygon[i], o, &p));
+        FW_TRY(placed(arena, &merged->polygon[i], o, &p));
         FW_TRY(shape_of(arena, &p, o->vertices, s));
         extend(m, s->box);
         sums->polygons += s->npart > 0 ? s->npart : 1;
@@ -222,4 +220,19 @@ fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_mer
     }
     *out = m;
     return FW_OK;
+}
+
+/* edges and joints of what is joined take ten times what comes of it, and are given back */
+fw_status fw_mask_merged(fw_arena *arena, const fw_mask *mask, const fw_mask_merge_options *o,
+                         const fw_mask **out, fw_mask_merge_sums *sums) {
+    joined j = {0};
+    fw_geometry_merged merged;
+    fw_arena *scratch = fw_arena_part(arena, 0);
+    FW_NEED(scratch);
+    fw_status status = collect(scratch, mask, o, &j);
+    if (status == FW_OK)
+        status = fw_geometry_merge(scratch, j.input, j.n, j.term, j.nterm, o->vertices, &merged);
+    if (status == FW_OK) status = keep_merged(arena, mask, o, &merged, out, sums);
+    fw_arena_free(scratch);
+    return status;
 }

@@ -411,12 +411,12 @@ static fw_status write_wafer(writer *w, const fw_plan_flow *pf, unsigned set) {
 }
 
 static fw_status write_written_plate(writer *w, const fw_plan_flow *pf, const fw_wafer *wafer,
-                                     int plate, unsigned set) {
+                                     int plate, unsigned set, fw_arena *arena) {
     fw_wafer_written written;
     const char *of = of_plate(w, pf->table, plate);
     const char *name = of ? fw_arena_printf(w->plan->arena, "%s-plate%s", pf->use->ref, of) : NULL;
     FW_NEED(name);
-    FW_TRY(fw_wafer_written_of(w->plan->arena, wafer, plate, &written));
+    FW_TRY(fw_wafer_written_of(arena, wafer, plate, &written));
     const fw_mask_format *format;
     for (size_t i = 0; (format = fw_mask_format_at(i)); i++) {
         if (!(set & 1u << i) || !format->plate || format->plate == fw_mask_plate_svg) continue;
@@ -441,9 +441,14 @@ static fw_status write_plates(writer *w, const fw_plan_flow *pf) {
     unsigned set;
     if (!fw_mask_formats(w->plan->options.mask_formats, &set)) return FW_USAGE;
     if (pf->wafer) FW_TRY(write_wafer(w, pf, set));
-    for (int plate = 0; wafer && plate < fw_mask_plates(pf->table); plate++)
-        FW_TRY(write_written_plate(w, pf, wafer, plate, set));
-    return FW_OK;
+    fw_status status = FW_OK;
+    for (int plate = 0; wafer && plate < fw_mask_plates(pf->table) && status == FW_OK; plate++) {
+        fw_arena *own = fw_arena_part(w->plan->arena, 0); /* one plate at a time is in hand */
+        FW_NEED(own);
+        status = write_written_plate(w, pf, wafer, plate, set, own);
+        fw_arena_free(own);
+    }
+    return status;
 }
 
 /* beside the run sheet or, where only masks are asked for, beside them */
@@ -578,11 +583,9 @@ static fw_status write_directory(fw_plan *plan, const char *directory, unsigned 
     plan->files_written = 0;
     fw_status status = fw_output_open(plan->arena, directory, &plan->diags, &w.output);
     if (status == FW_OK) status = write(&w, what);
-    if (status == FW_OK && plan->files_written > 0)
-        status = fw_output_commit(w.output);
-    else
-        fw_output_abort(w.output);
-    if (status != FW_OK) fw_output_abort(w.output);
+    const bool whole = status == FW_OK && plan->files_written > 0;
+    if (whole) status = fw_output_commit(w.output);
+    if (!whole || status != FW_OK) fw_output_abort(w.output);
     fw_arena_free(w.scratch);
     return status;
 }

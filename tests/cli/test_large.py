@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Equilibria and modes of thousands of bodies, against closed forms."""
+"""Equilibria and modes of thousands of bodies, against closed forms; a wafer of thousands of holes in little memory."""
 import json
 import math
 import pathlib
@@ -8,7 +8,7 @@ import re
 import tempfile
 import unittest
 
-from common import run
+from common import ROOT, run
 
 WEIGHT = 9.81e-6  # N of a milligram
 
@@ -75,6 +75,14 @@ class Large(unittest.TestCase):
         ran = run(command, self.path, "--json", *more)
         self.assertEqual(ran.returncode, 0, ran.stderr)
         return json.loads(ran.stdout)
+
+    def test_a_swept_wafer_with_release_holes(self):
+        """what is joined for one plate is given back before the next: each takes as much as all that was computed"""
+        with tempfile.TemporaryDirectory() as out:
+            done = run("mask", ROOT / "tests/data/swept-holes.xml", "-o", pathlib.Path(out) / "masks", "-q", "--memory", 100, "--corners", "none",
+                       "--advice", "none")
+            self.assertEqual(done.returncode, 4, done.stderr)  # a comb and a stage may not be accepted; the masks are there
+            self.assertIn("soi-deep-rie-plate.gds", " ".join(str(p) for p in pathlib.Path(out).rglob("*.gds")))
 
     def test_modes_of_hanging_chains(self):
         """of n pendula in a row omega^2 = g/l times the zeros of Laguerre's polynomial L_n"""
