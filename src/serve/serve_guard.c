@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "serve/serve_guard.h"
+#include "serve/server.h"
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>

@@ -455,3 +455,42 @@ double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
     const double nearest = by_nearest || meet ? fw_verdict_search_used_nearest(c) : 0;
     return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
 }
+
+/* ---- what may still decide what is required ---- */
+
+const char fw_verdict_at_rest[] = "at rest";
+
+/* as a hinge */
+static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
+    double relative = r->value != 0 ? r->numeric / fabs(r->value) : 0;
+    return (fw_verdict_hinge_verdict){.scene = r->scene ? r->scene : fw_verdict_at_rest,
+                                      .utilisation = r->utilisation,
+                                      .utilisation_low = r->utilisation_low,
+                                      .utilisation_high = r->utilisation_high,
+                                      .numeric = r->utilisation * relative,
+                                      .lasting = r->lasting,
+                                      .decision = r->decision};
+}
+
+fw_verdict_refinement fw_verdict_requirements_refinement(const fw_verdict_requirement *requirement,
+                                                         int count) {
+    fw_verdict_refinement most = FW_REFINE_NOTHING;
+    for (int k = 0; k < count; k++) {
+        if (!(requirement[k].utilisation > 0) || requirement[k].why) continue;
+        const fw_verdict_hinge_verdict h = as_hinge(&requirement[k]);
+        const fw_verdict_refinement now = fw_verdict_refinement_of(&h, 1);
+        if (now == FW_REFINE_HINGES || most == FW_REFINE_NOTHING) most = now;
+    }
+    return most;
+}
+
+double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement, int count,
+                                      double accuracy) {
+    double enough = accuracy;
+    for (int k = 0; k < count; k++) {
+        if (!(requirement[k].utilisation > 0) || requirement[k].why) continue;
+        const fw_verdict_hinge_verdict h = as_hinge(&requirement[k]);
+        enough = fmin(enough, fw_verdict_enough(&h, 1, accuracy));
+    }
+    return enough;
+}

@@ -266,6 +266,9 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *mechanism, 
                                 fw_verdict_bending *bending);
 void fw_verdict_places_record(fw_verdict_bending *bending, const fw_dynamics_instant *now);
 void fw_verdict_places_end(fw_verdict_bending *bending);
+/* force and couple that act on a place now, N, N, N m, world; stored_J NULL, or += what is stored there */
+void fw_verdict_place_acts(const fw_verdict_place *place, const fw_dynamics_instant *now,
+                           double acts[3], double *stored_J);
 /* what of all that bodies store counts for the bands of a motion: places and solids as soon as it has ended */
 double fw_verdict_bending_all_J(const fw_verdict_bending *bending);
 /* Relative error of a probe beside fw_verdict_bending_share: of a speed what bodies give under the loads that the scene states; of

@@ -464,6 +464,20 @@ fw_status fw_verdict_clearance_boxes(fw_arena *arena, const fw_device *device,
 fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
                                       fw_verdict_variant_verdict *v);
 
-/* of any scene the most of fw_verdict_bending_share, for small motions, of which no forces are known */
+/* of any scene the most of fw_verdict_bending_share, for small motions of which no forces are known */
 double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v);
+
+/* body_solids.c: what bodies leave at least of a stiffness, of the inverse of a compliance, or of a frequency that is asked for.
+   closely: as solids, which stay in v; mode: its number in the plane */
+typedef struct fw_verdict_soft {
+    bool looked;
+    double
+        of_scenes; /* share that bodies give there, where forces of small motions are not known */
+    const fw_statics_modes *modes; /* at rest, flexures give; NULL: they are not all known */
+} fw_verdict_soft;
+fw_status fw_verdict_soft_new(fw_arena *arena, const fw_effect_choice *with, double of_scenes,
+                              const fw_verdict_variant_verdict *v, fw_verdict_soft *soft);
+fw_status fw_verdict_soft_leaves(fw_arena *arena, const fw_verdict_soft *soft,
+                                 const fw_probe *probe, int mode, double value, bool closely,
+                                 fw_verdict_variant_verdict *v, double *left);
 #endif

@@ -516,6 +516,48 @@ class NearAFold(unittest.TestCase):
         self.assertEqual(decision, "inconclusive")
 
 
+class BodiesInSmallMotions(unittest.TestCase):
+    """What bodies give to a probed stiffness, a compliance or a frequency goes by the loads of that, whatever the scenes are"""
+    LEGS = ROOT / "tests/data/legs-that-bend.xml"
+
+    def judged(self, text, *settings):
+        done = run("check", "-", "--corners", "none", "--advice", "none", "--json", *(w for s in settings for w in ("--set", s)), input=text)
+        return {r["probe"]: r for r in json.loads(done.stdout)["requirements"]}
+
+    def holds(self, found, value):
+        self.assertTrue(found["band"][0] < value < found["band"][1], (found, value))
+
+    def test_legs_that_bend(self):
+        text = self.LEGS.read_text()
+        found = self.judged(text)
+        gives = (2 * 240 / 14 + 1960 / 34) / (160e9 * 50e-6)  # of one leg along itself
+        self.holds(found["ky"], 2 / gives)
+        self.holds(found["cy"], gives / 2)
+        self.holds(found["frequency-2"], 28.4e3)  # of beams with their own mass
+        for probe in ("ky", "cy", "frequency-2"):
+            self.assertEqual(found[probe]["verdict"], "inconclusive", found[probe])
+        # pushed along its legs, which is another load path, the same is known of what is asked at rest
+        other = self.judged(text.replace('fx="150 uN" fy="0 uN"', 'fx="0 uN" fy="150 uN"'))
+        for probe in ("ky", "cy", "frequency-2"):
+            for a, b in zip(found[probe]["band"], other[probe]["band"]):
+                self.assertAlmostEqual(a / b, 1, 6)
+
+    def test_wide_legs_give_little(self):
+        # 300 um: leaves give 34.3 of 40.8 over E h, and the plate as a beam of 1 mm on its hinges half as much again
+        text = re.sub(r' release-pitch="120 um"', "", self.LEGS.read_text()).replace('width="34 um"', 'width="300 um"')
+        found = self.judged(text)
+        stiff = 160e9 * 50e-6
+        plate = 1e-3**3 / (48 * stiff * 300e-6**3 / 12)
+        self.holds(found["ky"], 1 / ((2 * 240 / 14 + 1960 / 300) / (2 * stiff) + plate))
+        self.assertGreater(found["ky"]["band"][0], 0.3 * found["ky"]["value"])
+
+    def test_a_stage_on_three_legs(self):
+        # without mobility; beams with their own mass have 31.5 kHz, where rigid legs have 87
+        found = self.judged((ROOT / "tests/data/three-legs.xml").read_text())
+        self.holds(found["frequency-1"], 31.5e3)
+        self.assertEqual(found["frequency-1"]["verdict"], "inconclusive")
+
+
 class SlenderArms(unittest.TestCase):
     """Bodies are rigid in the motion. What an arm gives where something presses on its end, and whether it bears that, was not in any
     verdict but of displacements and gaps. Numbers are those of beams with large turns, each a leaf's and the arm's elements."""

@@ -18,7 +18,7 @@
 #include "mutate.h"
 #include "process/pack.h"
 #include "recipe/asrun.h"
-#include "serve/serve_guard.h"
+#include "serve/server.h"
 #include "study/study.h"
 #include <glob.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The guard against an independent list of what is right, and every single change of a right
  * request. */
-#include "serve/serve_guard.h"
+#include "serve/server.h"
 #include "test.h"
 
 static fw_serve_guard guard;

@@ -1,0 +1,561 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What bodies store as plane solids (mechanism/body_solid.c), in place of beams, where they give much: along a motion, and in
+   small motions, of which no scene need know anything. Theory: docs/theory/verdict.md, 5b. */
+#include "base/constants.h"
+#include "geometry/segment.h"
+#include "maths/dense.h"
+#include "statics/statics.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- along a motion ---- */
+
+/* What hinges and loads put on bodies, at up to KEPT instants that lie equally far from each other in number: where they are
+   more, every second one is left out. An instant: (3 nhinge) moment of the flexure, N m, and force on body b, N, world; (nbody)
+   how far each has turned; (3 nplace) force and couple of what acts there */
+enum { KEPT = 256 };
+
+static size_t instant_size(const fw_mechanism *m, int nplace) {
+    return 3 * (size_t)m->nhinge + (size_t)m->nbody + 3 * (size_t)nplace;
+}
+
+fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *m, int nplace,
+                                    fw_verdict_solid_kept **kept) {
+    FW_NEED(*kept = fw_arena_one(arena, fw_verdict_solid_kept));
+    (*kept)->nplace = nplace;
+    FW_NEED((*kept)->instant = fw_arena_array(arena, double, KEPT *instant_size(m, nplace)));
+    fw_verdict_solid_keep_none(*kept);
+    return FW_OK;
+}
+
+void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept) {
+    kept->n = kept->seen = 0, kept->every = 1;
+}
+
+void fw_verdict_solid_keep(const fw_verdict_bending *b, const fw_mechanism *m,
+                           const fw_dynamics_instant *now) {
+    fw_verdict_solid_kept *kept = b->kept;
+    const size_t size = instant_size(m, kept->nplace);
+    if (kept->seen++ % kept->every != 0) return;
+    if (kept->n == KEPT) {
+        for (size_t i = 1; 2 * i < KEPT; i++)
+            memcpy(kept->instant + i * size, kept->instant + 2 * i * size, size * sizeof(double));
+        kept->n = KEPT / 2, kept->every *= 2;
+    }
+    double *to = kept->instant + (size_t)kept->n++ * size;
+    for (int k = 0; k < m->nhinge; k++) {
+        const int j = m->hinge[k].pin;
+        *to++ = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
+        *to++ = now->reaction_N[2 * j];
+        *to++ = now->reaction_N[2 * j + 1];
+    }
+    for (int i = 0; i < m->nbody; i++)
+        *to++ = b->turn[i].rad;
+    for (int i = 0; i < b->nplace; i++, to += 3)
+        fw_verdict_place_acts(&b->place[i], now, to, NULL);
+}
+
+typedef struct solids {
+    const fw_mechanism *m;
+    const fw_layout *layout;
+    const fw_verdict_arm *arm;
+    double stiff_N;
+} solids;
+
+/* where loads act on a body, in any scene; 0 where one of them is narrower than the body's hinges and their ways, or there are
+   too many: then all acts in the middle */
+static fw_status add_loads(fw_arena *arena, const solids *s, int body, double narrow_m,
+                           fw_mechanism_solid_end **end, int *n) {
+    enum { LOADS = 16 };
+    fw_mechanism_load_end *load;
+    int nload, first = *n;
+    FW_TRY(fw_mechanism_load_ends(arena, s->m, &load, &nload));
+    FW_NEED(*end =
+                fw_arena_grow(arena, *end, (size_t)*n, (size_t)*n + (size_t)nload, sizeof **end));
+    for (int k = 0; k < nload; k++) {
+        const fw_verdict_arm *arm = &s->arm[2 * s->m->nhinge + k];
+        if (load[k].body != body || load[k].first != k) continue;
+        if (!arm->known || arm->narrow_m < narrow_m || *n - first >= LOADS) {
+            *n = first;
+            return FW_OK;
+        }
+        (*end)[(*n)++] = (fw_mechanism_solid_end){.pin = load[k].at, .root = load[k].at};
+    }
+    return FW_OK;
+}
+
+/* hinge ends in the order of hinges and sides, then the middle, then where loads act, if that is known */
+static fw_status make_solid(fw_arena *arena, const solids *s, int body, fw_mechanism_solid *out) {
+    const fw_mechanism *m = s->m;
+    fw_mechanism_line *line;
+    int nline, n = 0;
+    double narrow = HUGE_VAL;
+    fw_mechanism_solid_end *end =
+        fw_arena_array(arena, fw_mechanism_solid_end, 2 * (size_t)m->nhinge + 1);
+    FW_NEED(end);
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        fw_mechanism_solid_end here = {0};
+        if (!fw_mechanism_hinge_end(m, body, i, &here.pin, &here.root)) continue;
+        end[n++] = here;
+        if (s->arm[i].known) narrow = fmin(narrow, s->arm[i].narrow_m);
+    }
+    const int nhinge = n;
+    const fw_geometry_vec2 middle = s->layout->body[body].centroid;
+    end[n++] = (fw_mechanism_solid_end){.pin = middle, .root = middle, .nearest = true};
+    FW_TRY(add_loads(arena, s, body, narrow, &end, &n));
+    FW_TRY(fw_mechanism_body_lines(arena, s->layout, body, &line, &nline));
+    const fw_mechanism_solid_mesh as = {.middle = middle, .narrow_m = narrow};
+    FW_TRY(fw_mechanism_solid_of(arena, line, nline, &as, end, n, out));
+    if (!out->known && n > nhinge + 1)
+        FW_TRY(fw_mechanism_solid_of(arena, line, nline, &as, end, nhinge + 1, out));
+    out->nhinge = nhinge, out->end = end;
+    return FW_OK;
+}
+
+/* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose, and in its middle, `about`, all else: what
+   loads, and inertia, bend beyond that is another bound (theory, 5a). placed: what acts at places is there, and not in the middle */
+static void wrenches_of(const solids *s, const fw_verdict_bending *b, int body,
+                        const fw_mechanism_solid *of, const double *instant, bool placed,
+                        fw_geometry_vec2 about, double *w) {
+    const fw_mechanism *m = s->m;
+    const double turn = instant[3 * m->nhinge + body], *acts = instant + 3 * m->nhinge + m->nbody;
+    const double same_m = 1e-9;
+    double rest[3] = {0}, *first = w;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        const double *on = instant + 3 * (i / 2), sign = i % 2 ? 1 : -1;
+        const fw_geometry_vec2 force = fw_geometry_vec_rotate(
+                                   (fw_geometry_vec2){sign * on[1], sign * on[2]}, -turn),
+                               arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
+        *w++ = -sign * on[0], *w++ = force.x, *w++ = force.y;
+        rest[0] -= -sign * on[0] + vec_cross(arm, force);
+        rest[1] -= force.x, rest[2] -= force.y;
+    }
+    double *middle = w;
+    for (w += 3; w < first + 3 * of->n; w++)
+        *w = 0;
+    for (int i = 0; placed && i < b->nplace; i++, acts += 3) {
+        const fw_verdict_place *at = &b->place[i];
+        if (at->body != body) continue;
+        const fw_geometry_vec2 place = fw_mechanism_local_place(m, body, at->x_m, at->y_m),
+                               arm = vec_sub(place, about),
+                               force = fw_geometry_vec_rotate((fw_geometry_vec2){acts[0], acts[1]},
+                                                              -turn);
+        int end = of->nhinge + 1;
+        while (end < of->n && vec_distance(of->end[end].pin, place) > same_m)
+            end++;
+        if (end == of->n) continue; /* it stays in the middle */
+        double *to = first + 3 * end;
+        to[0] += acts[2], to[1] += force.x, to[2] += force.y;
+        rest[0] -= acts[2] + vec_cross(arm, force);
+        rest[1] -= force.x, rest[2] -= force.y;
+    }
+    memcpy(middle, rest, sizeof rest);
+}
+
+/* largest over instants: as beams, and as solids where these are known, with what acts beside hinges in the middle and where
+   it does */
+typedef struct stored {
+    double beams_J, solids_J, acted_J, gone;
+    double *beam_J, *solid_J; /* (nbody) */
+} stored;
+
+/* how far the end of a hinge goes over its width, or turns over its limit, against the middle of a solid */
+static double end_goes(const solids *s, const fw_mechanism_solid *of, const double *w, int end,
+                       const fw_mechanism_hinge *h, fw_geometry_vec2 arm) {
+    double to[3], middle[3];
+    fw_mechanism_solid_goes(of, s->stiff_N, w, end, to);
+    fw_mechanism_solid_goes(of, s->stiff_N, w, of->nhinge, middle);
+    const double far =
+        hypot(to[1] - middle[1] + middle[0] * arm.y, to[2] - middle[2] - middle[0] * arm.x);
+    return fmax(far / h->input.width_m, fabs(to[0] - middle[0]) / h->closed_form.limit_angle_rad);
+}
+
+/* of one body: adds to what all store at the instant */
+static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
+                        const fw_mechanism_solid *of, const double *instant, double *w,
+                        stored *most, double sum[3]) {
+    const fw_mechanism *m = s->m;
+    const double rad = instant[3 * m->nhinge + body];
+    const fw_verdict_turn turn = {rad, cos(rad), sin(rad)};
+    const fw_geometry_vec2 about = s->layout->body[body].centroid;
+    double beam = 0;
+    if (of->known) wrenches_of(s, b, body, of, instant, false, about, w);
+    for (int i = 0, end = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_hinge *h = &m->hinge[i / 2];
+        const fw_mechanism_pin *pin = &m->pin[h->pin];
+        const double *on = instant + 3 * (i / 2);
+        if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
+        const fw_geometry_vec2 arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
+        if (of->known)
+            most->gone = fmax(most->gone, end_goes(s, of, w, end++, h, arm));
+        else if (s->arm[i].known)
+            most->gone =
+                fmax(most->gone, fw_verdict_arm_gone(b, h, &s->arm[i], -on[0], on + 1, &turn));
+        if (s->arm[i].known)
+            beam += fw_verdict_arm_energy_J(&s->arm[i], s->stiff_N, -on[0], on[1], on[2], &turn);
+    }
+    const double one = of->known ? fw_mechanism_solid_energy_J(of, s->stiff_N, w) : beam;
+    double acted = one;
+    if (of->known && of->n > of->nhinge + 1) {
+        wrenches_of(s, b, body, of, instant, true, about, w);
+        acted = fw_mechanism_solid_energy_J(of, s->stiff_N, w);
+    }
+    most->beam_J[body] = fmax(most->beam_J[body], beam);
+    most->solid_J[body] = fmax(most->solid_J[body], one);
+    sum[0] += beam, sum[1] += one, sum[2] += acted;
+}
+
+static fw_status take_solids(fw_arena *arena, const solids *s, const fw_mechanism_solid *solid,
+                             fw_verdict_bending *b) {
+    const fw_mechanism *m = s->m;
+    const size_t bodies = (size_t)m->nbody;
+    stored most = {.beam_J = fw_arena_array(arena, double, bodies),
+                   .solid_J = fw_arena_array(arena, double, bodies)};
+    int most_ends = 0;
+    for (int i = 0; i < m->nbody; i++)
+        most_ends = solid[i].n > most_ends ? solid[i].n : most_ends;
+    double *w = fw_arena_array(arena, double, 3 * (size_t)most_ends + 3);
+    FW_NEED(most.beam_J && most.solid_J ? w : NULL);
+    for (int k = 0; k < b->kept->n; k++) {
+        const double *instant = b->kept->instant + (size_t)k * instant_size(m, b->nplace);
+        double sum[3] = {0};
+        for (int i = 0; i < m->nbody; i++)
+            body_stores(s, b, i, &solid[i], instant, w, &most, sum);
+        most.beams_J = fmax(most.beams_J, sum[0]), most.solids_J = fmax(most.solids_J, sum[1]);
+        most.acted_J = fmax(most.acted_J, sum[2]);
+    }
+    if (!(most.beams_J > 0)) return FW_OK;
+    bool acted = true;
+    for (int i = 0; i < b->nplace; i++) {
+        const fw_mechanism_solid *of = &solid[b->place[i].body];
+        acted = acted && (!(b->place[i].force_N > 0) || (of->known && of->n > of->nhinge + 1));
+    }
+    if (acted) b->acted_J = b->bodies_J * most.acted_J / most.beams_J;
+    b->bodies_J *= most.solids_J / most.beams_J;
+    b->gone = most.gone;
+    for (int i = 0; i < m->nbody; i++)
+        if (most.beam_J[i] > 0) b->body_J[i] *= most.solid_J[i] / most.beam_J[i];
+    return FW_OK;
+}
+
+/* Solids are made of bodies that as beams give a hundredth of what the hinges do, where all of them come to what is told */
+static fw_status by_solids(fw_arena *arena, const fw_layout *layout, fw_verdict_bending *b,
+                           fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const double hardly = 0.01;
+    solids s = {.m = m, .layout = layout, .arm = b->arm, .stiff_N = b->stiff_N};
+    if (!b->kept || b->kept->n == 0 || !(b->bodies_J > fw_verdict_bending_told * b->hinges_J))
+        return FW_OK;
+    fw_mechanism_solid *solid = fw_arena_array(arena, fw_mechanism_solid, (size_t)m->nbody);
+    FW_NEED(solid);
+    for (int i = 0; i < m->nbody; i++) {
+        if (v->solid) solid[i] = v->solid[i];
+        if (!solid[i].fine && b->body_J[i] > hardly * b->hinges_J)
+            FW_TRY(make_solid(arena, &s, i, &solid[i]));
+    }
+    v->solid = solid;
+    return take_solids(arena, &s, solid, b);
+}
+
+fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout,
+                                 fw_verdict_strain_monitor *monitor,
+                                 fw_verdict_strain_monitor *other, fw_verdict_variant_verdict *v) {
+    FW_TRY(by_solids(arena, layout, &monitor->bending, v));
+    FW_TRY(by_solids(arena, layout, &other->bending, v));
+    fw_verdict_places_end(&monitor->bending);
+    fw_verdict_places_end(&other->bending);
+    return FW_OK;
+}
+
+/* ---- small motions ----
+   A load f at rest displaces rigid bodies on flexures that give by
+
+     u = sum over modes of phi (phi . f)/(M omega^2)
+
+   and flexures put on their bodies by it what is in balance with f. With what bodies store by that, U_b(f), the theorem of
+   least complementary energy bounds what the whole device gives, and Weyl's inequality every frequency, c_h and omega_h those of rigid bodies:
+
+     c(f) <= c_h(f) + 2 U_b(f)
+
+   So C_h + B, B the form of 2 U_b for forces and couples in the middles of bodies, is at least what the device gives, and its
+   eigenvalues with the masses, each in its order, are at least 1/omega^2. A body that swings by itself between its hinges
+   is among them.
+
+   In: the mechanism at rest, arms (body_arms.c), solids where they are known. Out: 2 U_b(f) of a place, m/N, with the way from there to the
+   body's middle; of a mode what 1/omega^2 grows by, s^2. Range: flexures with an axis, no joints beside them, all modes found. Error: a
+   bound; from the other side bodies are rigid. Bodies' masses lie in their middles: what hangs over is another bound
+   (FW-D640). Cost: one search for modes at rest; for a frequency (3 nbody)^2 energies. Source: S. Timoshenko, J. Goodier,
+   Theory of Elasticity, 3rd ed., art. 86; H. Weyl, Math. Ann. 71 (1912) 441. Test: test_effects.py
+   BodiesInSmallMotions */
+
+typedef struct small {
+    fw_arena *arena;
+    solids s;
+    const fw_mechanism_solid *solid;
+    const fw_statics_modes *modes;
+    fw_verdict_bending at; /* the place that is loaded, or none */
+    fw_verdict_place place;
+    double *f, *u, *instant, *w;
+    stored most;
+} small;
+
+enum { MOST_BODIES = 40 };
+
+static double mass_of(const fw_mechanism *m, int coordinate) {
+    const fw_mechanism_mass *of = &m->body[coordinate / 3];
+    return coordinate % 3 == 2 ? of->inertia_kg_m2 : of->mass_kg;
+}
+
+static bool has_laws(const fw_mechanism *m) {
+    for (int k = 0; k < m->nhinge; k++) {
+        fw_flexure_hinge_at at;
+        fw_flexure_hinge_law_at(&m->hinge[k].law, 0, &at);
+        if (!isfinite(m->hinge[k].axis_rad) || !(at.kx_N_per_m.value > 0) ||
+            !isfinite(at.kx_N_per_m.value) || !(at.ky_N_per_m.value > 0) ||
+            !isfinite(at.ky_N_per_m.value))
+            return false;
+    }
+    return m->nhinge > 0 && m->njoint == 0 && m->layout != NULL && m->nbody <= MOST_BODIES;
+}
+
+/* *modes NULL: they are not all found */
+static fw_status modes_at_rest(fw_arena *arena, const fw_mechanism *m, const fw_effect_choice *with,
+                               const fw_statics_modes **modes) {
+    static const fw_device_scene nothing = {.name = "(none)", .duration_s = 1};
+    fw_statics_mode_options o = {.effects = *with, .accuracy = 0.03};
+    o.effects.hinge = FW_HINGE_COMPLIANCE;
+    fw_diags own = fw_diags_new(arena);
+    *modes = NULL;
+    const fw_status status = fw_statics_small_motions(arena, m, &nothing, &o, &own, modes);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    if (status != FW_OK || (*modes)->count < (*modes)->dof) *modes = NULL;
+    for (int k = 0; *modes && k < (*modes)->count; k++)
+        if (!((*modes)->mode[k].stiffness_per_s2 > 0)) *modes = NULL;
+    return FW_OK;
+}
+
+static void displace(const small *x) {
+    const size_t n = 3 * (size_t)x->modes->nbody;
+    memset(x->u, 0, n * sizeof *x->u);
+    for (int k = 0; k < x->modes->count; k++) {
+        const fw_statics_mode *mode = &x->modes->mode[k];
+        double by = 0;
+        for (size_t i = 0; i < n; i++)
+            by += mode->shape[i] * x->f[i];
+        by /= mode->modal_mass_kg_m2 * mode->stiffness_per_s2;
+        for (size_t i = 0; i < n; i++)
+            x->u[i] += by * mode->shape[i];
+    }
+}
+
+/* moment of the flexure, and force on body b, world, as an instant of a motion has them */
+static void hinge_puts(const small *x, int hinge, double on[3]) {
+    const fw_mechanism *m = x->s.m;
+    const fw_mechanism_hinge *h = &m->hinge[hinge];
+    const fw_mechanism_pin *pin = &m->pin[h->pin];
+    fw_flexure_hinge_at at;
+    fw_geometry_vec2 d = {0, 0};
+    double turn = 0;
+    for (int side = 0; side < 2; side++) {
+        const int body = side ? pin->body_b : pin->body_a;
+        const double sign = side ? 1 : -1, *u = x->u + 3 * body;
+        if (body == FW_GROUND) continue;
+        const fw_geometry_vec2 r =
+            vec_sub(fw_mechanism_pin_place(m, pin, side),
+                    (fw_geometry_vec2){m->drawn[body].x_m, m->drawn[body].y_m});
+        d.x += sign * (u[0] - u[2] * r.y), d.y += sign * (u[1] + u[2] * r.x);
+        turn += sign * u[2];
+    }
+    fw_flexure_hinge_law_at(&h->law, 0, &at);
+    const double c = cos(h->axis_rad), s = sin(h->axis_rad),
+                 along = at.kx_N_per_m.value * (c * d.x + s * d.y),
+                 across = at.ky_N_per_m.value * (c * d.y - s * d.x);
+    on[0] = pin->stiffness_Nm_per_rad * turn;
+    on[1] = across * s - along * c, on[2] = -along * s - across * c;
+}
+
+/* 2 U_b of the load x->f: as beams, and as solids where they are known, with what acts at the place there, too, if that is known */
+static void load_stores(small *x, double *beams, double *found) {
+    const fw_mechanism *m = x->s.m;
+    double sum[3] = {0};
+    displace(x);
+    for (int k = 0; k < m->nhinge; k++)
+        hinge_puts(x, k, x->instant + 3 * k);
+    for (int i = 0; i < m->nbody; i++)
+        body_stores(&x->s, &x->at, i, &x->solid[i], x->instant, x->w, &x->most, sum);
+    *beams = 2 * sum[0], *found = 2 * (x->at.nplace > 0 ? sum[2] : sum[1]);
+}
+
+/* Of all that bodies may store those that store a twentieth of it are made solids */
+static fw_status make_solids(small *x, fw_verdict_variant_verdict *v) {
+    const int n = x->s.m->nbody;
+    const double part = 0.05;
+    double all = 0;
+    fw_mechanism_solid *solid = fw_arena_array(x->arena, fw_mechanism_solid, (size_t)n);
+    FW_NEED(solid);
+    for (int i = 0; i < n; i++)
+        all += x->most.beam_J[i];
+    for (int i = 0; i < n; i++) {
+        solid[i] = x->solid[i];
+        if (!solid[i].fine && x->most.beam_J[i] > part * all)
+            FW_TRY(make_solid(x->arena, &x->s, i, &solid[i]));
+    }
+    x->solid = v->solid = solid;
+    return FW_OK;
+}
+
+static fw_status small_new(fw_arena *arena, const fw_verdict_variant_verdict *v, small *x) {
+    const fw_mechanism *m = v->mechanism;
+    const size_t bodies = (size_t)m->nbody;
+    size_t ends = 2 * (size_t)m->nhinge + 64;
+    const fw_mechanism_solid *none = fw_arena_array(arena, fw_mechanism_solid, bodies);
+    FW_NEED(none);
+    x->arena = arena;
+    x->s = (solids){.m = m,
+                    .layout = m->layout,
+                    .arm = v->arm,
+                    .stiff_N = m->variant->material.youngs.value * m->variant->thickness_m};
+    x->solid = v->solid ? v->solid : none;
+    x->at = (fw_verdict_bending){.arm = v->arm, .stiff_N = x->s.stiff_N, .place = &x->place};
+    for (int i = 0; i < m->nbody; i++)
+        if (x->solid[i].known) ends += (size_t)x->solid[i].n;
+    FW_NEED(x->f = fw_arena_array(arena, double, 6 * bodies + instant_size(m, 1) + 3 * ends));
+    x->u = x->f + 3 * bodies, x->instant = x->u + 3 * bodies;
+    x->w = x->instant + instant_size(m, 1);
+    FW_NEED(x->most.beam_J = fw_arena_array(arena, double, 2 * bodies));
+    x->most.solid_J = x->most.beam_J + bodies;
+    return FW_OK;
+}
+
+/* a unit load at the probe's place, and as what acts there */
+static fw_status load_place(small *x, const fw_probe *p) {
+    const fw_mechanism *m = x->s.m;
+    const fw_effects_port *at = &p->point[0];
+    const double c = cos(p->asked->direction_rad), s = sin(p->asked->direction_rad);
+    fw_mechanism_load_end *end;
+    int n;
+    FW_TRY(fw_mechanism_load_ends(x->arena, m, &end, &n));
+    const fw_geometry_vec2 r =
+        vec_sub(fw_mechanism_local_place(m, at->body, at->x_m, at->y_m),
+                (fw_geometry_vec2){m->drawn[at->body].x_m, m->drawn[at->body].y_m});
+    double *f = x->f + 3 * at->body, *acts = x->instant + 3 * m->nhinge + m->nbody;
+    f[0] = acts[0] = c, f[1] = acts[1] = s, f[2] = r.x * s - r.y * c;
+    for (int k = 0; k < n; k++) {
+        const fw_mechanism_solid *of = &x->solid[end[k].body];
+        if (end[k].scene != FW_NONE || end[k].id != p->asked->id) continue;
+        x->place = (fw_verdict_place){.body = end[k].body, .x_m = end[k].x_m, .y_m = end[k].y_m};
+        x->at.nplace = of->known && of->n > of->nhinge + 1;
+    }
+    return FW_OK;
+}
+
+/* 2 U_b of a load on two coordinates, the second of them turned round or not; the less of both ways to find it */
+static double stored_by_two(small *x, int i, int j, double second, double *each) {
+    const int nbody = x->s.m->nbody;
+    double beams, found;
+    x->f[i] += 1, x->f[j] += second;
+    load_stores(x, &beams, &found);
+    x->f[i] = x->f[j] = 0;
+    for (int b = 0; b < nbody; b++)
+        each[b] += x->most.beam_J[b] * mass_of(x->s.m, i), x->most.beam_J[b] = 0;
+    return fmin(beams, found);
+}
+
+/* The largest 1/omega^2 of number `mode`, by A = M^1/2 (C_h + B) M^1/2: C_h of rigid bodies by their modes, and b_ij =
+   (U_b(e_i + e_j) - U_b(e_i - e_j))/2 */
+static fw_status slowest(small *x, int mode, double *most) {
+    const fw_mechanism *m = x->s.m;
+    const int n = 3 * m->nbody;
+    double *a = fw_arena_array(x->arena, double, (size_t)n *(size_t)n + 2 * (size_t)n), *value,
+           *each;
+    fw_maths_lapack_space space;
+    FW_NEED(a);
+    value = a + n * n, each = value + n;
+    FW_TRY(fw_maths_eigen_space(x->arena, n, &space));
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
+            double c = 0;
+            for (int k = 0; k < x->modes->count; k++) {
+                const fw_statics_mode *of = &x->modes->mode[k];
+                c += of->shape[i] * of->shape[j] / (of->modal_mass_kg_m2 * of->stiffness_per_s2);
+            }
+            c += i == j
+                     ? 0.25 * stored_by_two(x, i, j, 1, each)
+                     : 0.25 * (stored_by_two(x, i, j, 1, each) - stored_by_two(x, i, j, -1, each));
+            a[i * n + j] = a[j * n + i] = c * sqrt(mass_of(m, i) * mass_of(m, j));
+        }
+    memcpy(x->most.beam_J, each, (size_t)m->nbody * sizeof *each);
+    *most = fw_maths_eigen(n, a, value, &space) && mode <= n ? value[n - mode] : HUGE_VAL;
+    return FW_OK;
+}
+
+/* What bodies add to the compliance of a place, with the way to the middle, or to 1/omega^2 of a mode */
+static fw_status small_gives(small *x, const fw_probe *p, int mode, double gives, double *most) {
+    const size_t bodies = (size_t)x->s.m->nbody;
+    double beams, found;
+    memset(x->f, 0, 3 * bodies * sizeof *x->f);
+    memset(x->most.beam_J, 0, 2 * bodies * sizeof *x->most.beam_J);
+    x->at.nplace = 0;
+    if (p->kind->takes != FW_PROBE_TANGENT) {
+        FW_TRY(slowest(x, mode, most));
+        *most -= 1 / x->modes->mode[mode - 1].stiffness_per_s2;
+        return FW_OK;
+    }
+    FW_TRY(load_place(x, p));
+    load_stores(x, &beams, &found);
+    *most = x->at.nplace > 0 ? fmin(beams + gives, found) : fmin(beams, found) + gives;
+    return FW_OK;
+}
+
+/* of the same at rest with flexures that give: a stiffness, or omega^2 */
+static double at_rest_is(const fw_probe *p, const fw_statics_modes *modes, int mode) {
+    if (p->kind->takes != FW_PROBE_TANGENT)
+        return mode <= modes->count ? modes->mode[mode - 1].stiffness_per_s2 : (double)NAN;
+    const double value = fw_probe_small(p, modes);
+    return p->asked->row == FW_PROBE_IS_compliance ? 1 / value : value;
+}
+
+/* Loads soften and stiffen what they leave of a stiffness k, at rest k_0: the series with bodies takes k_0 - 1/(1/k_0 + c) of
+   it, and of what loads have made stiffer as much more */
+static double left_of_series(double k, double k0, double c) {
+    const double whole = fmax(k, k0);
+    return fmax(0, 1 - (whole - 1 / (1 / whole + c)) / k);
+}
+
+fw_status fw_verdict_soft_new(fw_arena *arena, const fw_effect_choice *with, double of_scenes,
+                              const fw_verdict_variant_verdict *v, fw_verdict_soft *soft) {
+    *soft = (fw_verdict_soft){.looked = true, .of_scenes = of_scenes};
+    if (!v->arm || !has_laws(v->mechanism)) return FW_OK;
+    return modes_at_rest(arena, v->mechanism, with, &soft->modes);
+}
+
+fw_status fw_verdict_soft_leaves(fw_arena *arena, const fw_verdict_soft *soft, const fw_probe *p,
+                                 int mode, double value, bool closely,
+                                 fw_verdict_variant_verdict *v, double *left) {
+    const bool is_mode = p->kind->takes != FW_PROBE_TANGENT,
+               yields = p->asked->row == FW_PROBE_IS_compliance;
+    const double k = is_mode ? pow(FW_TURN * value, 2) : yields ? 1 / value : value;
+    double gives, most;
+    FW_TRY(fw_verdict_place_gives(arena, v->mechanism, v->arm, p->asked, &gives));
+    const double soft_by_scenes = 1 + soft->of_scenes + gives * k;
+    *left = 1 / (is_mode ? sqrt(soft_by_scenes) : soft_by_scenes);
+    if (!soft->modes || (is_mode ? mode > soft->modes->count : p->point[0].body == FW_GROUND))
+        return FW_OK;
+    const double k0 = at_rest_is(p, soft->modes, mode);
+    small x = {.modes = soft->modes};
+    if (!(k0 > 0) || !(k > 0)) return FW_OK;
+    FW_TRY(small_new(arena, v, &x));
+    FW_TRY(small_gives(&x, p, mode, gives, &most));
+    if (closely) {
+        FW_TRY(make_solids(&x, v));
+        FW_TRY(small_new(arena, v, &x));
+        FW_TRY(small_gives(&x, p, mode, gives, &most));
+    }
+    *left = left_of_series(k, k0, most);
+    if (is_mode) *left = sqrt(*left);
+    return FW_OK;
+}
