@@ -95,8 +95,8 @@ static const fw_xml_attribute_row require_rows[] = {
      .sentence = "Of a settling time: how far from the final value still counts as settled."},
     {"scene", REF(FW_SPACE_SCENE),
      .fallback = "every scene that has the probe; of stiffness, compliance and frequency: at rest",
-     .sentence = "In which scene; of stiffness, compliance and frequency: about the equilibrium "
-                 "under its loads."},
+     .sentence = "In which scene; of stiffness, compliance and frequency: about the worst of "
+                 "the equilibria along its laws."},
 };
 
 static const fw_xml_element_row probe_elements[] = {
