@@ -48,11 +48,14 @@ fw_status fw_clearance_things_of(fw_arena *arena, const fw_layout *layout,
 
 enum { FW_CLEARANCE_NODES = FW_PIECE_NODES };
 
+/* Places are on the substrate: what stands is as it is drawn, and bodies are where they then are, and longer where a free
+   strain has made them so. */
 typedef struct fw_clearance_path { /* pieces of one motion, one after the other */
-    int nq, npiece, capacity;
-    bool begun;            /* `start` is there */
-    double *start;         /* (nq) where the motion begins; stays when pieces go */
-    int njump;             /* pieces that are straight ways of jumps; stays, too */
+    int nq, npiece, capacity;      /* nq: three of every body, and by how much bodies are longer */
+    bool begun;                    /* `start` is there */
+    double *start;                 /* (nq) where the motion begins; stays when pieces go */
+    double *node;                  /* (nq x FW_CLEARANCE_NODES) work */
+    int njump;                     /* pieces that are straight ways of jumps; stays, too */
     double jump_s, jump_m; /* the largest of them: when, and how far a centre of mass goes */
     int *nodes;            /* (capacity) coefficients of a piece: its degree and one */
     double *t_s;           /* (capacity x 2) from, to */
@@ -80,6 +83,7 @@ double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, 
 
 typedef struct fw_clearance_pose { /* of a solid's centre of mass; the ground's never changes */
     double x_m, y_m, phi_rad;
+    double longer; /* by how much its outlines are, relative, about that centre */
 } fw_clearance_pose;
 
 typedef struct fw_clearance_meet { /* the nearest places of two outlines at a pose of each */
@@ -162,11 +166,11 @@ typedef struct fw_clearance_gap fw_clearance_gap;
    no outline, or all of it lies within a hinge between them */
 fw_status fw_clearance_gap_new(fw_arena *arena, const fw_clearance_things *things, int a, int b,
                                const fw_clearance_gap **gap);
-/* as drawn; q: (3 nbody) centres of mass, m, rad */
-double fw_clearance_gap_m(const fw_clearance_gap *gap, const double *q);
+/* as drawn; q: (3 nbody) centres of mass, m, rad; longer: all bodies, relative */
+double fw_clearance_gap_m(const fw_clearance_gap *gap, const double *q, double longer);
 double fw_clearance_gap_drawn_m(const fw_clearance_gap *gap);
 /* how far the two have been moved against each other, at most, from where they are drawn */
-double fw_clearance_gap_moved_m(const fw_clearance_gap *gap, const double *q);
+double fw_clearance_gap_moved_m(const fw_clearance_gap *gap, const double *q, double longer);
 
 typedef struct fw_clearance_gap_extreme {
     double m, t_s;  /* the least or largest so far */

@@ -151,7 +151,7 @@ static fw_geometry_vec2 carry(fw_geometry_vec2 drawn, const turn *t, linear *out
 
 static void put(const fw_clearance_solid *solid, fw_geometry_vec2 centre, const turn *t,
                 linear *out) {
-    out->middle = (fw_clearance_pose){centre.x, centre.y, solid->turned_rad + t->at};
+    out->middle = (fw_clearance_pose){centre.x, centre.y, solid->turned_rad + t->at, 0};
     for (int i = 0; i < 3; i++)
         out->grad[2][i] = t->grad[i];
     out->rest_rad = t->rest;
@@ -215,8 +215,8 @@ static linear linear_of(const boxes *b, const part *known, int solid) {
         t.most += fabs(t.grad[i]) * known->half[i];
     }
     fw_geometry_vec2 arm = carry(vec_sub(s->centre, on->centre), &t, &out);
-    out.middle =
-        (fw_clearance_pose){out.middle.x_m + arm.x, out.middle.y_m + arm.y, s->turned_rad + t.at};
+    out.middle = (fw_clearance_pose){out.middle.x_m + arm.x, out.middle.y_m + arm.y,
+                                     s->turned_rad + t.at, 0};
     return out;
 }
 
@@ -225,7 +225,7 @@ static fw_clearance_pose at_corner(const linear *l, const double half[3], int co
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++)
             q[k] += (corner >> i & 1 ? half[i] : -half[i]) * l->grad[k][i];
-    return (fw_clearance_pose){q[0], q[1], q[2]};
+    return (fw_clearance_pose){q[0], q[1], q[2], 0};
 }
 
 /* about given middle poses */
@@ -346,7 +346,7 @@ static void drawn(const void *context, const fw_clearance_pair *pair, fw_clearan
     const boxes *b = context;
     for (int k = 0; k < 2; k++) {
         const fw_clearance_solid *s = &b->things->solid[k ? pair->b : pair->a];
-        pose[k] = (fw_clearance_pose){s->centre.x, s->centre.y, s->turned_rad};
+        pose[k] = (fw_clearance_pose){s->centre.x, s->centre.y, s->turned_rad, 0};
     }
 }
 

@@ -29,7 +29,7 @@ static void keep_walls(fw_clearance_pair *pair) {
 
 static fw_clearance_pose drawn_pose(const fw_clearance_things *things, int solid) {
     const fw_clearance_solid *s = &things->solid[solid];
-    return (fw_clearance_pose){s->centre.x, s->centre.y, s->turned_rad};
+    return (fw_clearance_pose){s->centre.x, s->centre.y, s->turned_rad, 0};
 }
 
 static void drawn_poses(const fw_clearance_pair *pair, fw_clearance_pose pose[2]) {
@@ -58,26 +58,27 @@ double fw_clearance_gap_drawn_m(const fw_clearance_gap *gap) {
     return gap->drawn_m;
 }
 
-static void poses_of(const fw_clearance_pair *pair, const double *q, fw_clearance_pose pose[2]) {
+static void poses_of(const fw_clearance_pair *pair, const double *q, double longer,
+                     fw_clearance_pose pose[2]) {
     for (int k = 0; k < 2; k++) {
         int solid = k ? pair->b : pair->a;
         const double *at = q + 3 * solid;
         pose[k] = solid == pair->things->nbody ? fw_clearance_ground_pose(pair->things)
-                                               : (fw_clearance_pose){at[0], at[1], at[2]};
+                                               : (fw_clearance_pose){at[0], at[1], at[2], longer};
     }
 }
 
-double fw_clearance_gap_m(const fw_clearance_gap *gap, const double *q) {
+double fw_clearance_gap_m(const fw_clearance_gap *gap, const double *q, double longer) {
     fw_clearance_pose pose[2];
-    poses_of(&gap->pair, q, pose);
+    poses_of(&gap->pair, q, longer, pose);
     return fw_clearance_pair_distance(&gap->pair, pose, HUGE_VAL, NULL);
 }
 
-double fw_clearance_gap_moved_m(const fw_clearance_gap *gap, const double *q) {
+double fw_clearance_gap_moved_m(const fw_clearance_gap *gap, const double *q, double longer) {
     fw_clearance_pose drawn[2], pose[2];
     fw_clearance_slack slack;
     drawn_poses(&gap->pair, drawn);
-    poses_of(&gap->pair, q, pose);
+    poses_of(&gap->pair, q, longer, pose);
     fw_clearance_slack_begin(&gap->pair, drawn, &slack);
     fw_clearance_slack_add(&gap->pair, pose, &slack);
     return fw_clearance_slack_m(&gap->pair, &slack);

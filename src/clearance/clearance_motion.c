@@ -14,15 +14,16 @@
 enum { NODES = FW_CLEARANCE_NODES, MOST_BYTES = 6 << 20, LEAST_PIECES = 16, MOST_PIECES = 8192 };
 
 fw_status fw_clearance_path_new(fw_arena *arena, int nbody, fw_clearance_path *path) {
-    size_t each = (size_t)(3 * nbody) * NODES * sizeof(double), room = MOST_BYTES / (each + 1);
+    size_t each = (size_t)(3 * nbody + 1) * NODES * sizeof(double), room = MOST_BYTES / (each + 1);
     size_t n = room < LEAST_PIECES ? LEAST_PIECES : room > MOST_PIECES ? MOST_PIECES : room;
     return fw_clearance_path_of(arena, nbody, (int)n, path);
 }
 
 fw_status fw_clearance_path_of(fw_arena *arena, int nbody, int pieces, fw_clearance_path *path) {
-    size_t n = (size_t)pieces, each = (size_t)(3 * nbody) * NODES * sizeof(double);
-    *path = (fw_clearance_path){.nq = 3 * nbody, .capacity = pieces};
+    size_t n = (size_t)pieces, each = (size_t)(3 * nbody + 1) * NODES * sizeof(double);
+    *path = (fw_clearance_path){.nq = 3 * nbody + 1, .capacity = pieces};
     FW_NEED(path->start = fw_arena_array(arena, double, (size_t)path->nq));
+    FW_NEED(path->node = fw_arena_array(arena, double, (size_t)path->nq *NODES));
     FW_NEED(path->nodes = fw_arena_array(arena, int, n));
     FW_NEED(path->t_s = fw_arena_array(arena, double, 2 * n));
     FW_NEED(path->bern = fw_arena_raw(arena, n * each));
@@ -76,9 +77,10 @@ static void fit_of(fw_clearance_path *path, int n) {
 }
 
 static void note_jump(fw_clearance_path *path, const fw_dynamics_piece *piece) {
-    const double *from = piece->q, *to = piece->q + (size_t)(piece->nodes - 1) * (size_t)path->nq;
+    const int n = path->nq - 1;
+    const double *from = piece->q, *to = piece->q + (size_t)(piece->nodes - 1) * (size_t)n;
     path->njump++;
-    for (int q = 0; q + 1 < path->nq; q += 3) {
+    for (int q = 0; q < n; q += 3) {
         double by = hypot(to[q] - from[q], to[q + 1] - from[q + 1]);
         if (by > path->jump_m) path->jump_m = by, path->jump_s = piece->from_s;
     }
@@ -88,7 +90,11 @@ void fw_clearance_path_add(fw_clearance_path *path, const fw_dynamics_piece *pie
     int n = piece->nodes, k = path->npiece;
     if (fw_clearance_path_full(path)) return; /* never: whoever adds looks first */
     if (path->of != n) fit_of(path, n);
-    if (!path->begun) memcpy(path->start, piece->q, (size_t)path->nq * sizeof *path->start);
+    for (int i = 0; i < n; i++) {
+        double *at = path->node + (size_t)i * (size_t)path->nq;
+        at[path->nq - 1] = fw_dynamics_piece_node(piece, path->nq / 3, i, at);
+    }
+    if (!path->begun) memcpy(path->start, path->node, (size_t)path->nq * sizeof *path->start);
     path->begun = true;
     if (piece->jump) note_jump(path, piece);
     path->nodes[k] = n;
@@ -96,11 +102,11 @@ void fw_clearance_path_add(fw_clearance_path *path, const fw_dynamics_piece *pie
     path->t_s[2 * k + 1] = piece->to_s;
     double *out = path->bern + (size_t)k * (size_t)path->nq * NODES;
     for (int q = 0; q < path->nq; q++, out += NODES) {
-        double base = piece->q[q];
+        double base = path->node[q];
         for (int i = 0; i < n; i++) {
             double sum = 0; /* of differences: what the pose itself is rounded to does not count */
             for (int j = 0; j < n; j++)
-                sum += path->fit[i][j] * (piece->q[j * path->nq + q] - base);
+                sum += path->fit[i][j] * (path->node[j * path->nq + q] - base);
             out[i] = base + sum;
         }
     }
@@ -149,42 +155,6 @@ typedef struct motion {
     double small_m;  /* a span in which no more than this is moved is where they meet */
 } motion;
 
-/* ---- poses of a pair over a span ---- */
-
-fw_clearance_pose fw_clearance_ground_pose(const fw_clearance_things *things) {
-    const fw_clearance_solid *ground = &things->solid[things->nbody];
-    return (fw_clearance_pose){ground->centre.x, ground->centre.y, ground->turned_rad};
-}
-
-void fw_clearance_pair_at(const fw_clearance_pair *pair, const fw_clearance_path *path, int piece,
-                          double theta, fw_clearance_pose pose[2]) {
-    for (int k = 0; k < 2; k++) {
-        int solid = k ? pair->b : pair->a, q = 3 * solid;
-        pose[k] = fw_clearance_ground_pose(pair->things);
-        if (solid == pair->things->nbody) continue;
-        pose[k].x_m = fw_clearance_path_value(path, piece, q, theta);
-        pose[k].y_m = fw_clearance_path_value(path, piece, q + 1, theta);
-        pose[k].phi_rad = fw_clearance_path_value(path, piece, q + 2, theta);
-    }
-}
-
-int fw_clearance_pair_coefficients(const fw_clearance_pair *pair, const fw_clearance_path *path,
-                                   const fw_clearance_span *span, int piece,
-                                   fw_clearance_pose pose[NODES][2]) {
-    int n = path->nodes[piece];
-    const fw_clearance_pose stands = fw_clearance_ground_pose(pair->things);
-    for (int k = 0; k < 2; k++) {
-        int solid = k ? pair->b : pair->a;
-        double c[3][NODES];
-        bool ground = solid == pair->things->nbody;
-        for (int q = 0; q < 3 && !ground; q++)
-            fw_clearance_path_part(path, piece, 3 * solid + q, span->from, span->to, c[q]);
-        for (int i = 0; i < n; i++)
-            pose[i][k] = ground ? stands : (fw_clearance_pose){c[0][i], c[1][i], c[2][i]};
-    }
-    return n;
-}
-
 static void join(fw_maths_interval *range, double x) {
     range->lo = x < range->lo ? x : range->lo;
     range->hi = x > range->hi ? x : range->hi;
@@ -192,38 +162,40 @@ static void join(fw_maths_interval *range, double x) {
 
 /* of the six coordinates of a pair over a span: x, y, phi of the first solid, then of the second */
 static void ranges_of(const motion *s, const fw_clearance_pair *pair, const fw_clearance_span *span,
-                      fw_maths_interval range[2][3]) {
+                      fw_maths_interval range[2][FW_CLEARANCE_OF_POSE]) {
     const bool all = span->first == 0 && span->last == s->path->npiece - 1 && s->range &&
                      span->from == 0 && span->to == 1;
     const fw_clearance_pose stands = fw_clearance_ground_pose(s->things);
+    const double at[FW_CLEARANCE_OF_POSE] = {stands.x_m, stands.y_m, stands.phi_rad, 0};
     for (int k = 0; k < 2; k++) {
         const int solid = k ? pair->b : pair->a;
-        const double at[3] = {stands.x_m, stands.y_m, stands.phi_rad};
-        for (int q = 0; q < 3; q++) {
-            fw_maths_interval *r = &range[k][q];
+        for (int i = 0; i < FW_CLEARANCE_OF_POSE; i++) {
+            const int q = fw_clearance_coordinate(s->path, solid, i);
+            fw_maths_interval *r = &range[k][i];
             *r = (fw_maths_interval){HUGE_VAL, -HUGE_VAL};
             if (solid == s->things->nbody)
-                *r = (fw_maths_interval){at[q], at[q]};
+                *r = (fw_maths_interval){at[i], at[i]};
             else if (all)
-                *r = s->range[3 * solid + q];
+                *r = s->range[q];
             else
                 for (int piece = span->first; piece <= span->last; piece++) {
                     double c[NODES];
-                    fw_clearance_path_part(s->path, piece, 3 * solid + q, span->from, span->to, c);
-                    for (int i = 0; i < s->path->nodes[piece]; i++)
-                        join(r, c[i]);
+                    fw_clearance_path_part(s->path, piece, q, span->from, span->to, c);
+                    for (int j = 0; j < s->path->nodes[piece]; j++)
+                        join(r, c[j]);
                 }
         }
     }
 }
 
 static void middle_of(const motion *s, const fw_clearance_pair *pair, const fw_clearance_span *span,
-                      fw_maths_interval range[2][3], fw_clearance_pose middle[2]) {
+                      fw_maths_interval range[2][FW_CLEARANCE_OF_POSE],
+                      fw_clearance_pose middle[2]) {
     ranges_of(s, pair, span, range);
     for (int k = 0; k < 2; k++)
-        middle[k] = (fw_clearance_pose){0.5 * (range[k][0].lo + range[k][0].hi),
-                                        0.5 * (range[k][1].lo + range[k][1].hi),
-                                        0.5 * (range[k][2].lo + range[k][2].hi)};
+        middle[k] = (fw_clearance_pose){
+            0.5 * (range[k][0].lo + range[k][0].hi), 0.5 * (range[k][1].lo + range[k][1].hi),
+            0.5 * (range[k][2].lo + range[k][2].hi), 0.5 * (range[k][3].lo + range[k][3].hi)};
 }
 
 /* no two edges of the pair are nearer in this span than at the middle poses by more than this */
@@ -244,7 +216,7 @@ static double slack_about(const motion *s, const fw_clearance_pair *pair,
 
 static bool bound(const void *context, const fw_clearance_pair *pair,
                   const fw_clearance_region *region, fw_clearance_pose middle[2], double *slack_m) {
-    fw_maths_interval range[2][3];
+    fw_maths_interval range[2][FW_CLEARANCE_OF_POSE];
     middle_of(context, pair, &region->span, range, middle);
     *slack_m = slack_about(context, pair, &region->span, middle);
     return true;
@@ -257,7 +229,7 @@ static bool hull_of(const void *context, const fw_clearance_pair *pair,
     enum { CORNERS = 8 };
     const motion *s = context;
     const fw_clearance_span *span = &region->span;
-    fw_maths_interval r[2][3];
+    fw_maths_interval r[2][FW_CLEARANCE_OF_POSE];
     *hull = (fw_clearance_hull){.apart = span->first != span->last};
     middle_of(s, pair, span, r, hull->middle);
     if (!hull->apart)
@@ -265,9 +237,9 @@ static bool hull_of(const void *context, const fw_clearance_pair *pair,
     for (; hull->apart && hull->count < CORNERS; hull->count++)
         for (int k = 0; k < 2; k++) {
             const int c = hull->count;
-            hull->pose[c][k] = (fw_clearance_pose){c & 1 ? r[k][0].hi : r[k][0].lo,
-                                                   c & 2 ? r[k][1].hi : r[k][1].lo,
-                                                   c & 4 ? r[k][2].hi : r[k][2].lo};
+            hull->pose[c][k] = (fw_clearance_pose){
+                c & 1 ? r[k][0].hi : r[k][0].lo, c & 2 ? r[k][1].hi : r[k][1].lo,
+                c & 4 ? r[k][2].hi : r[k][2].lo, c & 1 ? r[k][3].hi : r[k][3].lo};
         }
     return true;
 }
@@ -276,8 +248,9 @@ static void start_of(const motion *s, const fw_clearance_pair *pair, fw_clearanc
     for (int k = 0; k < 2; k++) {
         int solid = k ? pair->b : pair->a;
         const double *q = s->path->start + 3 * solid;
-        start[k] = solid == s->things->nbody ? fw_clearance_ground_pose(s->things)
-                                             : (fw_clearance_pose){q[0], q[1], q[2]};
+        start[k] = solid == s->things->nbody
+                       ? fw_clearance_ground_pose(s->things)
+                       : (fw_clearance_pose){q[0], q[1], q[2], s->path->start[s->path->nq - 1]};
     }
 }
 
@@ -328,24 +301,27 @@ static void rough(const void *context, const fw_clearance_pair *pair,
     (void)all;
     start_of(s, pair, start);
     for (int about = 0; about < 2; about++) { /* the middle, then the start */
-        double off[2][3] = {{0}};
+        double off[2][FW_CLEARANCE_OF_POSE] = {{0}};
         for (int k = 0; k < 2; k++) {
             int solid = k ? pair->b : pair->a;
-            const double from[3] = {start[k].x_m, start[k].y_m, start[k].phi_rad};
-            double at[3] = {from[0], from[1], from[2]};
-            for (int q = 0; q < 3 && solid < s->things->nbody; q++) {
-                fw_maths_interval r = s->range[3 * solid + q];
+            double at[FW_CLEARANCE_OF_POSE] = {start[k].x_m, start[k].y_m, start[k].phi_rad,
+                                               start[k].longer};
+            for (int q = 0; q < FW_CLEARANCE_OF_POSE && solid < s->things->nbody; q++) {
+                fw_maths_interval r = s->range[fw_clearance_coordinate(s->path, solid, q)];
                 if (about == 0) at[q] = 0.5 * (r.lo + r.hi);
                 off[k][q] = fmax(r.hi - at[q], at[q] - r.lo);
             }
-            if (about == 0) middle[k] = (fw_clearance_pose){at[0], at[1], at[2]};
+            if (about == 0) middle[k] = (fw_clearance_pose){at[0], at[1], at[2], at[3]};
         }
         fw_clearance_slack slack;
         fw_clearance_slack_begin(pair, about ? start : middle, &slack);
         double x = off[0][0] + off[1][0], y = off[0][1] + off[1][1];
-        slack.linear_m = sqrt(x * x + y * y) + (off[0][2] + off[1][2]) * pair->reach_m;
+        slack.linear_m = sqrt(x * x + y * y) + (off[0][2] + off[1][2]) *
+                                                   (1 + fabs(slack.middle[0].longer)) *
+                                                   pair->reach_m;
         for (int k = 0; k < 2; k++) {
             slack.turn_rad[k] = off[k][2];
+            slack.linear_m += off[k][3] * pair->arm_m[k];
             slack.linear_m += off[k][2] * vec_length(slack.lever[k]);
         }
         *(about ? moved_m : slack_m) = fw_clearance_slack_m(pair, &slack);

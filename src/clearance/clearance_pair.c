@@ -11,22 +11,28 @@ enum { RUN = 8 };
 fw_geometry_vec2 fw_clearance_place(const fw_clearance_solid *solid, fw_clearance_pose pose,
                                     fw_geometry_vec2 drawn) {
     double turn = pose.phi_rad - solid->turned_rad, c = cos(turn), s = sin(turn);
-    fw_geometry_vec2 r = vec_sub(drawn, solid->centre);
+    fw_geometry_vec2 r = vec_scale(1 + pose.longer, vec_sub(drawn, solid->centre));
     return (fw_geometry_vec2){pose.x_m + c * r.x - s * r.y, pose.y_m + s * r.x + c * r.y};
 }
 
-/* from where the second solid is drawn to where it is seen from the first one, as drawn */
+/* from where the second solid is drawn to where it is seen from the first one, as drawn and in its lengths */
 typedef struct seen {
-    double c, s, x, y;
+    double c, s, x, y; /* c and s times what the second one is longer by than the first */
+    double times, m;   /* that; m of one of the first one's lengths */
 } seen;
 
 static seen seen_from(const fw_clearance_pair *pair, const fw_clearance_pose pose[2]) {
     const fw_clearance_solid *a = &pair->things->solid[pair->a], *b = &pair->things->solid[pair->b];
     double ta = pose[0].phi_rad - a->turned_rad, turn = pose[1].phi_rad - b->turned_rad - ta;
-    double c = cos(turn), s = sin(turn), ca = cos(ta), sa = sin(ta);
-    double dx = pose[1].x_m - pose[0].x_m, dy = pose[1].y_m - pose[0].y_m;
-    return (seen){c, s, a->centre.x + ca * dx + sa * dy - (c * b->centre.x - s * b->centre.y),
-                  a->centre.y - sa * dx + ca * dy - (s * b->centre.x + c * b->centre.y)};
+    const double m = 1 + pose[0].longer, times = (1 + pose[1].longer) / m;
+    double c = times * cos(turn), s = times * sin(turn), ca = cos(ta), sa = sin(ta);
+    double dx = (pose[1].x_m - pose[0].x_m) / m, dy = (pose[1].y_m - pose[0].y_m) / m;
+    return (seen){c,
+                  s,
+                  a->centre.x + ca * dx + sa * dy - (c * b->centre.x - s * b->centre.y),
+                  a->centre.y - sa * dx + ca * dy - (s * b->centre.x + c * b->centre.y),
+                  times,
+                  m};
 }
 
 static fw_geometry_vec2 moved(const seen *by, fw_geometry_vec2 p) {
@@ -37,7 +43,7 @@ static fw_geometry_segment moved_segment(const seen *by, const fw_geometry_segme
     fw_geometry_segment out = *s;
     out.a = moved(by, s->a);
     out.b = moved(by, s->b);
-    if (s->kind == FW_ARC) out.centre = moved(by, s->centre);
+    if (s->kind == FW_ARC) out.centre = moved(by, s->centre), out.radius = by->times * s->radius;
     return out;
 }
 
@@ -120,7 +126,7 @@ static void look_first(const fw_clearance_pair *pair, const seen *by, nearest *s
 static nearest nearest_places(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
                               double limit_m) {
     const seen by = seen_from(pair, pose);
-    nearest so_far = {.m = limit_m};
+    nearest so_far = {.m = limit_m / by.m};
     look_first(pair, &by, &so_far);
     for (int j = 0; j < pair->count[1] && so_far.m > 0; j++) {
         const fw_clearance_edge *f = pair->edge[1][j];
@@ -136,6 +142,7 @@ static nearest nearest_places(const fw_clearance_pair *pair, const fw_clearance_
             take_nearer(pair, pair->edge[0][i], pair->box[i], f, &there, box, &so_far);
         }
     }
+    so_far.m = so_far.at_p ? so_far.m * by.m : limit_m;
     return so_far;
 }
 
@@ -195,7 +202,7 @@ void fw_clearance_pair_measure(fw_clearance_pair *pair) {
 void fw_clearance_pair_narrow(fw_clearance_pair *pair, const fw_clearance_pose pose[2],
                               double near_m, double slack_m, bool *kept) {
     const seen by = seen_from(pair, pose);
-    const double limit = near_m + slack_m;
+    const double limit = (near_m + slack_m) / by.m;
     int n = 0;
     for (int i = 0; i < pair->count[0]; i++)
         kept[i] = false;
@@ -256,6 +263,7 @@ fw_status fw_clearance_pair_new(fw_arena *arena, const fw_clearance_things *thin
      u = dx_b - dx_a + tb J(c - x_b) - ta J(c - x_a).
    q - p + tb J(q - p) is never shorter than q - p: the second is square to it. So
      |q' - p'| >= |q - p| - (|u| + |tb - ta| max|p - c| + (ta^2 arm_a + tb^2 arm_b)/2).
+   A pose of which the solid is longer by g more than in the middle one moves p by g arm at most besides.
    What turns both alike, or about c, costs only the last part, of second order. u, ta, tb are linear
    in the poses and the parentheses convex in them, so that the bound holds for all poses in the
    convex hull of those it was computed for: Bernstein coefficients of a motion, corners of a box.
@@ -273,22 +281,25 @@ void fw_clearance_slack_begin(const fw_clearance_pair *pair, const fw_clearance_
 
 void fw_clearance_slack_add(const fw_clearance_pair *pair, const fw_clearance_pose pose[2],
                             fw_clearance_slack *slack) {
-    double ux = 0, uy = 0, turn[2];
+    double ux = 0, uy = 0, turn[2], grows = 0;
     for (int k = 0; k < 2; k++) {
         double sign = k ? 1 : -1;
         turn[k] = pose[k].phi_rad - slack->middle[k].phi_rad;
         ux += sign * (pose[k].x_m - slack->middle[k].x_m + turn[k] * slack->lever[k].x);
         uy += sign * (pose[k].y_m - slack->middle[k].y_m + turn[k] * slack->lever[k].y);
         if (fabs(turn[k]) > slack->turn_rad[k]) slack->turn_rad[k] = fabs(turn[k]);
+        grows += fabs(pose[k].longer - slack->middle[k].longer) * pair->arm_m[k];
     }
-    double here = sqrt(ux * ux + uy * uy) + fabs(turn[1] - turn[0]) * pair->reach_m;
+    const double reach = (1 + fabs(slack->middle[0].longer)) * pair->reach_m;
+    double here = sqrt(ux * ux + uy * uy) + fabs(turn[1] - turn[0]) * reach + grows;
     if (here > slack->linear_m) slack->linear_m = here;
 }
 
 double fw_clearance_slack_m(const fw_clearance_pair *pair, const fw_clearance_slack *slack) {
     double second = 0;
     for (int k = 0; k < 2; k++)
-        second += 0.5 * slack->turn_rad[k] * slack->turn_rad[k] * pair->arm_m[k];
+        second += 0.5 * slack->turn_rad[k] * slack->turn_rad[k] *
+                  (1 + fabs(slack->middle[k].longer)) * pair->arm_m[k];
     return slack->linear_m + second;
 }
 
@@ -313,7 +324,10 @@ static fw_geometry_segment placed(const fw_clearance_solid *solid, fw_clearance_
     fw_geometry_segment s = *drawn;
     s.a = fw_clearance_place(solid, pose, drawn->a);
     s.b = fw_clearance_place(solid, pose, drawn->b);
-    if (s.kind == FW_ARC) s.centre = fw_clearance_place(solid, pose, drawn->centre);
+    if (s.kind == FW_ARC) {
+        s.centre = fw_clearance_place(solid, pose, drawn->centre);
+        s.radius = (1 + pose.longer) * drawn->radius;
+    }
     return s;
 }
 
@@ -338,7 +352,7 @@ double fw_clearance_edges_bound(const fw_clearance_pair *pair, const fw_clearanc
                                 const fw_clearance_meet *meet, int *where, double *there_m) {
     const fw_geometry_vec2 apart = vec_sub(meet->at_b, meet->at_a), n = vec_unit(apart);
     fw_geometry_segment edge[2];
-    double turn[2] = {0, 0}, rest = 0;
+    double turn[2] = {0, 0}, grows[2] = {0, 0}, rest = 0;
     *where = 0, *there_m = HUGE_VAL;
     for (int k = 0; k < 2; k++)
         edge[k] = placed(&pair->things->solid[k ? pair->b : pair->a], hull->middle[k],
@@ -351,14 +365,15 @@ double fw_clearance_edges_bound(const fw_clearance_pair *pair, const fw_clearanc
         if (p + q < *there_m) *there_m = p + q, *where = i;
         least[0] = fmin(least[0], p), least[1] = fmin(least[1], q);
         for (int k = 0; k < 2; k++)
-            turn[k] = fmax(turn[k], fabs(hull->pose[i][k].phi_rad - hull->middle[k].phi_rad));
+            turn[k] = fmax(turn[k], fabs(hull->pose[i][k].phi_rad - hull->middle[k].phi_rad)),
+            grows[k] = fmax(grows[k], fabs(hull->pose[i][k].longer - hull->middle[k].longer));
     }
     if (hull->apart) *there_m = least[0] + least[1];
     for (int k = 0; k < 2; k++) {
         const fw_geometry_vec2 centre = {hull->middle[k].x_m, hull->middle[k].y_m};
         const double most = turn[k] + hull->rest_rad[k];
-        rest +=
-            hull->rest_m[k] + (hull->rest_rad[k] + 0.5 * most * most) * far_of(&edge[k], centre);
+        const double of_arm = hull->rest_rad[k] + 0.5 * most * most + 2 * grows[k];
+        rest += hull->rest_m[k] + of_arm * far_of(&edge[k], centre);
     }
     return *there_m - rest;
 }
@@ -366,7 +381,7 @@ double fw_clearance_edges_bound(const fw_clearance_pair *pair, const fw_clearanc
 double fw_clearance_pair_bound(const fw_clearance_pair *pair, const fw_clearance_hull *hull,
                                double slack_m, double needed_m) {
     const seen by = seen_from(pair, hull->middle);
-    const double limit = needed_m + slack_m;
+    const double limit = (needed_m + slack_m) / by.m;
     const fw_clearance_solid *a = &pair->things->solid[pair->a];
     double low = HUGE_VAL;
     for (int j = 0; j < pair->count[1]; j++) {
@@ -390,11 +405,49 @@ double fw_clearance_pair_bound(const fw_clearance_pair *pair, const fw_clearance
             const fw_clearance_meet meet = {.at_a = fw_clearance_place(a, hull->middle[0], p),
                                             .at_b = fw_clearance_place(a, hull->middle[0], q),
                                             .edge = {e, f}};
-            const double proved =
-                fmax(d - slack_m, fw_clearance_edges_bound(pair, hull, &meet, &where, &there_m));
+            const double proved = fmax(
+                by.m * d - slack_m, fw_clearance_edges_bound(pair, hull, &meet, &where, &there_m));
             if (proved < needed_m) return -HUGE_VAL;
             low = fmin(low, proved);
         }
     }
     return fmin(low, needed_m);
+}
+
+/* ---- poses of a pair along a path ---- */
+
+fw_clearance_pose fw_clearance_ground_pose(const fw_clearance_things *things) {
+    const fw_clearance_solid *ground = &things->solid[things->nbody];
+    return (fw_clearance_pose){ground->centre.x, ground->centre.y, ground->turned_rad, 0};
+}
+
+void fw_clearance_pair_at(const fw_clearance_pair *pair, const fw_clearance_path *path, int piece,
+                          double theta, fw_clearance_pose pose[2]) {
+    for (int k = 0; k < 2; k++) {
+        int solid = k ? pair->b : pair->a, q = 3 * solid;
+        pose[k] = fw_clearance_ground_pose(pair->things);
+        if (solid == pair->things->nbody) continue;
+        pose[k].x_m = fw_clearance_path_value(path, piece, q, theta);
+        pose[k].y_m = fw_clearance_path_value(path, piece, q + 1, theta);
+        pose[k].phi_rad = fw_clearance_path_value(path, piece, q + 2, theta);
+        pose[k].longer = fw_clearance_path_value(path, piece, path->nq - 1, theta);
+    }
+}
+
+int fw_clearance_pair_coefficients(const fw_clearance_pair *pair, const fw_clearance_path *path,
+                                   const fw_clearance_span *span, int piece,
+                                   fw_clearance_pose pose[FW_CLEARANCE_NODES][2]) {
+    int n = path->nodes[piece];
+    const fw_clearance_pose stands = fw_clearance_ground_pose(pair->things);
+    for (int k = 0; k < 2; k++) {
+        int solid = k ? pair->b : pair->a;
+        double c[FW_CLEARANCE_OF_POSE][FW_CLEARANCE_NODES];
+        bool ground = solid == pair->things->nbody;
+        for (int q = 0; q < FW_CLEARANCE_OF_POSE && !ground; q++)
+            fw_clearance_path_part(path, piece, fw_clearance_coordinate(path, solid, q), span->from,
+                                   span->to, c[q]);
+        for (int i = 0; i < n; i++)
+            pose[i][k] = ground ? stands : (fw_clearance_pose){c[0][i], c[1][i], c[2][i], c[3][i]};
+    }
+    return n;
 }

@@ -37,7 +37,13 @@ double fw_clearance_pair_distance(const fw_clearance_pair *pair, const fw_cleara
 /* the same without a limit; its nearest edges are looked at first from now on */
 double fw_clearance_pair_distance_first(fw_clearance_pair *pair, const fw_clearance_pose pose[2]);
 
-/* ---- clearance_motion.c: poses of a pair along a path ---- */
+/* ---- poses of a pair along a path ---- */
+
+enum { FW_CLEARANCE_OF_POSE = 4 }; /* x, y, phi, longer */
+/* which of the path's coordinates it is */
+static inline int fw_clearance_coordinate(const fw_clearance_path *path, int solid, int of_pose) {
+    return of_pose < 3 ? 3 * solid + of_pose : path->nq - 1;
+}
 
 fw_clearance_pose fw_clearance_ground_pose(const fw_clearance_things *things);
 void fw_clearance_pair_at(const fw_clearance_pair *pair, const fw_clearance_path *path, int piece,

@@ -54,7 +54,10 @@ static const char *const planes[] = {"either", "in", "across", NULL};
 static const fw_xml_attribute_row probe_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id for requirements; it names columns and plots."},
     {"kind", .kind = FW_KIND_WORD, REQUIRED, .words = probe_kinds, .sentence = probe_kinds_are + 2},
-    {"on", REF(FW_SPACE_BODY), .sentence = "Body that carries the point, or that turns."},
+    {"on", REF(FW_SPACE_BODY),
+     .sentence =
+         "Body that carries the point, or that turns. A point goes against the substrate, also "
+         "where heat or stress makes the layer longer."},
     {"x", PLACE, .fallback = "0 mm", .sentence = "Point in the body's frame."},
     {"y", PLACE, .fallback = "0 mm", .sentence = "Point in the body's frame."},
     {"direction", TURN, .fallback = "the size of the vector",
@@ -95,8 +98,8 @@ static const fw_xml_attribute_row require_rows[] = {
      .sentence = "Of a settling time: how far from the final value still counts as settled."},
     {"scene", REF(FW_SPACE_SCENE),
      .fallback = "every scene that has the probe; of stiffness, compliance and frequency: at rest",
-     .sentence = "In which scene; of stiffness, compliance and frequency: about the equilibrium "
-                 "under its loads."},
+     .sentence = "In which scene; of stiffness, compliance and frequency: about the worst of "
+                 "the equilibria along its laws."},
 };
 
 static const fw_xml_element_row probe_elements[] = {

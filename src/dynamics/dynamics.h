@@ -42,7 +42,12 @@ typedef struct fw_dynamics_piece {
                         quasi-static motion jumps, from_s == to_s */
     int nodes; /* at most FW_PIECE_NODES */
     const double *q; /* (nodes x 3 nbody) m, rad */
+    /* what acts, whose free strains say how far these places are from those on the substrate; NULL: none do */
+    const fw_effects_loads *loads;
+    const fw_mechanism *mechanism; /* of these loads; NULL without them */
 } fw_dynamics_piece;
+/* places of bodies (3 nbody) on the substrate at a node of the piece; by how much bodies are longer there, relative */
+double fw_dynamics_piece_node(const fw_dynamics_piece *piece, int nbody, int node, double *q);
 /* with NULL when the run starts (over); of the contexts of the observer */
 typedef void (*fw_dynamics_tracer)(void *context, const fw_dynamics_piece *piece);
 

@@ -363,6 +363,18 @@ static void keep(looked_at *l, bool fresh) {
     }
 }
 
+/* a law has one smooth piece in it, which its middle says; the jumps of equilibria go with no time */
+double fw_dynamics_piece_node(const fw_dynamics_piece *piece, int nbody, int node, double *q) {
+    const size_t n = 3 * (size_t)nbody;
+    const double *from = piece->q + (size_t)node * n, length_s = piece->to_s - piece->from_s;
+    memcpy(q, from, n * sizeof *q);
+    if (!fw_effects_has_growth(piece->loads)) return 0;
+    const fw_effects_growth growth = fw_effects_growth_at(
+        piece->mechanism, piece->loads, piece->from_s + length_s * node / (piece->nodes - 1),
+        piece->from_s + 0.5 * length_s, true);
+    return fw_effects_on_substrate(&growth, nbody, from, q);
+}
+
 static void keep_piece(fw_dynamics_tape *tape, const fw_dynamics_piece *piece, size_t n) {
     if (!tape || tape->torn || !tape->last) return;
     double *q = fw_arena_array(tape->arena, double, (size_t)piece->nodes *n);
@@ -407,7 +419,9 @@ static void trace_step(fw_dynamics_recorder *record, fw_maths_stepper *s, double
         const fw_dynamics_piece piece = {.from_s = (s->t_old + from * s->h) * unit,
                                          .to_s = (s->t_old + to * s->h) * unit,
                                          .nodes = nodes,
-                                         .q = record->seen_piece};
+                                         .q = record->seen_piece,
+                                         .loads = record->motion->loads,
+                                         .mechanism = problem->mechanism};
         keep_piece(record->tape, &piece, n);
         trace(context, &piece);
     }
@@ -440,7 +454,9 @@ void fw_dynamics_record_again(fw_dynamics_recorder *record, const fw_dynamics_sh
     show_start(record);
     for (const fw_dynamics_shown *step = first; step; step = step->next) {
         look(&(looked_at){.record = record, .again = step}, step->fresh);
-        if (trace) trace(context, &step->piece);
+        fw_dynamics_piece piece = step->piece; /* shown to a run of its own loads */
+        piece.loads = record->motion->loads, piece.mechanism = record->problem->mechanism;
+        if (trace) trace(context, &piece);
     }
     record->fresh = false;
 }

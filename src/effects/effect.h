@@ -78,6 +78,8 @@ static inline bool fw_pin_has_stop(const fw_mechanism_pin *p) {
 }
 /* a cable that is not stretched in the drawn pose */
 bool fw_effects_spring_slack(const fw_mechanism *mechanism, const fw_device_spring *spring);
+/* places are asked for or drawn: a free strain moves those by itself, which no bound of what hinges turn by knows of */
+bool fw_effects_places_count(const fw_effect_case *c);
 /* no loads yet, with room for everything that mechanism and scene can ask for */
 fw_status fw_effects_loads_new(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_device_scene *scene, fw_effects_loads *loads);

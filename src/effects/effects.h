@@ -240,6 +240,7 @@ typedef struct fw_effects_stretch {
     double strain;
     fw_geometry_vec2 centre_m;
     const fw_quantity_law *law; /* NULL: nothing of the kind */
+    double grown;               /* by how much the layer's own lengths grow where the law is 1 */
 } fw_effects_stretch;
 
 typedef struct fw_effects_loads {
@@ -263,6 +264,8 @@ typedef struct fw_effects_loads {
        and, last, of the ground are longer by it (fw_mechanism_strained) */
     double *strain; /* (nbody + 1) */
     bool strained;
+    double
+        grown; /* of that, by how much the layer's own lengths have grown since they were drawn */
     fw_effects_stretch stretch;
     bool quasi_static; /* inertia is left out: the motion is a sequence of equilibria */
 } fw_effects_loads;
@@ -431,6 +434,26 @@ const fw_effects_loads *fw_effects_loads_keep(fw_arena *arena, const fw_effects_
    follow. Once after each fw_effects_compile. */
 fw_status fw_effects_strain(fw_arena *arena, const fw_mechanism *mechanism, fw_effects_loads *loads,
                             const fw_mechanism **strained);
+/* Under free strains the model counts in lengths of the layer, about the mean of the ground's points. What is told of places is
+   what masks, other chips and microscopes see, which stay with the substrate. */
+typedef struct fw_effects_growth {
+    fw_geometry_vec2 centre_m;
+    double ground, ground_per_s; /* strain of the ground's points against the layer, and its rate */
+    double grown, grown_per_s;   /* of the layer's own lengths */
+} fw_effects_growth;
+static inline bool fw_effects_has_growth(const fw_effects_loads *loads) {
+    return loads && (loads->strained || loads->stretch.law);
+}
+/* still: laws have their values, but no rates */
+fw_effects_growth fw_effects_growth_at(const fw_mechanism *mechanism, const fw_effects_loads *loads,
+                                       double t_s, double piece_s, bool still);
+/* Of a place or displacement as the model has it: beside the point of the substrate which is drawn there, in metres */
+fw_geometry_vec2 fw_effects_beside_substrate(const fw_effects_growth *growth,
+                                             fw_geometry_vec2 place_m, fw_geometry_vec2 drawn_m);
+/* places of bodies (3 nbody, out may be q) in a world in which the substrate stays as it is drawn; what bodies are
+   longer by there, relative */
+double fw_effects_on_substrate(const fw_effects_growth *growth, int nbody, const double *q,
+                               double *out);
 /* of that mechanism, one whose ground is as a law stretches it at the start: for assembling there
  */
 fw_status fw_effects_at_start(fw_arena *arena, const fw_mechanism *mechanism,

@@ -296,3 +296,54 @@ fw_status fw_effects_at_start(fw_arena *arena, const fw_mechanism *mechanism,
     strain[mechanism->nbody] = loads->stretch.strain * law[0];
     return fw_mechanism_strained(arena, mechanism, strain, start);
 }
+
+/* ---- places as the substrate sees them ----
+   A point that the model has at x, in lengths of the layer about the mean c of the ground's points, is at c + S (x - c)
+   with S = 1 + grown, and the point of the substrate that was drawn at p is at c + S (1 + e)(p - c) with the strain e of the
+   ground against the layer. In: dimensionless, m; out: m. Exact for even strains; constant ones and one with a law come one
+   after the other, as their scales do. Source: docs/theory/effects/temperature.md. Test: test_temperature.c, test_heated.py */
+
+fw_effects_growth fw_effects_growth_at(const fw_mechanism *m, const fw_effects_loads *loads,
+                                       double t_s, double piece_s, bool still) {
+    const fw_effects_stretch *s = &loads->stretch;
+    fw_effects_growth g = {.ground = loads->strained ? loads->strain[loads->nbody] : 0,
+                           .grown = loads->strained ? loads->grown : 0};
+    double law[3];
+    if (!fw_effects_has_growth(loads)) return g;
+    g.centre_m = fw_mechanism_ground_centre(m);
+    if (!s->law) return g;
+    fw_quantity_law_value(s->law, t_s, piece_s, law);
+    const double ground = 1 + g.ground, grown = 1 + g.grown, rate = still ? 0 : law[1];
+    g.ground += ground * s->strain * law[0], g.ground_per_s = ground * s->strain * rate;
+    g.grown += grown * s->grown * law[0], g.grown_per_s = grown * s->grown * rate;
+    return g;
+}
+
+fw_geometry_vec2 fw_effects_beside_substrate(const fw_effects_growth *g, fw_geometry_vec2 place_m,
+                                             fw_geometry_vec2 drawn_m) {
+    const double e = g->ground, S = 1 + g->grown;
+    return (fw_geometry_vec2){S * (place_m.x - drawn_m.x - e * (drawn_m.x - g->centre_m.x)),
+                              S * (place_m.y - drawn_m.y - e * (drawn_m.y - g->centre_m.y))};
+}
+
+double fw_effects_on_substrate(const fw_effects_growth *g, int nbody, const double *q,
+                               double *out) {
+    const double longer = -g->ground / (1 + g->ground);
+    for (int i = 0; i < 3 * nbody; i++)
+        out[i] = q[i];
+    for (int b = 0; b < nbody && longer != 0; b++) {
+        out[3 * b] += longer * (q[3 * b] - g->centre_m.x);
+        out[3 * b + 1] += longer * (q[3 * b + 1] - g->centre_m.y);
+    }
+    return longer;
+}
+
+bool fw_effects_places_count(const fw_effect_case *c) {
+    const fw_device *d = c->mechanism->device;
+    bool count = c->mechanism->layout && c->mechanism->layout->drawn;
+    for (int i = 0; d && i < d->nprobe && !count; i++) {
+        const fw_device_probe_takes takes = fw_device_probe_kinds[d->probe[i].row].takes;
+        count = takes == FW_PROBE_POINT || takes == FW_PROBE_PAIR || takes == FW_PROBE_OUTLINES;
+    }
+    return count;
+}

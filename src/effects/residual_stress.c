@@ -151,6 +151,7 @@ static fw_status add_strain(const fw_effect_case *c, double *strain) {
 static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     if (isnan(released_by(c).strain)) return FW_OK; /* not known: see check */
     loads->strained = true;
+    loads->grown += released_by(c).strain;
     return add_strain(c, loads->strain);
 }
 
@@ -168,6 +169,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         FW_TRY(add_strain(c, strains));
         FW_TRY(fw_effects_envelope_strain(c, strains, NULL, value));
     }
+    if (r.strain != 0 && fw_effects_places_count(c)) /* it moves them by itself */
+        *value = (double)INFINITY;
     FW_NEED(*reason = fw_arena_printf(
                 c->arena,
                 "the released layer has a strain of %s against its substrate and bends its hinges; "

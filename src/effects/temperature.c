@@ -46,6 +46,11 @@ static double ground_strain(const fw_mechanism *m, const fw_device_temperature *
     return (substrate - own) / (1 + own);
 }
 
+/* of the layer's own lengths where the law is 1 */
+static double layer_strain(const fw_mechanism *m, const fw_device_temperature *t) {
+    return stated_or(t->expansion_per_K, m, false) * t->change_K;
+}
+
 /* relative change of hinge stiffness per unit of the law; 0 where no hinge asks for it */
 static double softening(const fw_mechanism *m, const fw_device_temperature *t) {
     return has_hinge(m) ? stated_or(t->modulus_change_per_K, m, true) * t->change_K : 0;
@@ -184,7 +189,15 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
                                  fw_effects_envelope_varying(c, s.changing / left)
                            : (double)INFINITY;
     }
-    if (isfinite(*value))
+    if (isfinite(*value) && s.strain > 0 && fw_effects_places_count(c)) {
+        *value = (double)INFINITY;
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena,
+                    "the ground's points move by a strain of %s against the device, and with them "
+                    "every place that is drawn or probed: kept (the common expansion of %s is "
+                    "scaled out)",
+                    differs, grown));
+    } else if (isfinite(*value))
         FW_NEED(*reason = fw_arena_printf(
                     c->arena,
                     "the ground's points move by a strain of %s against the device, and flexures "
@@ -303,9 +316,10 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
         if (fw_quantity_law_is_constant(t->law)) {
             loads->strain[loads->nbody] += strain;
             loads->strained = true;
+            loads->grown += layer_strain(c->mechanism, t);
         } else
-            loads->stretch =
-                (fw_effects_stretch){strain, fw_mechanism_ground_centre(c->mechanism), t->law};
+            loads->stretch = (fw_effects_stretch){strain, fw_mechanism_ground_centre(c->mechanism),
+                                                  t->law, layer_strain(c->mechanism, t)};
     }
     return add_modulus(c, loads);
 }

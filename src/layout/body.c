@@ -471,17 +471,19 @@ fw_status fw_layout_rotor_flaw(fw_layout_drawing *d, int body, const fw_layout_c
     if (status == FW_GEOMETRY) return FW_OK;
     FW_TRY(status);
     flaw f = worst_of(&plain);
-    bool comb = p->comb->kind == FW_ELECTRODES_COMB;
+    const bool thin =
+        p->comb->kind == FW_ELECTRODES_COMB &&
+        p->width_m < fw_layout_comb_width_shown(); /* wider ones lack something else */
     if (share(&f) >= 1.0) return FW_OK;
     fw_layout_um(is, f.value_m), fw_layout_um(least, f.limit_m);
-    if (comb && *f.what == 'r' && fabs(f.value_m - tip) < 1e-9)
+    if (thin && *f.what == 'r' && fabs(f.value_m - tip) < 1e-9)
         *why =
             fw_arena_printf(d->arena,
                             "its fingers are %s um wide, so that their tips are rounded with %s um "
                             "only, and every mask shows %s um; make them %s um wide or wider",
                             fw_layout_um(wide, p->width_m), is, least,
                             fw_layout_um(x, fw_layout_comb_width_shown()));
-    else if (comb && *f.what == 'w' && fabs(f.value_m - p->width_m) < 1e-9)
+    else if (thin && *f.what == 'w' && fabs(f.value_m - p->width_m) < 1e-9)
         *why = fw_arena_printf(d->arena,
                                "its fingers are %s um wide, and the least width that every mask "
                                "shows is %s um; make them %s um wide or wider",

@@ -45,6 +45,8 @@ typedef struct fw_mechanism_variant { /* what the device is made of, in one flow
     fw_device_material material;
     const char *substrate;           /* name of what the layer is anchored to; NULL: not known */
     fw_quantity substrate_expansion; /* of it, 1/K */
+    /* a scene goes by the material's own expansion, by that of the substrate */
+    bool heated_layer, heated_substrate;
     bool
         substrate_insulates; /* what faces the device is glass or the like, which screens no field */
     double thickness_m;

@@ -497,6 +497,7 @@ static bool on_glass(const fw_plan_flow *pf) {
    glass that the description names. */
 fw_status fw_plan_find_ground(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_variant *v) {
     const fw_process_material *carries = NULL, *faces = NULL;
+    fw_plan_find_heated(plan->device, v->flow, v);
     if (pf->flow) FW_TRY(fw_process_flow_ground(plan->arena, pf->flow, &carries, &faces));
     if (carries && on_glass(pf))
         return fw_diag_error(&plan->diags, 666, pf->use->place,

@@ -48,6 +48,8 @@ void fw_plan_check_table(fw_diags *diags, const fw_process_flow *flow, const fw_
 /* what is below the device once the flow has freed it (plates.c) */
 fw_status fw_plan_find_below(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_below *below);
 fw_status fw_plan_find_ground(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_variant *v);
+/* which expansions the device's scenes leave to the material and the substrate of the variant */
+void fw_plan_find_heated(const fw_device *device, const char *flow, fw_mechanism_variant *variant);
 /* how the flow dries it, and what of adhesion it knows (plates.c) */
 fw_status fw_plan_find_drying(fw_plan *plan, const fw_plan_flow *pf, fw_mechanism_drying *drying);
 /* is what moves over its hollow wherever it goes, and is the hollow as deep as the scenes' air? Reasons of the flow,

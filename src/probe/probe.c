@@ -94,6 +94,7 @@ static fw_status bind_gap(fw_arena *arena, fw_clearance_things **things, fw_prob
         FW_TRY(fw_clearance_things_of(arena, m->layout, m, *things));
     }
     p->walls_m = fw_layout_walls_m(m->layout);
+    FW_NEED(p->placed = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     return fw_clearance_gap_new(arena, *things, p->asked->body, p->asked->body_b, &p->gap);
 }
 
@@ -163,6 +164,15 @@ const char *fw_probe_text(char buffer[FW_PROBE_TEXT], double value, const char *
     return buffer;
 }
 
+const char *fw_probe_when(char buffer[FW_PROBE_TEXT], double t_s) {
+    char number[32];
+    buffer[0] = '\0';
+    if (!isnan(t_s))
+        snprintf(buffer, FW_PROBE_TEXT, " at %s ms",
+                 fw_number_text(number, sizeof number, 1e3 * t_s, 4));
+    return buffer;
+}
+
 /* where a law jumps at a row, its value behind that; of the last row that before the end */
 static fw_probe_state state_at_row(const fw_dynamics_motion *motion, int row) {
     size_t i = (size_t)row, n = 3 * (size_t)motion->nbody;
@@ -218,7 +228,7 @@ double fw_probe_rate_at_row(const fw_probe *p, const fw_dynamics_motion *motion,
     const fw_mechanism *m = p->mechanism;
     const int n = 3 * motion->nbody;
     fw_probe_state s = state_at_row(motion, row);
-    const double *q = s.q, *angle = s.angle_rad;
+    const double *q = s.q, *angle = s.angle_rad, t = s.t_s;
     double arm = 0, fastest = 0, value[2];
     for (int i = 0; i < m->npin; i++)
         arm = fmax(arm, fmax(hypot(m->pin[i].ax_m, m->pin[i].ay_m),
@@ -238,6 +248,7 @@ double fw_probe_rate_at_row(const fw_probe *p, const fw_dynamics_motion *motion,
             room[n + i] = angle[i] + by * turning;
         }
         s.q = room, s.angle_rad = room + n;
+        s.t_s = t + by; /* lengths that a law stretches, in the same piece of it */
         value[side] = fw_probe_value(p, &s);
     }
     return (value[1] - value[0]) / (2 * h);

@@ -40,6 +40,7 @@ typedef struct fw_probe {
     bool *on;                                /* (switches) */
     int first_switch;                        /* of the element among all */
     const fw_clearance_gap *gap;             /* NULL: there are no such outlines */
+    double *placed;                          /* (3 nbody) work of the gap */
     double walls_m;                          /* by how much walls come nearer than drawn */
 } fw_probe;
 
@@ -181,6 +182,9 @@ double fw_probe_settling_s(const fw_probe_course *course, double band);
 /* "354 uN": four digits and a prefix for a value in an SI unit */
 enum { FW_PROBE_TEXT = 48 };
 const char *fw_probe_text(char buffer[FW_PROBE_TEXT], double value, const char *unit);
+
+/* " at 15 ms"; of NaN nothing */
+const char *fw_probe_when(char buffer[FW_PROBE_TEXT], double t_s);
 
 /* ---- about an equilibrium: probe_kinds.c ---- */
 

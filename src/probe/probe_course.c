@@ -162,7 +162,8 @@ static double level_of(const fw_probe *p, const fw_dynamics_motion *motion,
                                   .still = true};
         value[i] = of(p, &s);
     }
-    const fw_probe_state used = {.q = step->at.q, .still = true};
+    const double at_s = isnan(step->t_s) ? motion->end_s : step->t_s;
+    const fw_probe_state used = {.t_s = at_s, .piece_s = at_s, .q = step->at.q, .still = true};
     double away = p->row->moved ? p->row->moved(p, &used) : fabs(value[0] - origin);
     double size = fmax(away, 0.1 * largest), change = fabs(value[1] - value[0]);
     return change == 0 ? 0 : change / size;

@@ -54,6 +54,15 @@ static fw_geometry_vec2 speed_of(const fw_probe *p, int side, const fw_probe_sta
     return (fw_geometry_vec2){v[0] - v[2] * r.y, v[1] + v[2] * r.x};
 }
 
+static fw_effects_growth growth_of(const fw_probe *p, const fw_probe_state *s) {
+    return fw_effects_growth_at(p->mechanism, &p->loads, s->t_s, s->piece_s, s->still);
+}
+
+/* m of a length in lengths of the layer, of which the model is made */
+static double metres(const fw_probe *p, const fw_probe_state *s, double length) {
+    return fw_effects_has_growth(&p->loads) ? (1 + growth_of(p, s).grown) * length : length;
+}
+
 static double turning(const fw_probe_state *s, int body) {
     return s->v && body != FW_GROUND ? s->v[3 * body + 2] : 0;
 }
@@ -66,8 +75,14 @@ static double along(const fw_probe *p, double x, double y) {
 
 /* ---- displacement, velocity, angle, distance and opening ---- */
 
+/* against the point of the substrate that is drawn where the probe's point is */
 static fw_geometry_vec2 displacement(const fw_probe *p, const fw_probe_state *s) {
     const fw_geometry_vec2 now = point_of(p, 0, s);
+    if (p->point[0].body == FW_GROUND) return (fw_geometry_vec2){0, 0};
+    if (fw_effects_has_growth(&p->loads)) {
+        const fw_effects_growth g = growth_of(p, s);
+        return fw_effects_beside_substrate(&g, now, p->drawn[0]);
+    }
     return (fw_geometry_vec2){now.x - p->drawn[0].x, now.y - p->drawn[0].y};
 }
 
@@ -88,7 +103,15 @@ const fw_probe_row fw_probe_displacement = {.value = displacement_value,
 
 static double velocity(const fw_probe *p, const fw_probe_state *s) {
     if (!s->v && !s->still) return (double)NAN;
-    const fw_geometry_vec2 v = speed_of(p, 0, s);
+    fw_geometry_vec2 v = speed_of(p, 0, s);
+    if (fw_effects_has_growth(&p->loads)) { /* d/dt of the displacement */
+        const fw_effects_growth g = growth_of(p, s);
+        const fw_geometry_vec2 u = displacement(p, s), d = p->drawn[0];
+        const double S = 1 + g.grown, more = g.grown_per_s / S;
+        if (p->point[0].body == FW_GROUND) return 0;
+        v.x = S * (v.x - g.ground_per_s * (d.x - g.centre_m.x)) + more * u.x;
+        v.y = S * (v.y - g.ground_per_s * (d.y - g.centre_m.y)) + more * u.y;
+    }
     return along(p, v.x, v.y);
 }
 
@@ -104,7 +127,7 @@ const fw_probe_row fw_probe_angle = {.value = angle};
 
 static double distance(const fw_probe *p, const fw_probe_state *s) {
     const fw_geometry_vec2 a = point_of(p, 0, s), b = point_of(p, 1, s);
-    return hypot(b.x - a.x, b.y - a.y);
+    return metres(p, s, hypot(b.x - a.x, b.y - a.y));
 }
 
 const fw_probe_row fw_probe_distance = {.value = distance};
@@ -114,7 +137,7 @@ static double opening(const fw_probe *p, const fw_probe_state *s) {
     const fw_geometry_vec2 a = point_of(p, 0, s), b = point_of(p, 1, s);
     int body = p->asked->body;
     double direction = p->asked->direction_rad + (body == FW_GROUND ? 0 : s->q[3 * body + 2]);
-    return (b.x - a.x) * cos(direction) + (b.y - a.y) * sin(direction);
+    return metres(p, s, (b.x - a.x) * cos(direction) + (b.y - a.y) * sin(direction));
 }
 
 const fw_probe_row fw_probe_opening = {.value = opening};
@@ -133,12 +156,26 @@ static double as_made(const fw_probe *p, double drawn_m) {
     return drawn_m > 0 ? fmax(0, drawn_m - p->walls_m) : 0;
 }
 
+/* places where the substrate is as it is drawn, with the walls that stand on it; *longer: what bodies are */
+static const double *on_substrate(const fw_probe *p, const fw_probe_state *s, double *longer) {
+    *longer = 0;
+    if (!fw_effects_has_growth(&p->loads)) return s->q;
+    const fw_effects_growth g = growth_of(p, s);
+    *longer = fw_effects_on_substrate(&g, p->mechanism->nbody, s->q, p->placed);
+    return p->placed;
+}
+
 static double gap_value(const fw_probe *p, const fw_probe_state *s) {
-    return p->gap ? as_made(p, fw_clearance_gap_m(p->gap, s->q)) : (double)NAN;
+    double longer;
+    if (!p->gap) return (double)NAN;
+    const double *q = on_substrate(p, s, &longer);
+    return as_made(p, fw_clearance_gap_m(p->gap, q, longer));
 }
 
 static double gap_moved(const fw_probe *p, const fw_probe_state *s) {
-    return fw_clearance_gap_moved_m(p->gap, s->q);
+    double longer;
+    const double *q = on_substrate(p, s, &longer);
+    return fw_clearance_gap_moved_m(p->gap, q, longer);
 }
 
 double fw_probe_gap_drawn(const fw_probe *p) {

@@ -14,11 +14,15 @@ typedef struct effect {
     double centre;
 } effect;
 
-static void effects_of(fw_verdict_fabrication_input *in, effect e[4]) {
+enum { EFFECTS = 6 };
+
+static void effects_of(fw_verdict_fabrication_input *in, effect e[EFFECTS]) {
     e[0] = (effect){&in->edge_m, &in->edge_at_m, in->even};
     e[1] = (effect){&in->flare_m, &in->flare_at_m, in->drawn};
     e[2] = (effect){&in->thickness, &in->thickness_at, in->drawn};
     e[3] = (effect){&in->youngs, &in->youngs_at, in->drawn};
+    e[4] = (effect){&in->expansion, &in->expansion_at, in->drawn};
+    e[5] = (effect){&in->substrate, &in->substrate_at, in->drawn};
 }
 
 /* Cholesky's factor of the correlations; a pivot is held above 1e-6, so that inputs that are fully correlated keep a range
@@ -40,13 +44,13 @@ static bool factor(const fw_verdict_fabrication_input *in, int n,
 /* what goes with input i: of input k > i the part s_k L_ki/(s_i L_ii) for every unit of it */
 static void take_along(fw_verdict_fabrication_input *in, int n, int i,
                        double L[FW_FABRICATION_INPUTS][FW_FABRICATION_INPUTS]) {
-    effect own[4], other[4];
+    effect own[EFFECTS], other[EFFECTS];
     effects_of(&in[i], own);
     for (int k = i + 1; k < n; k++) {
         if (L[k][i] == 0.0) continue;
         double part = in[k].sigma * L[k][i] / (in[i].sigma * L[i][i]);
         effects_of(&in[k], other);
-        for (int e = 0; e < 4; e++) {
+        for (int e = 0; e < EFFECTS; e++) {
             double more = *other[e].each * part;
             *own[e].each += more;
             *own[e].at -= more * (in[i].nominal - own[e].centre);
@@ -147,10 +151,10 @@ static void read_corner(fw_process_pack *pack, const fw_xml_record *e) {
 void fw_process_pack_corners(fw_process_pack *pack) {
     for (const fw_xml_record *e = pack->root->first_child; e; e = e->next)
         if (fw_xml_is(e, "corner")) read_corner(pack, e);
-    if (pack->flow->ncorner > FW_FABRICATION_INPUTS)
-        fw_diag_error(pack->diags, 260, pack->flow->corner[FW_FABRICATION_INPUTS].place,
+    if (pack->flow->ncorner > FW_FLOW_INPUTS)
+        fw_diag_error(pack->diags, 260, pack->flow->corner[FW_FLOW_INPUTS].place,
                       "a flow has at most %d corners: join those that move the same edge",
-                      FW_FABRICATION_INPUTS);
+                      FW_FLOW_INPUTS);
 }
 
 /* ---- edges that isotropic etches leave ---- */
@@ -317,6 +321,35 @@ static bool wear_input(const fw_process_wear *w, const fw_mechanism_variant *v,
     return true;
 }
 
+/* ---- thermal expansion, where a scene goes by that of the material ---- */
+
+/* cut out of one wafer, or of one substance: whatever it expands by, both do */
+static bool is_of_one(const fw_quantity *a, const fw_quantity *b) {
+    return !a->unknown && !b->unknown && a->value == b->value && a->uncertainty == b->uncertainty;
+}
+
+static bool expansion_input(const fw_quantity *q, const char *name, bool substrate,
+                            fw_verdict_fabrication_input *in) {
+    *in = (fw_verdict_fabrication_input){.name = name};
+    set_range(in, q);
+    in->drawn = q->value;
+    *(substrate ? &in->substrate : &in->expansion) = 1.0;
+    return in->high > in->low;
+}
+
+/* Both are known to some part alone, and their difference is less. A scene that states them has them so. Test:
+   test_corners.c */
+static int expansions(const fw_mechanism_variant *v, fw_verdict_fabrication_input *list, int room) {
+    const fw_quantity *layer = &v->material.expansion, *substrate = &v->substrate_expansion;
+    int n = 0;
+    if (v->heated_layer && v->heated_substrate && is_of_one(layer, substrate)) return 0;
+    if (v->heated_layer && !layer->unknown && n < room)
+        n += expansion_input(layer, "thermal expansion", false, &list[n]);
+    if (v->heated_substrate && !substrate->unknown && n < room)
+        n += expansion_input(substrate, "thermal expansion of the substrate", true, &list[n]);
+    return n;
+}
+
 fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flow,
                                      const fw_process_mask_facts *facts,
                                      const fw_mechanism_variant *variant,
@@ -327,10 +360,10 @@ fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flo
     FW_NEED(list && edges ? list : NULL);
     FW_TRY(fw_process_fixed_point_solve(arena, flow, facts, variant->thickness_m, edges));
     *ninput = 0;
-    for (int i = 0; i < flow->ncorner && *ninput < FW_FABRICATION_INPUTS; i++)
+    for (int i = 0; i < flow->ncorner && *ninput < FW_FLOW_INPUTS; i++)
         *ninput += fill(edges, &flow->corner[i], variant, &list[*ninput]);
-    if (*ninput < FW_FABRICATION_INPUTS)
-        *ninput += wear_input(&edges->wear, variant, &list[*ninput]);
+    if (*ninput < FW_FLOW_INPUTS) *ninput += wear_input(&edges->wear, variant, &list[*ninput]);
+    *ninput += expansions(variant, list + *ninput, FW_FABRICATION_INPUTS - *ninput);
     *input = list;
     return fw_process_corners_independent(arena, list, *ninput);
 }

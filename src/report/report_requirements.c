@@ -227,10 +227,10 @@ static void requirement_row(fw_text *out, const fw_verdict_requirement *r, const
                   fw_probe_text(high, band[1], r->unit));
     fw_text_add(out, "<td class=\"n\">");
     bound_text(out, r);
-    fw_markup(out, "</td><td class=\"n\">{s}</td><td>{s}</td><td>{s}</td><td>{s}</td></tr>\n",
+    fw_markup(out, "</td><td class=\"n\">{s}</td><td>{s}</td><td>{s}{s}</td><td>{s}</td></tr>\n",
               r->why ? "" : fw_probe_text(value, r->margin, r->unit),
               fw_verdict_decision_text(r->decision), r->scene ? r->scene : fw_verdict_at_rest,
-              at ? at : "as drawn");
+              fw_probe_when(low, r->measure ? (double)NAN : r->t_s), at ? at : "as drawn");
 }
 
 fw_status fw_report_section_requirements(fw_report_page *page) {

@@ -31,8 +31,9 @@ static void requirement_row(fw_text *out, const fw_verdict_requirement *r, const
              isnan(r->max) ? "" : fw_probe_text(high, r->max, r->unit));
     fw_text_printf(out, "%-16s  ", band);
     fw_text_printf(out, "%-11s  ", r->why ? "" : fw_probe_text(text, r->margin, r->unit));
-    fw_text_printf(out, "%-12s %s", fw_verdict_decision_text(r->decision),
-                   r->scene ? r->scene : fw_verdict_at_rest);
+    fw_text_printf(out, "%-12s %s%s", fw_verdict_decision_text(r->decision),
+                   r->scene ? r->scene : fw_verdict_at_rest,
+                   fw_probe_when(text, r->measure ? (double)NAN : r->t_s));
     if (at)
         fw_text_printf(out, ", %s", at);
     else if (r->flow)

@@ -85,8 +85,13 @@ static void jump(const fw_statics_quasi_static *r, double t) {
         elsewhere = elsewhere || fabs(by) > (k % 3 == 2 ? fw_same_rad : fw_same_m);
     }
     const double at_s = t * r->w.model->scale.time_s;
-    const fw_dynamics_piece piece = {
-        .from_s = at_s, .to_s = at_s, .jump = true, .nodes = NODES, .q = r->piece_q};
+    const fw_dynamics_piece piece = {.from_s = at_s,
+                                     .to_s = at_s,
+                                     .jump = true,
+                                     .nodes = NODES,
+                                     .q = r->piece_q,
+                                     .loads = r->motion->loads,
+                                     .mechanism = r->w.mechanism};
     if (elsewhere) r->options->trace(r->options->context, &piece);
 }
 
@@ -398,8 +403,12 @@ static void trace(fw_statics_quasi_static *r) {
         fw_statics_equilibrium_pose(&r->w, r->guess, r->piece_q + (size_t)(i * r->w.model->nq),
                                     r->angle);
     }
-    const fw_dynamics_piece piece = {
-        .from_s = r->from.t * unit, .to_s = r->to.t * unit, .nodes = NODES, .q = r->piece_q};
+    const fw_dynamics_piece piece = {.from_s = r->from.t * unit,
+                                     .to_s = r->to.t * unit,
+                                     .nodes = NODES,
+                                     .q = r->piece_q,
+                                     .loads = r->motion->loads,
+                                     .mechanism = r->w.mechanism};
     r->options->trace(r->options->context, &piece);
 }
 

@@ -244,7 +244,8 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
 /* What the flow makes may be just what was drawn: that has been judged, and is not run again. */
 static bool as_drawn(const fw_verdict_fabrication *fabricated) {
     return !fabricated->sign && fabricated->edge_m == 0.0 && fabricated->flare_m == 0.0 &&
-           fabricated->thickness_ratio == 1.0 && fabricated->youngs_ratio == 1.0;
+           fabricated->thickness_ratio == 1.0 && fabricated->youngs_ratio == 1.0 &&
+           fabricated->expansion_per_K == 0.0 && fabricated->substrate_per_K == 0.0;
 }
 
 /* A flexure that is cut through rejects the point; a device that cannot be built or run leaves it
@@ -357,6 +358,7 @@ int fw_verdict_search_find(const fw_verdict_search *s, unsigned bits) {
 static bool is_same(const fw_verdict_fabrication *a, const fw_verdict_fabrication *b) {
     return a->edge_m == b->edge_m && a->flare_m == b->flare_m &&
            a->thickness_ratio == b->thickness_ratio && a->youngs_ratio == b->youngs_ratio &&
+           a->expansion_per_K == b->expansion_per_K && a->substrate_per_K == b->substrate_per_K &&
            a->local_m == b->local_m;
 }
 

@@ -15,6 +15,8 @@ fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_in
         fabricated.flare_m += input[i].flare_m * off + input[i].flare_at_m;
         fabricated.thickness_ratio += input[i].thickness * off + input[i].thickness_at;
         fabricated.youngs_ratio += input[i].youngs * off + input[i].youngs_at;
+        fabricated.expansion_per_K += input[i].expansion * off + input[i].expansion_at;
+        fabricated.substrate_per_K += input[i].substrate * off + input[i].substrate_at;
         fabricated.local_m += input[i].local * off;
     }
     return fabricated;
@@ -31,6 +33,8 @@ static void change_variant(fw_mechanism_variant *v, const fw_verdict_fabrication
     m->c11.value *= fabricated->youngs_ratio;
     m->c12.value *= fabricated->youngs_ratio;
     m->c44.value *= fabricated->youngs_ratio;
+    m->expansion.value += fabricated->expansion_per_K;
+    v->substrate_expansion.value += fabricated->substrate_per_K;
     v->explicit_mass_scale *= fabricated->thickness_ratio;
     v->explicit_stiffness_scale *= stiff;
     v->explicit_damping_scale *= sqrt(stiff * fabricated->thickness_ratio);

@@ -262,7 +262,8 @@ double fw_verdict_band_above(const fw_verdict_search *s, int hinge) {
 
 bool fw_verdict_search_edges_only(const fw_verdict_fabrication_input *in) {
     return fw_verdict_search_has_range(in) && in->edge_m != 0.0 && in->flare_m == 0.0 &&
-           in->thickness == 0.0 && in->youngs == 0.0;
+           in->thickness == 0.0 && in->youngs == 0.0 && in->expansion == 0.0 &&
+           in->substrate == 0.0;
 }
 
 /* ln of the most that a check uses at any corner */

@@ -6,11 +6,12 @@
 #define FW_VERDICT_VERDICT_FABRICATION_H
 #include "mechanism/mechanism.h"
 
-enum { FW_FABRICATION_INPUTS = 6 }; /* at most, of one flow: 64 corners */
+/* corners and wear of a flow at most, and with the two expansions of a scene that heats: 256 corners */
+enum { FW_FLOW_INPUTS = 6, FW_FABRICATION_INPUTS = FW_FLOW_INPUTS + 2 };
 
 /* one input x, in the SI unit of its quantity. The state that it makes is linear in it:
      edge += edge_m (x - even) + edge_at_m, flare += flare_m (x - drawn) + flare_at_m, relative
-   thickness and modulus likewise */
+   thickness and modulus likewise, and thermal expansions in 1/K */
 typedef struct fw_verdict_fabrication_input {
     const char *name; /* "printed edge" */
     fw_quantity q;    /* unit, status, source and note of the range */
@@ -18,8 +19,9 @@ typedef struct fw_verdict_fabrication_input {
     double even;      /* at which edges are where they are drawn: what the mask compensates */
     double nominal, low, high, sigma; /* low <= nominal <= high; sigma: standard uncertainty */
     double edge_m, flare_m, thickness, youngs; /* per unit of x */
+    double expansion, substrate; /* likewise of the layer, of what holds its anchors */
     /* the same at drawn and even: 0, but where an input goes with others (process/process_corners.c) */
-    double edge_at_m, flare_at_m, thickness_at, youngs_at;
+    double edge_at_m, flare_at_m, thickness_at, youngs_at, expansion_at, substrate_at;
     double
         local; /* edges of every hinge apart from the others, per unit of x either way; such an input has no
                      corners of its own */
@@ -31,8 +33,9 @@ typedef struct fw_verdict_fabrication {
     double edge_m;                        /* edges of the material stand out by this, mid-depth */
     double flare_m;                       /* see fw_device_flexure */
     double thickness_ratio, youngs_ratio; /* of the variant's own */
-    double local_m;                       /* edges of hinge j stand out by sign[j] local_m more */
-    const signed char *sign;              /* (nrevolute) NULL: all alike */
+    double expansion_per_K, substrate_per_K; /* beside the variant's own */
+    double local_m;          /* edges of hinge j stand out by sign[j] local_m more */
+    const signed char *sign; /* (nrevolute) NULL: all alike */
 } fw_verdict_fabrication;
 
 typedef struct fw_verdict_fabricated_device { /* copies; what they do not change is shared */

@@ -326,8 +326,6 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
 
 /* ---- of equilibria ---- */
 
-static const fw_device_scene without_loads = {.name = "(none)", .duration_s = 1};
-
 static const char *last_error(const fw_diags *diags) {
     for (size_t i = diags->count; i-- > 0;)
         if (diags->item[i].severity == FW_ERROR) return diags->item[i].message;
@@ -388,15 +386,15 @@ static void put_soft(const fw_probe *p, double left, double value, fw_verdict_re
 
 static const double hardly_soft = 0.98; /* what bodies leave, where no solid is worth its mesh */
 
-static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
-                             const fw_dynamics_motion_options *options,
-                             fw_verdict_variant_verdict *v, int scene) {
+fw_status fw_verdict_requirements_at(fw_arena *arena, const fw_mechanism *m,
+                                     const fw_dynamics_motion_options *options,
+                                     const fw_device_scene *s, int scene,
+                                     fw_verdict_variant_verdict *v) {
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     const fw_statics_mode_options o = {
         .effects = options->effects,
         .accuracy = options->hinge_accuracy > 0 ? options->hinge_accuracy : fmax(accuracy, 0.03),
         .at_equilibrium = scene != FW_NONE};
-    const fw_device_scene *s = scene == FW_NONE ? &without_loads : &m->device->scene[scene];
     fw_diags own = fw_diags_new(arena); /* what it warns of is in the value */
     const fw_statics_modes *modes = NULL;
     fw_probe *probe;
@@ -471,20 +469,20 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                   below ? "below" : "above", end);
         if (!all) return NULL;
     }
-    char rings[FW_PROBE_TEXT];
+    char rings[FW_PROBE_TEXT], when[FW_PROBE_TEXT];
     const char *still =
         r->rings > 0
             ? fw_arena_printf(
                   arena,
                   " of a motion that has not come to rest (where it ends it still goes to and fro "
-                  "by %s "
-                  "to either side: a longer scene or damping, <air> or <material-damping>, lets it "
-                  "settle)",
+                  "by %s to either side: a longer scene or damping, <air> or <material-damping>, "
+                  "lets it settle)",
                   fw_probe_text(rings, r->rings, r->unit))
             : "";
     if (!still) return NULL;
-    return fw_arena_printf(arena, "%s (%s) is %s (%s to %s%s), and at %s %s is required%s",
-                           r->probe, of, fw_probe_text(value, r->value, r->unit), low, high, all,
+    return fw_arena_printf(arena, "%s (%s) is %s%s (%s to %s%s), and at %s %s is required%s",
+                           r->probe, of, fw_probe_text(value, r->value, r->unit),
+                           fw_probe_when(when, r->measure ? (double)NAN : r->t_s), low, high, all,
                            below ? "least" : "most", bound, still);
 }
 
@@ -562,7 +560,9 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
         for (int i = 0; first && i < k; i++)
             first = v->requirement[i].measure ||
                     v->requirement[i].scene_index != v->requirement[k].scene_index;
-        if (first) FW_TRY(judge_small(arena, m, options, v, v->requirement[k].scene_index));
+        if (first)
+            FW_TRY(
+                fw_verdict_requirements_along(arena, m, options, v->requirement[k].scene_index, v));
     }
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].measure && !v->requirement[k].why)

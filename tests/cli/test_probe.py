@@ -26,6 +26,16 @@ PADDLE = """<device xmlns="urn:flexwright:device:1" name="paddle">
 K, LEVER, MASS, INERTIA, FORCE = 2e-6, 1.5e-3, 1e-6, 0.2e-12, 1e-4
 J = INERTIA + MASS * 1e-3 ** 2
 
+PULSE = """<device xmlns="urn:flexwright:device:1" name="clamp-arm">
+<material ref="silicon-100" youngs-modulus="160 GPa" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/>
+<die tethers="no"/><flexure id="la" kind="leaf" length="500 um" width="8 um" fillet="5 um"/>
+<mechanism><body id="arm" x="0 mm" y="0 mm"><plate x="0.9 mm" width="900 um" height="160 um"/>
+<plate x="1.25 mm" y="0.2 mm" width="150 um" height="300 um"/></body>
+<revolute id="A" a="ground" b="arm" hinge="la" axis="-90 deg"/></mechanism>
+<probe id="k" kind="stiffness" on="arm" x="1.1 mm" y="-0.08 mm" direction="-90 deg"/>%s
+<scene name="go" duration="40 ms"><comb-drive id="cl" kind="plate" on="arm" x="1.0 mm" y="-0.08 mm" direction="-90 deg"
+ gap="12 um" length="400 um" voltage="36 V" law="table" table="0 ms: 0; 15 ms: 1; 25 ms: 1; 40 ms: 0"/>
+<air kind="slide" on="arm" gap="20 um"/></scene></device>"""
 PROBES = """<probe id="up" kind="displacement" on="arm" x="0.5 mm" direction="90 deg"/>
 <probe id="all" kind="displacement" on="arm" x="0.5 mm"/>
 <probe id="fast" kind="velocity" on="arm" x="0.5 mm"/>
@@ -373,6 +383,22 @@ class Probe(unittest.TestCase):
         self.assertEqual(course["id"], "c")
         wrong = asked.replace('of="comb"/><probe id="p"', 'of="comb"/><probe id="f" kind="capacitance" of="spring"/><probe id="p"')
         self.assertEqual(run("statics", "-", input=wrong).returncode, 3)
+
+    def test_what_is_required_of_equilibria_holds_along_a_scene(self):
+        """a plate under a voltage that comes and goes: as soft as while it holds (15 to 25 ms), not as where the scene ends; a
+        most is judged where nothing pulls"""
+        for bound, value in (('min="700 Hz"', 684.3), ('max="800 Hz"', 863.3)):
+            text = PULSE % f'<require frequency="1" plane="in" {bound} scene="go"/><require probe="k" min="0.1 N/m" scene="go"/>'
+            done = run("check", self.file(text), "--corners", "none", "--advice", "none", "--json")
+            frequency, stiff = json.loads(done.stdout)["requirements"]
+            self.assertAlmostEqual(frequency["value"], value, delta=0.5)
+            self.assertEqual(frequency["verdict"], "reject")
+            self.assertAlmostEqual(frequency["t_s"], 0.015 if value < 700 else 0.04, delta=1e-6)
+            self.assertAlmostEqual(stiff["value"], 0.3486, delta=1e-3)
+        shown = run("check", self.file(PULSE % '<require frequency="1" plane="in" min="700 Hz" scene="go"/>'), "--corners", "none",
+                    "--advice", "none").stdout
+        self.assertRegex(shown, "684.3 Hz at 15 ms .*at least 700 Hz is required in go")
+        self.assertRegex(shown, "reject +go at 15 ms")
 
     def test_a_gap_is_the_distance_of_what_is_drawn(self):
         text = self.with_gap()

@@ -89,9 +89,11 @@ static void coefficients_hold_the_polynomial(void **state) {
     fw_arena_free(s.arena);
 }
 
-static fw_clearance_pose about(uint64_t *seed, fw_clearance_pose p, double size, double turn) {
+static fw_clearance_pose about(uint64_t *seed, fw_clearance_pose p, double size, double turn,
+                               double grow) {
     return (fw_clearance_pose){p.x_m + chance(seed, -size, size), p.y_m + chance(seed, -size, size),
-                               p.phi_rad + chance(seed, -turn, turn)};
+                               p.phi_rad + chance(seed, -turn, turn),
+                               p.longer + (grow > 0 ? chance(seed, -grow, grow) : 0)};
 }
 
 static void slack_bounds_every_pose(void **state) {
@@ -107,14 +109,14 @@ static void slack_bounds_every_pose(void **state) {
         fw_clearance_slack slack;
         for (int k = 0; k < 2; k++) {
             const fw_clearance_solid *b = &s.things.solid[k ? pair.b : pair.a];
-            const fw_clearance_pose rest = {b->centre.x, b->centre.y, 0};
-            middle[k] = about(&seed, rest, 1e-5, 0.2);
+            const fw_clearance_pose rest = {b->centre.x, b->centre.y, 0, 0};
+            middle[k] = about(&seed, rest, 1e-5, 0.2, i % 2 ? 0.01 : 0);
         }
         fw_clearance_slack_begin(&pair, (const fw_clearance_pose *)middle, &slack);
         double size = chance(&seed, 0, 1e-4), turn = chance(&seed, 0, 0.3);
         for (int j = 0; j < 4; j++) {
             for (int k = 0; k < 2; k++)
-                hull[j][k] = about(&seed, middle[k], size, turn);
+                hull[j][k] = about(&seed, middle[k], size, turn, i % 2 ? 0.05 : 0);
             fw_clearance_slack_add(&pair, (const fw_clearance_pose *)hull[j], &slack);
         }
         double least =
@@ -124,12 +126,13 @@ static void slack_bounds_every_pose(void **state) {
             double w[4], sum = 0;
             for (int k = 0; k < 4; k++)
                 sum += w[k] = chance(&seed, 0, 1);
-            fw_clearance_pose at[2] = {{0, 0, 0}, {0, 0, 0}};
+            fw_clearance_pose at[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
             for (int k = 0; k < 4; k++)
                 for (int b = 0; b < 2; b++) {
                     at[b].x_m += w[k] / sum * hull[k][b].x_m;
                     at[b].y_m += w[k] / sum * hull[k][b].y_m;
                     at[b].phi_rad += w[k] / sum * hull[k][b].phi_rad;
+                    at[b].longer += w[k] / sum * hull[k][b].longer;
                 }
             double d =
                 fw_clearance_pair_distance(&pair, (const fw_clearance_pose *)at, HUGE_VAL, NULL);
@@ -173,10 +176,11 @@ static void direction_bounds_every_pose(void **state) {
         fw_clearance_slack slack;
         fw_clearance_meet meet;
         const double size = pow(10, chance(&seed, -8, -4)), turn = 1e3 * size;
+        const double grow = i % 7 == 0 ? turn : 0; /* which is in the rests, not in the direction */
         for (int k = 0; k < 2; k++) {
             const fw_clearance_solid *b = &s.things.solid[k ? pair.b : pair.a];
             hull.middle[k] =
-                about(&seed, (fw_clearance_pose){b->centre.x, b->centre.y, 0}, 1e-5, 0.2);
+                about(&seed, (fw_clearance_pose){b->centre.x, b->centre.y, 0, 0}, 1e-5, 0.2, 0);
             hull.rest_m[k] = i % 3 ? 0 : chance(&seed, 0, size);
             hull.rest_rad[k] = i % 3 ? 0 : chance(&seed, 0, turn);
         }
@@ -184,7 +188,7 @@ static void direction_bounds_every_pose(void **state) {
         fw_clearance_slack_begin(&pair, middle, &slack);
         for (int j = 0; j < hull.count; j++)
             for (int k = 0; k < 2; k++)
-                hull.pose[j][k] = about(&seed, middle[k], size, turn);
+                hull.pose[j][k] = about(&seed, middle[k], size, turn, grow);
         for (int j = 0; j < hull.count; j++)
             for (int l = 0; l < hull.count; l++) {
                 const fw_clearance_pose both[2] = {hull.pose[j][0], hull.pose[l][1]};
@@ -202,11 +206,11 @@ static void direction_bounds_every_pose(void **state) {
         const double edges = fw_clearance_edges_bound(&pair, &hull, &meet, &where, &there);
         double needed = d - chance(&seed, 0, 1) * slack_m;
         const double all = fw_clearance_pair_bound(&pair, &hull, slack_m, needed);
-        if (i % 3) straight += lines, better += lines && edges > d - slack_m;
+        if (i % 3 && grow == 0) straight += lines, better += lines && edges > d - slack_m;
         assert_true(all <= needed);
         for (int j = 0; j < 30; j++) {
             double w[4], sum = 0;
-            fw_clearance_pose at[2] = {{0, 0, 0}, {0, 0, 0}};
+            fw_clearance_pose at[2] = {{0, 0, 0, 0}, {0, 0, 0, 0}};
             fw_clearance_pair own = pair;
             for (int b = 0; b < 2; b++) {
                 for (int k = 0; k < 4 && (b == 0 || hull.apart); k++)
@@ -215,8 +219,9 @@ static void direction_bounds_every_pose(void **state) {
                     at[b].x_m += w[k] / sum * hull.pose[k][b].x_m;
                     at[b].y_m += w[k] / sum * hull.pose[k][b].y_m;
                     at[b].phi_rad += w[k] / sum * hull.pose[k][b].phi_rad;
+                    at[b].longer += w[k] / sum * hull.pose[k][b].longer;
                 }
-                at[b] = about(&seed, at[b], hull.rest_m[b] / 1.5, hull.rest_rad[b]);
+                at[b] = about(&seed, at[b], hull.rest_m[b] / 1.5, hull.rest_rad[b], 0);
             }
             const double now = fw_clearance_pair_distance(&pair, at, HUGE_VAL, NULL);
             if (isfinite(all)) assert_true(now >= all - 1e-15);

@@ -68,15 +68,17 @@ static void distance_at_a_pose(void **state) {
     box(&s, 2, 0, -2e-4, 1e-4, -1.2e-4);
     drawn_q(&s, q);
     const fw_clearance_gap *gap = gap_of(&s, 0, 1), *below = gap_of(&s, 0, FW_GROUND);
-    assert_near(fw_clearance_gap_m(gap, q), 30e-6 * sqrt(2), 1e-15);
+    assert_near(fw_clearance_gap_m(gap, q, 0), 30e-6 * sqrt(2), 1e-15);
     assert_near(fw_clearance_gap_drawn_m(gap), 30e-6 * sqrt(2), 1e-15);
-    assert_near(fw_clearance_gap_m(below, q), 120e-6, 1e-15);
-    assert_true(fw_clearance_gap_moved_m(below, q) == 0);
+    assert_near(fw_clearance_gap_m(below, q, 0), 120e-6, 1e-15);
+    assert_true(fw_clearance_gap_moved_m(below, q, 0) == 0);
+    assert_near(fw_clearance_gap_m(below, q, 0.01), 119.5e-6, 1e-15); /* about its middle */
+    assert_near(fw_clearance_gap_moved_m(below, q, 0.01), 0.01 * hypot(5e-5, 5e-5), 1e-15);
     q[1] -= 20e-6;
-    assert_near(fw_clearance_gap_m(below, q), 100e-6, 1e-15);
-    assert_near(fw_clearance_gap_moved_m(below, q), 20e-6, 1e-15);
+    assert_near(fw_clearance_gap_m(below, q, 0), 100e-6, 1e-15);
+    assert_near(fw_clearance_gap_moved_m(below, q, 0), 20e-6, 1e-15);
     q[1] -= 130e-6;
-    assert_true(fw_clearance_gap_m(below, q) == 0); /* they cross */
+    assert_true(fw_clearance_gap_m(below, q, 0) == 0); /* they cross */
     fw_arena_free(s.arena);
 }
 
@@ -120,7 +122,7 @@ static double at(const scene *s, const fw_clearance_gap *gap, double theta) {
     double q[NQ];
     for (int c = 0; c < NQ; c++)
         q[c] = fw_clearance_path_value(&s->path, 0, c, theta);
-    return fw_clearance_gap_m(gap, q);
+    return fw_clearance_gap_m(gap, q, 0);
 }
 
 static void extremes_are_those_of_dense_samples(void **state) {

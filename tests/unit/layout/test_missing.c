@@ -181,6 +181,20 @@ static void narrow_fingers_are_wider(void **unused) {
     fw_arena_free(d.arena);
 }
 
+/* fingers that are wide enough lack something else, and are not told to be as wide as they are */
+static void wide_fingers_are_not_told_to_be_wide(void **unused) {
+    (void)unused;
+    fixture f;
+    for (int i = 0; i <= 8; i++) {
+        paddle_with_comb(&f, FW_ELECTRODES_COMB, 0.4e-3 + 10e-6 * i, 0.0);
+        comb.width_m = 8e-6, comb.gap_m = 5e-6;
+        drawn d = draw(&f.device);
+        for (int k = 0; k < d.layout->nmissing; k++)
+            assert_null(strstr(d.layout->missing[k].why, "wide or wider"));
+        fw_arena_free(d.arena);
+    }
+}
+
 /* where neither another place nor another width does alone both are named, and what is named is drawn */
 static void narrow_fingers_without_room_get_both(void **unused) {
     (void)unused;
@@ -471,6 +485,7 @@ int main(void) {
         cmocka_unit_test(as_many_fingers_as_there_is_room_for),
         cmocka_unit_test(short_fingers_are_longer),
         cmocka_unit_test(narrow_fingers_are_wider),
+        cmocka_unit_test(wide_fingers_are_not_told_to_be_wide),
         cmocka_unit_test(narrow_fingers_without_room_get_both),
         cmocka_unit_test(unstated_width_is_the_default),
         cmocka_unit_test(a_plate_names_a_place_that_has_room),

@@ -103,6 +103,34 @@ static void the_copper_flow(void **state) {
     assert_near(fabricated.thickness_ratio, 0.9, 1e-12);
 }
 
+/* what both expand by is known to some part alone, where a scene goes by it: of one substance there is no difference */
+static void expansions_where_a_scene_heats(void **state) {
+    (void)state;
+    fw_mechanism_variant v = variant_of(9e-6, 15e9);
+    v.material.expansion = (fw_quantity){.value = 16.7e-6, .uncertainty = 0.5e-6, .unit = "ppm/K"};
+    v.substrate_expansion = (fw_quantity){.value = 2.57e-6, .uncertainty = 0.05e-6, .unit = "ppm/K"};
+    int n;
+    double x[FW_FABRICATION_INPUTS];
+    inputs(COPPER, NULL, NULL, &v, &n);
+    assert_int_equal(n, 4);
+    v.heated_layer = v.heated_substrate = true;
+    const fw_verdict_fabrication_input *list = inputs(COPPER, NULL, NULL, &v, &n);
+    assert_int_equal(n, 6);
+    const int l = named(list, n, "thermal expansion"), s = named(list, n, "thermal expansion of the substrate");
+    assert_near(list[l].high, 17.7e-6, 1e-15);
+    for (int i = 0; i < n; i++)
+        x[i] = list[i].drawn;
+    fw_verdict_fabrication made = fw_verdict_fabrication_at(list, n, x);
+    assert_true(made.expansion_per_K == 0 && made.substrate_per_K == 0);
+    x[l] = list[l].high, x[s] = list[s].low;
+    made = fw_verdict_fabrication_at(list, n, x);
+    assert_near(made.expansion_per_K, 1e-6, 1e-15);
+    assert_near(made.substrate_per_K, -0.1e-6, 1e-15);
+    v.substrate_expansion = v.material.expansion;
+    inputs(COPPER, NULL, NULL, &v, &n);
+    assert_int_equal(n, 4);
+}
+
 /* by how much hinges may differ moves nothing that all have in common */
 static void hinges_of_their_own(void **state) {
     (void)state;
@@ -292,6 +320,7 @@ int main(void) {
         cmocka_unit_test(the_copper_flow),
         cmocka_unit_test(hinges_of_their_own),
         cmocka_unit_test(mistakes_have_a_place),
+        cmocka_unit_test(expansions_where_a_scene_heats),
         cmocka_unit_test(corners_that_move_nothing),
         cmocka_unit_test(corners_that_lack),
         cmocka_unit_test(numbers_that_are_meant),

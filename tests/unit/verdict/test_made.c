@@ -131,7 +131,7 @@ static void what_is_made_follows_the_edges(void **state) {
     (void)state;
     set_up s;
     begin(&s, "0.02 mN");
-    const fw_verdict_fabrication fabricated = {-0.5e-6, 0.25e-6, 0.98, 1.1, 0, NULL};
+    const fw_verdict_fabrication fabricated = {-0.5e-6, 0.25e-6, 0.98, 1.1, 0, 0, 0, NULL};
     fw_verdict_fabricated_device d;
     assert_int_equal(
         fw_verdict_fabrication_build(s.arena, s.device, NULL, &s.variant, &fabricated, &d), FW_OK);
@@ -165,7 +165,7 @@ static void what_is_made_follows_the_edges(void **state) {
     fw_device wide = *s.device;
     fw_device_flexure flexure[2] = {s.device->flexure[0], s.device->flexure[1]};
     wide.flexure = flexure;
-    const fw_verdict_fabrication thin = {-1e-6, 0, 1, 1, 0, NULL};
+    const fw_verdict_fabrication thin = {-1e-6, 0, 1, 1, 0, 0, 0, NULL};
     const double fillet[] = {3e-6, 8e-6, 9.9e-6, 11e-6}, then[] = {4e-6, 7.5e-6, 7.5e-6, 12e-6};
     for (int i = 0; i < 4; i++) {
         flexure[0].fillet_m = fillet[i];
@@ -173,11 +173,11 @@ static void what_is_made_follows_the_edges(void **state) {
                          FW_OK);
         assert_near(d.device.flexure[0].fillet_m, then[i], 1e-15);
     }
-    const fw_verdict_fabrication cut = {-3.9e-6, 0.3e-6, 1, 1, 0, NULL};
+    const fw_verdict_fabrication cut = {-3.9e-6, 0.3e-6, 1, 1, 0, 0, 0, NULL};
     assert_int_equal(fw_verdict_fabrication_build(s.arena, s.device, NULL, &s.variant, &cut, &d),
                      FW_OK);
     assert_non_null(d.gone);
-    const fw_verdict_fabrication shut = {3.1e-6, 0, 1, 1, 0, NULL};
+    const fw_verdict_fabrication shut = {3.1e-6, 0, 1, 1, 0, 0, 0, NULL};
     assert_int_equal(fw_verdict_fabrication_build(s.arena, s.device, NULL, &s.variant, &shut, &d),
                      FW_OK);
     assert_non_null(strstr(d.gone, "gap"));
@@ -210,7 +210,7 @@ static void pieces_keep_the_widths_of_what_is_left(void **state) {
                 flexure[0].width_m = 6e-6, flexure[0].gap_m = 0;
                 flexure[0].piece = piece, flexure[0].npiece = 2;
                 changed.flexure = flexure;
-                const fw_verdict_fabrication made = {edges[e], 0, 1, 1, 0, NULL};
+                const fw_verdict_fabrication made = {edges[e], 0, 1, 1, 0, 0, 0, NULL};
                 fw_verdict_fabricated_device d;
                 assert_int_equal(fw_verdict_fabrication_build(s.arena, &changed, NULL, &s.variant, &made, &d), FW_OK);
                 const fw_device_flexure *f = &d.device.flexure[0];
@@ -239,7 +239,7 @@ static void a_crystal_has_a_modulus_too(void **state) {
     fw_verdict_fabricated_device d[2];
     const fw_mechanism *m[2];
     for (int k = 0; k < 2; k++) {
-        const fw_verdict_fabrication fabricated = {0, 0, 1, k ? 1.1 : 1, 0, NULL};
+        const fw_verdict_fabrication fabricated = {0, 0, 1, k ? 1.1 : 1, 0, 0, 0, NULL};
         assert_int_equal(
             fw_verdict_fabrication_build(s.arena, s.device, NULL, &s.variant, &fabricated, &d[k]),
             FW_OK);
@@ -602,7 +602,7 @@ static void a_hinge_alone_is_narrower(void **state) {
     joint[1].flexure = 0;
     shared.revolute = joint;
     const signed char sign[2] = {0, -1};
-    const fw_verdict_fabrication made = {0.1e-6, 0, 1, 1, 0.3e-6, sign};
+    const fw_verdict_fabrication made = {0.1e-6, 0, 1, 1, 0, 0, 0.3e-6, sign};
     fw_verdict_fabricated_device d;
     assert_int_equal(fw_verdict_fabrication_build(s.arena, &shared, NULL, &s.variant, &made, &d), FW_OK);
     const fw_device *now = &d.device;

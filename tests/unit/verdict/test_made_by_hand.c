@@ -144,7 +144,7 @@ static void as_written_by_hand(void **state) {
         double edge = device_between(&draw, -0.6, 0.6), deep = device_between(&draw, 0.95, 1.05);
         const fw_device *drawn = written(arena, seed, 0, 1), *by_hand = written(arena, seed, edge, deep);
         const fw_mechanism_variant as_drawn = silicon(1), as_made = silicon(deep);
-        const fw_verdict_fabrication made = {edge * 1e-6, 0, deep, 1, 0, NULL};
+        const fw_verdict_fabrication made = {edge * 1e-6, 0, deep, 1, 0, 0, 0, NULL};
         fw_verdict_fabricated_device d;
         assert_int_equal(fw_verdict_fabrication_build(arena, drawn, NULL, &as_drawn, &made, &d), FW_OK);
         if (d.gone) fail_msg("%s", d.gone);

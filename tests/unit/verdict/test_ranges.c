@@ -106,7 +106,7 @@ static fw_verdict_ranges ranges(set_up *s, const fw_verdict *v,
 
 /* torque that brings the leaf to its limit in this thickness */
 static double bears(set_up *s, double thickness_ratio) {
-    const fw_verdict_fabrication made = {0, 0, thickness_ratio, 1, 0, NULL};
+    const fw_verdict_fabrication made = {0, 0, thickness_ratio, 1, 0, 0, 0, NULL};
     fw_verdict_fabricated_device d;
     const fw_mechanism *m;
     assert_int_equal(
