@@ -530,11 +530,11 @@ static int pads_of(const fw_process_coupon_work *w, bool wide, double size_m, do
 
 /* Thickness of pads of several widths, one run of charge q per area: the widest ones give
    eta = d n F rho/(M q), and those up to 30 um, as wide as flexures, the factor f =
-   d_narrow/d_wide: what is plated to d on average is f d there, which is the thickness that the flow's corner has
-   (made.cu of the copper flow). d m, q A s/m2, rho kg/m3; eta, f 1. Both groups are tested on their own. Source:
+   d_narrow/d_wide: what is plated to d on average is f d there. The flow's corner of the thickness has f itself (made.cu
+   of the copper flow), whatever d is planned, or f d where it is a length. d m, q A s/m2, rho kg/m3; eta, f 1. Both groups are tested on their own. Source:
    Faraday's law. Test: test_calibrate.c. */
 static fw_status by_pads(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], q, u_q, per, rho, widest = 0.0, d = 0.0;
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], q, u_q, per, rho, widest = 0.0, d = 1.0;
     fw_process_plating of;
     FW_TRY(plating_of(w, &of, &per));
     FW_TRY(need(w, of.density, "the density", &rho));
@@ -549,14 +549,18 @@ static fw_status by_pads(fw_process_coupon_work *w) {
     FW_TRY(fw_process_coupon_give(w, of.efficiency->id, eta, u, &wide,
                                   "thickness of the widest pads over charge"));
     int narrow = pads_of(w, false, 30.0e-6 * (1.0 + 1e-9), y, s);
-    if (narrow == 0 || widest < 100.0e-6 || !of.made || !of.thickness || !of.thickness->id ||
-        !fw_process_coupon_value(w, of.thickness->id, &d, NULL))
+    const bool share =
+        of.made &&
+        fw_process_corner_is_share(FW_CORNER_THICKNESS, fw_process_flow_quantity(w->flow, of.made));
+    if (narrow == 0 || widest < 100.0e-6 || !of.made ||
+        (!share && (!of.thickness || !of.thickness->id ||
+                    !fw_process_coupon_value(w, of.thickness->id, &d, NULL))))
         return FW_OK;
     fw_process_fit thin = fw_process_fit_mean(y, s, narrow);
     double f = thin.value[0] / wide.value[0];
     const char *note = fw_arena_printf(
-        w->arena, "pads up to 30 um are %d permille as thick as the widest; that times %s",
-        (int)lround(1000.0 * f), of.thickness->id);
+        w->arena, "pads up to 30 um are %d permille as thick as the widest%s%s",
+        (int)lround(1000.0 * f), share ? "" : "; that times ", share ? "" : of.thickness->id);
     FW_NEED(note);
     return fw_process_coupon_give(
         w, of.made, f * d, f * d * hypot(thin.uncertainty[0] / thin.value[0], u_wide), &thin, note);

@@ -330,6 +330,17 @@ static fw_status replace_all(fw_arena *arena, const fw_xml_record *root, fw_proc
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
 }
 
+/* A thickness that a pack states beside the planned one is about what is planned with that pack: one that stays is about what
+   it was stated with, so that it follows the plan. Test: test_corners.c thickness_follows_its_plan. */
+static void aim_anew(fw_process_flow *flow, const char *file) {
+    for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++) {
+        const fw_quantity *q = flow->corner[i].q;
+        if (flow->corner[i].aim_m > 0.0 && q->replaced && q->place.file &&
+            strcmp(q->place.file, file) == 0)
+            flow->corner[i].aim_m = flow->thickness->value;
+    }
+}
+
 fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xml, size_t n,
                                fw_process_flow *flow, fw_diags *diags) {
     fw_xml_reader r = {.arena = arena, .diags = diags, .table = &fw_process_laboratory_table};
@@ -344,8 +355,7 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
     FW_TRY(fw_xml_words_read(&r));
     if (!of || other) return FW_INPUT;
     FW_TRY(replace_all(arena, r.record, flow, diags));
-    for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++)
-        if (flow->corner[i].aim_m > 0.0) flow->corner[i].aim_m = flow->thickness->value;
+    aim_anew(flow, file);
     FW_TRY(fw_process_flow_lint_values(arena, flow, diags));
     for (int i = 0; i < flow->nstep; i++)
         fw_process_step_overrun(&flow->step[i]);

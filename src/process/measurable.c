@@ -137,6 +137,9 @@ static void of_pads(meant *m) {
     double d = value_of(m, of.thickness), made = of.made ? known(m->flow, of.made) : (double)NAN,
            q = d * value_of(m, of.valence) * FW_FARADAY_C_PER_mol * value_of(m, of.density) /
                (value_of(m, of.efficiency) * value_of(m, of.molar_mass));
+    if (of.made &&
+        fw_process_corner_is_share(FW_CORNER_THICKNESS, fw_process_flow_quantity(m->flow, of.made)))
+        made *= d;
     for (size_t i = 0; i < sizeof pad_um / sizeof pad_um[0]; i++) {
         bool narrow = pad_um[i] <= 30.0 && isfinite(made);
         fw_process_measurement row =

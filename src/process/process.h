@@ -271,11 +271,15 @@ typedef struct fw_process_corner { /* <corner of q assumed>: an input of what st
     const fw_quantity *q;       /* its range; NULL: the material's own (youngs) */
     const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
     const fw_quantity *within;  /* holds this one, too, once it was measured; may be NULL */
-    double aim_m; /* of a thickness: what the flow aims at, which its range is about; 0: q itself */
-    bool etched;  /* of an edge: q is uncertain by what the flow's isotropic etches are */
+    /* of a thickness that is a length: what the flow aimed at where it was stated, which its range is about; 0: q itself, or
+       q is the share of what is planned */
+    double aim_m;
+    bool etched; /* of an edge: q is uncertain by what the flow's isotropic etches are */
     fw_place place;
 } fw_process_corner;
 
+/* is it a thickness that is stated as its share of the planned one? */
+bool fw_process_corner_is_share(fw_process_corner_of of, const fw_quantity *q);
 /* false: what was measured holds it already */
 bool fw_process_corner_counts(const fw_process_corner *corner);
 

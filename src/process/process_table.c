@@ -183,7 +183,10 @@ static const fw_xml_attribute_row corner_rows[] = {
      .sentence = "What is not made exactly as drawn; local: by how much the "
                  "edges of one hinge may stand apart from those of the others."},
     {"name", TEXT, REQUIRED, .sentence = "What reports call it."},
-    {"q", TO(QUANTITY), .sentence = "Its range is the corner; none for youngs."},
+    {"q", TO(QUANTITY),
+     .sentence =
+         "Its range is the corner; none for youngs. Of a thickness: a length beside the planned "
+         "one, or the share of it that comes out, which follows whatever is planned."},
     {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},
     {"within", TO(QUANTITY),
      .sentence =

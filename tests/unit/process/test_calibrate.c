@@ -145,7 +145,7 @@ static void pads(truth *t) {
             (fw_quantity_dimension)FW_DIM(-2, 0, 1, 1, 0, 0, 0), measured_q, u_q);
     }
     t[0] = (truth){"cu.eta", eta};
-    t[1] = (truth){"made.cu", 9e-6 * f};
+    t[1] = (truth){"made.cu", f};
 }
 
 static void spin(truth *t) {
