@@ -62,7 +62,7 @@ static const double cd_um[] = {4, 6, 10}, slot_um[] = {4, 5, 7, 10, 20, 50, 100}
 static void of_lines(meant *m) {
     const char *edge = fw_process_coupon_edge(m->flow);
     bool printed = strcmp(edge, FW_PROCESS_PRINTED_EDGE) == 0;
-    double e = known(m->flow, edge) - (printed ? 0.0 : fw_process_coupon_loss(m->flow));
+    double e = known(m->flow, edge) - (printed ? 0.0 : fw_process_coupon_loss(m->flow, NULL));
     for (size_t i = 0; i < sizeof cd_um / sizeof cd_um[0]; i++) {
         double w = cd_um[i] * 1e-6;
         add(m, lengths("cd-lines", "line", w, w + 2.0 * e, m->width_m));
@@ -95,7 +95,8 @@ static void of_ladder(meant *m) {
     double D = m->flow->thickness ? known(m->flow, m->flow->thickness->id) : (double)NAN;
     double E = D * (1.0 + (isnan(over) ? 0.0 : over)),
            edge = known(m->flow, fw_process_coupon_edge(m->flow));
-    double lost = fw_process_coupon_loss(m->flow) - (isnan(edge) ? 0.0 : edge) + (1.0 - A) * E;
+    double lost =
+        fw_process_coupon_loss(m->flow, NULL) - (isnan(edge) ? 0.0 : edge) + (1.0 - A) * E;
     for (size_t i = 0; i < sizeof line_um / sizeof line_um[0]; i++) {
         double w = line_um[i] * 1e-6;
         fw_process_measurement row =

@@ -286,9 +286,31 @@ static fw_status check_result(const fw_process_flow *flow, const fw_process_cali
     return fw_process_quantity_in_range(&q, diags) ? FW_OK : FW_INPUT;
 }
 
-/* all rows through all kinds, into work->out */
+fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *c,
+                                      const fw_process_found_with *with) {
+    for (int i = 0; i < c->nwith; i++)
+        if (c->with[i].q == with->q && strcmp(c->with[i].of, with->of) == 0) return FW_OK;
+    fw_process_found_with *grown =
+        fw_arena_grow(arena, c->with, (size_t)c->nwith, (size_t)c->nwith + 1, sizeof *grown);
+    FW_NEED(grown);
+    grown[c->nwith++] = *with;
+    c->with = grown;
+    return FW_OK;
+}
+
+/* what this kind found, from `first` on, and of which values of the flow */
+static fw_status add_with(const fw_process_coupon_work *w, int first, fw_process_calibration *to) {
+    for (int i = 0; i < w->nread; i++)
+        for (int k = first; k < w->nout; k++) {
+            const fw_process_found_with with = {w->read[i], w->out[k].id};
+            FW_TRY(fw_process_calibration_with(w->arena, to, &with));
+        }
+    return FW_OK;
+}
+
+/* all rows through all kinds, into work->out; `with`: what they were found with goes there; NULL: it is not asked for */
 static fw_status fit_all(fw_process_coupon_work *w, const fw_process_measurement *measurement,
-                         int n) {
+                         int n, fw_process_calibration *with) {
     fw_status status = FW_OK;
     for (int k = 0; k < KINDS; k++) {
         w->n = 0;
@@ -301,7 +323,10 @@ static fw_status fit_all(fw_process_coupon_work *w, const fw_process_measurement
         }
         if (w->n == 0) continue;
         w->one_run = table[k]->one_run;
+        w->nread = 0;
+        const int first = w->nout;
         fw_status of_kind = table[k]->fit(w);
+        if (with && of_kind == FW_OK) FW_TRY(add_with(w, first, with));
         if (of_kind == FW_OK) of_kind = join(w->arena, w->diags, w->out, &w->nout);
         if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
         if (of_kind == FW_INPUT) status = of_kind; /* and what is wrong with the others */
@@ -327,12 +352,14 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
     }
     if (n == 0) return fw_diag_error(diags, 211, (fw_place){0}, "the table holds no measurement");
     FW_TRY(status);
-    status = fit_all(w, measurement, n);
+    fw_process_calibration with = {0};
+    status = fit_all(w, measurement, n, &with);
     if (status != FW_OK && status != FW_INPUT) return status;
     for (int k = 0; k < w->nout; k++)
         if (check_result(flow, &out[k], measurement[0].place, diags) != FW_OK) status = FW_INPUT;
     FW_TRY(status);
-    *calibration = (fw_process_calibration){.item = out, .count = w->nout};
+    *calibration = (fw_process_calibration){
+        .item = out, .count = w->nout, .with = with.with, .nwith = with.nwith};
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
@@ -388,7 +415,7 @@ static bool results(const problem *p, const source *s, double by, fw_process_cou
         w->shifted = s->q, w->shift = by;
     } else
         shift_row(p, s, by, row);
-    *status = fit_all(w, row, p->n);
+    *status = fit_all(w, row, p->n, NULL);
     bool good = *status == FW_OK && w->nout == p->found->count;
     for (int i = 0; good && i < w->nout; i++) {
         good = strcmp(out[i].id, p->found->item[i].id) == 0;

@@ -181,6 +181,26 @@ class Calibrate(InTemporary):
         self.assertRegex(self.expect(run("check", GALLERY, "--flow", COPPER, "--lab", old), 3).stderr,
                          "'made.cu' is pure number in the process pack, and not length")
 
+    def test_with_the_packs_of_the_laboratory(self):
+        """what follows from values that the laboratory has replaced is found with those, and a plan with others is told so"""
+        head = f'<process xmlns="urn:flexwright:process:1" flow="{SILICON}"><source id="s" kind="measured">book</source>'
+        mine, lab, other = (self.here / name for name in ("mine.xml", "lab.xml", "other.xml"))
+        mine.write_text(head + '<q id="al.d" value="1.2" u="0.03" unit="um" status="measured" src="s"/></process>')
+        other.write_text(head.replace(SILICON, COPPER) + "</process>")
+        table = self.coupons("coupon,feature,drawn_um,measured,u,unit\ncd-lines,line,10,7.36,0.03,um\ncd-lines,space,10,12.64,0.03,um\n")
+        edge = {}
+        for name, with_lab in (("without", ()), ("with", ("--lab", mine))):
+            self.expect(run("calibrate", table, "--flow", SILICON, "-o", lab, *with_lab))
+            edge[name] = float(lab.read_text().split('"made.al-edge" value="')[1].split('"')[0])
+            self.assertEqual("for use with mine.xml (SHA-256 " in lab.read_text(), bool(with_lab))
+            for packs in (f"{mine},{lab}", f"{lab},{mine}", lab):
+                told = run("check", GALLERY, "--flow", SILICON, "--lab", packs, "--measurements", "none").stderr
+                self.assertEqual("FW-D676" in told, bool(with_lab) == (packs == lab), told)
+        self.assertAlmostEqual(edge["with"], 0, places=6)
+        self.assertAlmostEqual(edge["without"], -0.22, places=6)
+        self.assertIn("for the flow 'copper-on-porous-silicon'", self.expect(run("calibrate", table, "--flow", SILICON, "--lab", other), 3).stderr)
+        self.expect(run("calibrate", table, "--flow", SILICON, "--lab", self.here / "none.xml"), 5)
+
     def test_refusals(self):
         lab = self.here / "lab.xml"
         wrong = COUPONS.replace("undercut-ladder,width,20,16.2", "undercut-ladder,width,20,12.2")

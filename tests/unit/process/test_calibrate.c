@@ -839,6 +839,121 @@ static void meant_by_its_stem(void **state) {
     assert_non_null(strstr(diags.item[0].message, "did you mean 'carrier.d'"));
 }
 
+static int said(const fw_diags *of, int number, const char *words) {
+    int n = 0;
+    for (size_t i = 0; i < of->count; i++)
+        n += of->item[i].number == number && strstr(of->item[i].message, words);
+    return n;
+}
+
+/* a laboratory's values in a flow of their own, one file each */
+static fw_process_flow *with_packs(const char *const *of, int n) {
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &diags);
+    for (int i = 0; i < n; i++)
+        assert_int_equal(fw_process_lab_apply(arena, fw_arena_printf(arena, "%d.xml", i), of[i], strlen(of[i]), f, &diags), FW_OK);
+    return f;
+}
+
+#define LAB(q)                                                                                                        \
+    "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\"><source id=\"m\" kind=\"measured\">x</source>" q "</process>"
+#define IS(id, value, u, unit) "<q id=\"" id "\" value=\"" value "\" u=\"" u "\" unit=\"" unit "\" status=\"measured\" src=\"m\"/>"
+
+/* What is found follows from values of the flow: an edge from the wet etch that is planned, a rate from the loading that takes
+   it to its reference. Found with those of a laboratory, it is right with them and says so; with others it is told. */
+static void found_with_other_values(void **state) {
+    (void)state;
+    static const char thicker[] = LAB(IS("al.d", "1.2", "0.03", "um"));
+    static const char loads[] = LAB(IS("rie.kappa", "0.004", "0.0008", "cm-2") IS("rie.A-reference", "20", "2", "cm2"));
+    static const char edge[] = LAB(IS("made.al-edge", "-0.1", "0.01", "um")) ;
+    const char *const both[] = {thicker, loads};
+    diags = fw_diags_new(arena);
+    nrow = 0;
+    for (int i = 0; i < 2; i++) /* of 1.2 um, etched as planned: 1.32 um to either side */
+        put("cd-lines", i ? "space" : "line", 10, LENGTH, (i ? 12.64 : 7.36) * 1e-6, 0.03e-6, (fw_quantity_dimension){0}, (double)NAN, (double)NAN);
+    for (int i = 0; i < 2; i++) {
+        put("etch-rate", "rie.R", 0, LENGTH, 28.26e-6, 0.05e-6, TIME, 3600, 6);
+        rows[nrow - 1].condition[FW_CONDITION_OPEN_AREA] = 53.84e-4;
+        rows[nrow - 1].condition_uncertainty[FW_CONDITION_OPEN_AREA] = 0.5e-4;
+    }
+    fw_process_calibration without, with;
+    fw_process_flow *own = with_packs(both, 0), *lab = with_packs(both, 2);
+    assert_int_equal(fw_process_calibrate(arena, own, rows, nrow, &diags, &without), FW_OK);
+    assert_int_equal(fw_process_calibrate(arena, lab, rows, nrow, &diags, &with), FW_OK);
+    assert_near(found(&without, "made.al-edge")->value, -0.22e-6, 1e-12);
+    assert_near(found(&with, "made.al-edge")->value, 0, 1e-12);
+    assert_relative(found(&with, "rie.R")->value / found(&without, "rie.R")->value, (1 + 0.004 * 53.84) / (1 + 0.004 * 20), 1e-9);
+    with.packs = "1.xml (SHA-256 0123)";
+    fw_text pack[2] = {fw_text_new(arena), fw_text_new(arena)};
+    assert_int_equal(fw_process_calibration_pack(own, &without, "l.csv", "0123456789abcdef", &pack[0]), FW_OK);
+    assert_int_equal(fw_process_calibration_pack(lab, &with, "l.csv", "0123456789abcdef", &pack[1]), FW_OK);
+    assert_non_null(strstr(pack[0].data, "<with q=\"rie.kappa\" of=\"rie.R\"/>")); /* nobody knew it */
+    assert_null(strstr(pack[0].data, "for use with"));
+    assert_non_null(strstr(pack[1].data, "; for use with 1.xml (SHA-256 0123)</source>"));
+    assert_non_null(strstr(pack[1].data, "<with q=\"al.d\" value=\"1.2\" unit=\"um\" of=\"made.al-edge\"/>"));
+    static const struct { /* packs of a plan, and what is told of them */
+        int found, kappa, thick, edge, before;
+    } plan[] = {{0, 0, 0, 0, 0}, {1, 0, 0, 0, 0}, {1, 1, 1, 0, 0}, {1, 1, 1, 0, 1}, {0, 1, 1, 0, 0}, {0, 0, 1, 0, 1}, {0, 0, 1, 1, 0}};
+    static const int told[] = {0, 3, 0, 0, 3, 1, 0};
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
+        const char *of[4];
+        int n = 0;
+        diags = fw_diags_new(arena);
+        if (plan[i].before) of[n++] = pack[plan[i].found].data;
+        if (plan[i].kappa) of[n++] = loads;
+        if (plan[i].thick) of[n++] = thicker;
+        if (!plan[i].before) of[n++] = pack[plan[i].found].data;
+        if (plan[i].edge) of[n++] = edge; /* what was found is not used */
+        fw_process_flow *f = with_packs(of, n);
+        assert_int_equal(said(&diags, 676, ""), 0); /* until all packs are there */
+        assert_int_equal(fw_process_lab_ask(arena, f, &diags), FW_OK);
+        assert_int_equal(said(&diags, 676, ""), told[i]);
+        if (i == 5) assert_int_equal(said(&diags, 676, "made.al-edge was found with al.d = 1 um, and al.d is 1.2 um now"), 1);
+        if (i == 4) assert_int_equal(said(&diags, 676, "rie.R was found with rie.kappa = unknown, and rie.kappa is 0.004 cm-2 now"), 1);
+    }
+    static const char *const wrong[] = {LAB("<with q=\"al.thick\" of=\"rie.R\"/>"), LAB("<with q=\"al.d\" value=\"1\" of=\"rie.R\"/>"),
+                                        LAB("<with q=\"al.d\" value=\"1\" unit=\"s\" of=\"rie.R\"/>")};
+    for (int i = 0; i < 3; i++) {
+        fw_process_flow *f = with_packs(NULL, 0);
+        assert_int_equal(fw_process_lab_apply(arena, "l.xml", wrong[i], strlen(wrong[i]), f, &diags), FW_INPUT);
+    }
+}
+
+/* what is given and changes nothing is told, once for a coupon */
+static void columns_that_nothing_takes(void **state) {
+    (void)state;
+    static const char table[] =
+        "coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit,temperature_Cel,open_area_cm2\n"
+        "etch-rate,rie.R,,28.26,0.05,um,60,0.1,min,,53.8\n"
+        "etch-rate,rie.R,,28.27,0.05,um,61,0.1,min,,53.8\n"
+        "etch-rate,pan.R,5,0.9,0.05,um,15,0.1,min,24,60\n"
+        "cd-lines,line,10,7.8,0.05,um,15,0.1,min,24,\n"
+        "undercut-ladder,width,20,16.9,0.1,um,50,0.2,um,,53.8\n";
+    static const char loads[] = LAB(IS("rie.kappa", "0.004", "0.0008", "cm-2") IS("rie.A-reference", "20", "2", "cm2"));
+    const char *const packs[] = {loads};
+    for (int known = 0; known < 2; known++) {
+        fw_process_measurement *row;
+        const fw_process_measurement *each[5];
+        int n;
+        diags = fw_diags_new(arena);
+        fw_process_flow *f = with_packs(packs, known);
+        diags = fw_diags_new(arena);
+        assert_int_equal(fw_process_measurements_read(arena, "t.csv", table, sizeof table - 1, &diags, &row, &n), FW_OK);
+        assert_int_equal(n, 5);
+        for (int i = 0; i < n; i++)
+            each[i] = &row[i];
+        assert_int_equal(fw_process_measurements_ask(f, each, n, true, "t.csv", &diags), FW_OK);
+        assert_int_equal(said(&diags, 679, "the open area of 2 rows of etch-rate is not used: step S18 corrects rie.R for it where rie.kappa and "
+                                           "rie.A-reference are known"),
+                         !known);
+        assert_int_equal(said(&diags, 679, "the open area of 1 row of etch-rate is not used: no step of flow 'al-masked-rie' corrects pan.R"), 1);
+        assert_int_equal(said(&diags, 679, "the temperature of 1 row of cd-lines is not used: no step"), 1);
+        assert_int_equal(said(&diags, 679, "cd-lines is measured under no condition"), 1);
+        assert_int_equal(said(&diags, 679, "etch-rate takes no drawn width"), 1);
+        assert_int_equal(said(&diags, 679, "the open area of 1 row of undercut-ladder is not used"), 1);
+        assert_int_equal(said(&diags, 679, ""), known ? 5 : 6);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coverage),        cmocka_unit_test(two_slots),
@@ -846,6 +961,7 @@ int main(void) {
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
         cmocka_unit_test(wrong_tables), cmocka_unit_test(tables_with_temperatures), cmocka_unit_test(rows_that_read_the_same),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
         cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(rates_of_a_temperature), cmocka_unit_test(of_warm_baths), cmocka_unit_test(of_open_areas), cmocka_unit_test(too_good),
-        cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice), cmocka_unit_test(another_metal)};
+        cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice), cmocka_unit_test(another_metal),
+        cmocka_unit_test(found_with_other_values), cmocka_unit_test(columns_that_nothing_takes)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
