@@ -63,11 +63,19 @@ typedef struct fw_process_coupon {
     const char *sides[2]; /* features that bound from either side, and say nothing alone */
     bool sides_measured;  /* ... with a value; else they are looked at */
     fw_quantity_dimension under[2];
+    bool
+        metered; /* what stands under `at` is told by one meter, with one error, in all rows of all such kinds */
     const char *mistaken; /* what is often taken for it; NULL */
     bool plain;           /* read on any wafer: stands on no test die */
     bool rate;            /* its feature is the id of a rate of the flow */
     bool of_mask; /* what the layer loses that masks the etch: no more than there is of it */
 } fw_process_coupon;
+
+/* coupon_plating.c: is what stands under `at` of the row told by the meter of all kinds, or of this one (of)? And the least
+   relative uncertainty of any such row, which all have of the meter; 0: none states one */
+bool fw_process_coupon_is_metered(const fw_process_measurement *row, const fw_process_coupon *of);
+double fw_process_coupon_meter(const fw_process_measurement *row, int n,
+                               const fw_process_coupon *of);
 
 /* process_calibrate.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the
    coupons used (id and C are m and m m, made here). u (n): standard uncertainties of the rows; shared: errors of what the
@@ -158,6 +166,10 @@ typedef struct
 fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const char *efficiency);
 /* id of the edge that lines of the mask layer read: of the layer that was etched under the resist, or the printed one */
 const char *fw_process_coupon_edge(const fw_process_flow *flow);
+/* how far the edges of the layer that masks the etch stand outside of the drawn ones, m, as the flow plans it or the coupons
+   before found: printed, less what isotropic etches take */
+void fw_process_coupon_mask_edge(fw_process_coupon_work *work, double *edge_m,
+                                 double *uncertainty_m);
 /* what isotropic masked etches take from every edge on the way, and the mask adds: m. What it follows from is noted for
    the coupon; NULL: for none */
 double fw_process_coupon_loss(const fw_process_flow *flow, fw_process_coupon_work *work);

@@ -503,3 +503,26 @@ const char *fw_process_coupon_edge(const fw_process_flow *flow) {
     static const char etched[] = "made.al-edge";
     return has(flow, etched) ? etched : FW_PROCESS_PRINTED_EDGE;
 }
+
+static bool is_found(const fw_process_coupon_work *w, const char *id) {
+    for (int i = 0; i < w->nknown; i++)
+        if (strcmp(w->known[i].id, id) == 0) return true;
+    return false;
+}
+
+/* e = sum e_k - L: e_k of the flow's corners of edges that count, as the fixed point has them; where cd-lines found the edge
+   of this layer, that alone, since what was printed is in it. m. Test: test_calibrate.c, slots_as_the_mask_opens_them */
+void fw_process_coupon_mask_edge(fw_process_coupon_work *w, double *edge, double *uncertainty) {
+    const char *read = fw_process_coupon_edge(w->flow);
+    double e, u;
+    *edge = -fw_process_coupon_loss(w->flow, w);
+    *uncertainty = 0.0;
+    for (int i = 0; i < w->flow->ncorner; i++) {
+        const fw_process_corner *c = &w->flow->corner[i];
+        if (c->of != FW_CORNER_EDGE || !c->q || !c->q->id || !fw_process_corner_counts(c)) continue;
+        if (is_found(w, read) && strcmp(c->q->id, read) != 0) continue;
+        if (!fw_process_coupon_value(w, c->q->id, &e, &u)) continue;
+        *edge += e;
+        *uncertainty = hypot(*uncertainty, u);
+    }
+}

@@ -319,18 +319,35 @@ static double depth_of(double width, double travelled, double S) {
     return D;
 }
 
-/* Slots of widths w, the same time t: D_i = R0 t - S J(w_i, D_i)
-   (docs/theory/calibrate.md). With two slots that is S = (D2 - D1)/(J1 - J2), R0 = (D1 + S J1)/t;
-   with more, the start of Gauss and Newton on D_i(R0 t, S), weighted with 1/u^2: dD/d(R0 t) = 1/(1
-   + S J'), dD/dS = -J/(1 + S J').
-   The time is common to all: its uncertainty comes on top of R0's. w, D m, t s; S 1. Lag above
-   twice its uncertainty below zero is refused. Test: test_calibrate.c, two_slots, coverage. */
-static fw_status fit_slots(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], p[FW_COUPON_ROWS], q[FW_COUPON_ROWS], t, u_t;
-    fw_process_etch etch = fw_process_flow_etch(w->flow);
-    if (!etch.rate || !etch.lag) return no_etch(w, "arde-slots", "a rate and a lag");
-    FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM_TIME, "the etch time", &t,
-                                       &u_t));
+/* the opening in the layer that masks the etch; edges that stand out by `edge` narrow it */
+static double opening_of(const fw_process_measurement *r, double edge) {
+    return r->drawn_m - 2.0 * edge;
+}
+
+/* D_i = R0 t - S J(w_i, D_i), two parameters R0 t and S; the rows were looked at. NaN: all are equally wide */
+static fw_process_fit lag_of(const fw_process_coupon_work *w, double edge) {
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], p[FW_COUPON_ROWS], q[FW_COUPON_ROWS];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
+        y[i] = r->value, s[i] = r->uncertainty, p[i] = 1.0;
+        q[i] = -fw_process_arde_integral(opening_of(r, edge), r->value, false);
+    }
+    fw_process_fit f = fw_process_fit_plane(y, s, p, q, w->n);
+    for (int round = 0; round < 8 && f.value[1] > -0.5; round++) {
+        const double travelled = f.value[0], S = f.value[1];
+        for (int i = 0; i < w->n; i++) {
+            double width = opening_of(w->measurement[i], edge), D = depth_of(width, travelled, S);
+            double slope = 1.0 + S * (1.0 / fw_process_knudsen_slot(D / width) - 1.0);
+            p[i] = 1.0 / slope;
+            q[i] = -fw_process_arde_integral(width, D, false) / slope;
+            y[i] = w->measurement[i]->value - D + p[i] * travelled + q[i] * S;
+        }
+        f = fw_process_fit_plane(y, s, p, q, w->n);
+    }
+    return f;
+}
+
+static fw_status check_slots(fw_process_coupon_work *w, double edge) {
     if (w->n < 2)
         return fw_process_coupon_wrong(w, w->measurement[0], "arde-slots needs two widths or more");
     for (int i = 0; i < w->n; i++) {
@@ -338,37 +355,57 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
         if (!(r->value > 0.0) || r->value / r->drawn_m > 1000.0)
             return fw_process_coupon_wrong(
                 w, r, "the depth of a slot must be above zero and below 1000 times its width");
-        y[i] = r->value, s[i] = r->uncertainty, p[i] = 1.0;
-        q[i] = -fw_process_arde_integral(r->drawn_m, r->value, false);
+        if (!(opening_of(r, edge) > 0.0))
+            return fw_process_coupon_wrong(w, r,
+                                           "this slot is closed in the layer that masks the etch, "
+                                           "whose edges stand out by %.3g um: check drawn_um, and "
+                                           "the rows of cd-lines",
+                                           1e6 * edge);
     }
-    fw_process_fit f = fw_process_fit_plane(y, s, p, q, w->n);
-    double travelled = f.value[0], S = f.value[1];
+    return FW_OK;
+}
+
+/* Slots drawn w_i wide, which the layer that masks the etch opens by w_i - 2 e, e where its edges stand; the same time t:
+   D_i = R0 t - S J(w_i - 2 e, D_i) (docs/theory/calibrate.md). With two slots that is S = (D2 - D1)/(J1 - J2),
+   R0 = (D1 + S J1)/t; with more, the start of Gauss and Newton on D_i(R0 t, S), weighted with 1/u^2: dD/d(R0 t) = 1/(1
+   + S J'), dD/dS = -J/(1 + S J').
+   Time and e are common to all: their uncertainties come on top, that of e by a fit with e + u_e. w, e, D m, t s; S 1. Lag
+   above twice its uncertainty below zero is refused. Test: test_calibrate.c, two_slots, coverage. */
+static fw_status fit_slots(fw_process_coupon_work *w) {
+    double t, u_t, edge, u_edge;
+    fw_process_etch etch = fw_process_flow_etch(w->flow);
+    if (!etch.rate || !etch.lag) return no_etch(w, "arde-slots", "a rate and a lag");
+    FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM_TIME, "the etch time", &t,
+                                       &u_t));
+    fw_process_coupon_mask_edge(w, &edge, &u_edge);
+    FW_TRY(check_slots(w, edge));
+    fw_process_fit f = lag_of(w, edge);
+    const double travelled = f.value[0], S = f.value[1];
     if (!isfinite(S))
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "all slots of arde-slots are equally wide; the lag follows "
                                        "from slots of different widths");
-    for (int round = 0; round < 8 && S > -0.5; round++) {
-        for (int i = 0; i < w->n; i++) {
-            double width = w->measurement[i]->drawn_m, D = depth_of(width, travelled, S);
-            double slope = 1.0 + S * (1.0 / fw_process_knudsen_slot(D / width) - 1.0);
-            p[i] = 1.0 / slope;
-            q[i] = -fw_process_arde_integral(width, D, false) / slope;
-            y[i] = w->measurement[i]->value - D + p[i] * travelled + q[i] * S;
-        }
-        f = fw_process_fit_plane(y, s, p, q, w->n);
-        travelled = f.value[0], S = f.value[1];
-    }
     if (!(S > -2.0 * f.uncertainty[1]))
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "narrow slots came out deeper than wide ones: that is no "
                                        "lag of this law; check the order of the rows");
+    fw_process_fit wider = lag_of(w, edge - u_edge); /* the side on which none closes */
+    const double u_travelled = hypot(f.uncertainty[0], wider.value[0] - travelled),
+                 u_S = hypot(f.uncertainty[1], wider.value[1] - S);
     FW_TRY(correct_run(w, etch.rate->id, &t, &u_t));
-    double R = travelled / t, u = hypot(f.uncertainty[0] / t, R * u_t / t);
-    const char *note = fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%",
-                                       w->n, (int)lround(100.0 * f.correlation));
+    double R = travelled / t, u = hypot(u_travelled / t, R * u_t / t);
+    const char *note =
+        edge == 0.0
+            ? fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%", w->n,
+                              (int)lround(100.0 * f.correlation))
+            : fw_arena_printf(w->arena,
+                              "from %d slots, %.4g um %s in the layer that masks the etch than "
+                              "drawn; correlation of rate and lag %d %%",
+                              w->n, 2e6 * fabs(edge), edge < 0.0 ? "wider" : "narrower",
+                              (int)lround(100.0 * f.correlation));
     FW_NEED(note);
     FW_TRY(fw_process_coupon_give(w, etch.rate->id, R, u, &f, note));
-    return fw_process_coupon_give(w, etch.lag->id, fmax(S, 0.0), f.uncertainty[1], &f, note);
+    return fw_process_coupon_give(w, etch.lag->id, fmax(S, 0.0), u_S, &f, note);
 }
 
 const fw_process_coupon fw_process_coupon_slots = {

@@ -38,12 +38,32 @@ static fw_status too_much(fw_process_coupon_work *w, const fw_process_plating *o
                                    fw_process_flow_material_name(w->flow, of->material), check);
 }
 
-/* Mass m of a deposit for a charge Q: eta = m n F/(M Q), through the origin over several runs. m
-   kg, Q A s, M kg/mol; eta 1. Source: Faraday's law. Test: test_calibrate.c. */
+bool fw_process_coupon_is_metered(const fw_process_measurement *r, const fw_process_coupon *of) {
+    const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
+    return kind && kind->metered && (!of || kind == of) && r->at > 0.0 && r->at_uncertainty > 0.0;
+}
+
+double fw_process_coupon_meter(const fw_process_measurement *row, int n,
+                               const fw_process_coupon *of) {
+    double least = (double)INFINITY;
+    for (int i = 0; i < n; i++)
+        if (fw_process_coupon_is_metered(&row[i], of))
+            least = fmin(least, row[i].at_uncertainty / row[i].at);
+    return isfinite(least) ? least : 0.0;
+}
+
+/* Mass m of a deposit for a charge Q: eta = m n F/(M Q), through the origin over several runs. One meter tells all charges:
+   what it is off by, s = least u_Q/Q, is no scatter, and comes on top. m kg, Q A s, M kg/mol; eta, s 1. Source: Faraday's
+   law. Test: test_calibrate.c coverage, charges_of_one_meter. */
 static fw_status by_mass(fw_process_coupon_work *w) {
     double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS], per;
     fw_process_plating of;
     FW_TRY(plating_of(w, &of, &per));
+    double shared = 0.0;
+    for (int i = 0; i < w->n; i++) {
+        const double of_row = fw_process_coupon_meter(w->measurement[i], 1, NULL);
+        if (of_row > 0.0 && (shared == 0.0 || of_row < shared)) shared = of_row;
+    }
     for (int i = 0; i < w->n; i++) {
         const fw_process_measurement *r = w->measurement[i];
         if (!fw_quantity_dimension_equal(r->at_dimension, (fw_quantity_dimension)FW_DIM_CHARGE) ||
@@ -53,13 +73,13 @@ static fw_status by_mass(fw_process_coupon_work *w) {
                 "plating-mass needs the charge in the columns at, u_at and "
                 "at_unit");
         y[i] = r->value * per, sy[i] = r->uncertainty * per;
-        x[i] = r->at, sx[i] = r->at_uncertainty;
+        x[i] = r->at;
+        sx[i] = sqrt(fmax(pow(r->at_uncertainty, 2.0) - pow(shared * r->at, 2.0), 0.0));
     }
     fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, w->n);
-    if (f.value[0] > 1.0 + 3.0 * f.uncertainty[0])
-        return too_much(w, &of, "mass, charge and units");
-    return fw_process_coupon_give(w, of.efficiency->id, f.value[0], f.uncertainty[0], &f,
-                                  "mass over charge");
+    const double u = hypot(f.uncertainty[0], f.value[0] * shared);
+    if (f.value[0] > 1.0 + 3.0 * u) return too_much(w, &of, "mass, charge and units");
+    return fw_process_coupon_give(w, of.efficiency->id, f.value[0], u, &f, "mass over charge");
 }
 
 /* rows with a pad of the least (or largest) sizes */
@@ -113,8 +133,9 @@ static fw_status by_pads(fw_process_coupon_work *w) {
 }
 
 const fw_process_coupon fw_process_coupon_mass = {
-    "plating-mass",           FW_DIM_MASS,  false, false, true, false, by_mass,
-    .under = {FW_DIM_CHARGE}, .plain = true};
+    "plating-mass",           FW_DIM_MASS,   false,          false, true, false, by_mass,
+    .under = {FW_DIM_CHARGE}, .plain = true, .metered = true};
 const fw_process_coupon fw_process_coupon_pads = {
     "plating-pads", FW_DIM_LENGTH, false,   true,
-    true,           true,          by_pads, .under = {FW_DIM(-2, 0, 1, 1, 0, 0, 0)}};
+    true,           true,          by_pads, .under = {FW_DIM(-2, 0, 1, 1, 0, 0, 0)},
+    .metered = true};

@@ -76,10 +76,15 @@ static void of_slots(meant *m) {
     fw_process_etch etch = fw_process_flow_etch(m->flow);
     double R = value_of(m, etch.rate), S = value_of(m, etch.lag);
     double D = m->flow->thickness ? 0.9 * known(m->flow, m->flow->thickness->id) : (double)NAN;
+    double edge, u;
+    fw_process_coupon_work *of = fw_arena_one(m->arena, fw_process_coupon_work);
+    if (!of) return; /* reads nothing; what comes next says that there is no memory */
+    of->arena = m->arena, of->flow = m->flow;
+    fw_process_coupon_mask_edge(of, &edge, &u);
     for (size_t i = 0; i < sizeof slot_um / sizeof slot_um[0]; i++) {
         double w = slot_um[i] * 1e-6, depth = D;
         for (int k = 0; k < 40 && isfinite(depth); k++) /* contracts by S (1/K - 1) */
-            depth = D - S * fw_process_arde_integral(w, depth, false);
+            depth = D - S * fw_process_arde_integral(w - 2.0 * edge, depth, false);
         fw_process_measurement row = lengths("arde-slots", "", w, depth, m->depth_m);
         row.at = D / R;
         row.at_uncertainty = m->time_s;
@@ -179,9 +184,12 @@ static const struct {
     const char *coupon, *with;
     void (*before)(meant *m), (*rows)(meant *m);
 } table[] = {
-    {"cd-lines", NULL, NULL, of_lines},    {"etch-rate", NULL, NULL, of_rates},
-    {"arde-slots", NULL, NULL, of_slots},  {"undercut-ladder", "cd-lines", of_lines, of_ladder},
-    {"al-step", NULL, NULL, of_mask_step}, {"release-holes", NULL, NULL, of_release},
+    {"cd-lines", NULL, NULL, of_lines},
+    {"etch-rate", NULL, NULL, of_rates},
+    {"arde-slots", "cd-lines", of_lines, of_slots},
+    {"undercut-ladder", "cd-lines", of_lines, of_ladder},
+    {"al-step", NULL, NULL, of_mask_step},
+    {"release-holes", NULL, NULL, of_release},
     {"plating-pads", NULL, NULL, of_pads},
 };
 enum { KINDS = sizeof table / sizeof table[0] };
