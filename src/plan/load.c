@@ -216,6 +216,7 @@ static fw_status apply_packs(fw_plan *plan, fw_process_flow *flow) {
         pack->used = pack->used || flow->noverride + flow->ntool_time > before;
     }
     FW_TRY(fw_process_lab_ask(plan->arena, flow, &plan->diags));
+    FW_TRY(fw_process_lab_ask_bias(plan->arena, flow, &plan->diags));
     return fw_schedule_tool_words(flow, &plan->diags);
 }
 

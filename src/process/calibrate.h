@@ -159,6 +159,9 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
                                fw_process_flow *flow, fw_diags *diags);
 /* once all packs are applied: what calibrate found with a value of the flow that is another now (FW-D676) */
 fw_status fw_process_lab_ask(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags);
+/* ... and what moves the bias of the mask beyond what was judged without it, so that wafers printed before are others
+   (FW-D683) */
+fw_status fw_process_lab_ask_bias(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags);
 
 /* ---- what a laboratory can read in a flow, and how exactly ----
    By the coupons of calibrate or by an instrument that the pack names; and the flow with one quantity as it would be after

@@ -381,6 +381,7 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));
     const fw_quantity was = *old;
+    o.before = was;
     FW_TRY(forget_correlation(arena, flow, old->id));
     *old = *new;
     old->id = was.id;
@@ -463,6 +464,50 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
     FW_TRY(fw_process_corners_follow(arena, flow));
     FW_TRY(fw_process_flow_waits(arena, flow)); /* their longest times are values, too */
     return diags->errors > before ? FW_INPUT : FW_OK;
+}
+
+/* ---- wafers that were printed before ---- */
+
+/* the range that the verdict had before; false: none */
+static bool range_before(const fw_process_corner *c, const fw_quantity *was, double *low,
+                         double *high) {
+    const fw_quantity *q = was->unknown ? c->assumed : was;
+    if (!q || q->unknown) return false;
+    fw_process_quantity_range(q, low, high);
+    return true;
+}
+
+/* The bias of the mask follows where edges come out, so that a verdict with another value is about another plate. What lies
+   within the range that was judged before holds for the old plate, too; x outside of it is told. SI. Test: test_corners.c
+   another_bias. */
+fw_status fw_process_lab_ask_bias(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags) {
+    for (int i = 0; i < flow->ncorner; i++) {
+        const fw_process_corner *c = &flow->corner[i];
+        const fw_process_override *o = NULL;
+        const char *is, *apart = "";
+        double low, high;
+        for (int k = 0; k < flow->noverride; k++)
+            if (c->q && strcmp(flow->override[k].id, c->q->id) == 0) o = &flow->override[k];
+        if ((c->of != FW_CORNER_EDGE && c->of != FW_CORNER_ANISOTROPY) || !o || c->q->unknown ||
+            !range_before(c, &o->before, &low, &high) ||
+            (c->q->value >= low && c->q->value <= high))
+            continue;
+        FW_TRY(bare(arena, c->q, &is));
+        const double edge_m = o->before.unknown ? 0.0 : o->before.value;
+        if (c->of == FW_CORNER_EDGE)
+            FW_NEED(apart = fw_arena_printf(arena, ", where lines come out %.3g um %s than here",
+                                            2e6 * fabs(c->q->value - edge_m),
+                                            c->q->value < edge_m ? "narrower" : "wider"));
+        fw_diag_warning(
+            diags, 683, c->q->place,
+            "%s is %s, beyond what it was taken to be before (%s): the mask makes up for "
+            "it, so that bias, times and verdict are of a plate that is drawn anew. "
+            "They are not of a wafer that was printed with the plate before%s: judge that "
+            "one without this value, by --set of the widths that it has, and --corners "
+            "none",
+            c->q->id, is, o->was, apart);
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
 }
 
 /* ---- what a laboratory pack chooses ---- */

@@ -271,6 +271,7 @@ typedef struct fw_process_text {
 
 typedef struct fw_process_override {    /* a value of the laboratory in the place of the pack's */
     const char *id, *was, *is, *source; /* "0.97 +- 0.02 (assumed)" */
+    fw_quantity before;
 } fw_process_override;
 
 /* <with> of a laboratory pack: a value of the flow, as it was where calibrate found what the pack has */

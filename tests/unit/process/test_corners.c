@@ -342,6 +342,31 @@ static void thickness_follows_its_plan(void **state) {
     }
 }
 
+/* A laboratory's edge that was judged without it changes nothing of wafers that are printed; one beyond that is of a mask drawn
+   anew, which is told */
+static void another_bias(void **state) {
+    (void)state;
+    static const struct {
+        const char *q, *words; /* NULL: nothing is told */
+    } of[] = {{SAID("made.al-edge", "-0.2", "0.02", "um"), NULL},
+              {SAID("made.al-edge", "-0.8", "0.02", "um"), "where lines come out 1.6 um narrower than here"},
+              {SAID("made.al-edge", "0.5", "0.02", "um"), "1 um wider"},
+              {SAID("rie.A", "0.993", "0.0003", "1"), NULL}, /* 0.99 to 1 was judged */
+              {SAID("rie.A", "0.97", "0.0003", "1"), "rie.A is 0.97, beyond what it was taken to be before"},
+              {SAID("al.d", "1.2", "0.02", "um"), NULL}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        fw_process_flow *flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+        const char *xml = fw_arena_printf(arena,
+                                          "<process xmlns=\"urn:flexwright:process:1\" flow=\"" SILICON "\">"
+                                          "<source id=\"m\" kind=\"measured\">x</source>%s</process>",
+                                          of[i].q);
+        diags = fw_diags_new(arena);
+        assert_int_equal(fw_process_lab_apply(arena, "l.xml", xml, strlen(xml), flow, &diags), FW_OK);
+        assert_int_equal(fw_process_lab_ask_bias(arena, flow, &diags), FW_OK);
+        assert_true(of[i].words ? said_of(683, of[i].words) != NULL : said_of(683, "") == NULL);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edge_of_an_etch_follows_its_rate),
@@ -354,6 +379,7 @@ int main(void) {
         cmocka_unit_test(corners_that_lack),
         cmocka_unit_test(numbers_that_are_meant),
         cmocka_unit_test(thickness_follows_its_plan),
+        cmocka_unit_test(another_bias),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
