@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands of the laboratory: measured coupons become a pack, what was done becomes a log. */
+/* The command of the laboratory that keeps what was done in a log. */
 #include "base/output.h"
 #include "base/text.h"
 #include "cli/session.h"
@@ -23,7 +23,7 @@ static fw_status head_name(fw_arena *arena, const char *file, const char **name)
 /* The log against its head, there since the log has begun. One that says that a head is kept is refused without: the next entry would write a new head,
    and then nothing would show any more that lines were removed. Of one of before there were heads only the beginning can be
    told to be whole, which is said also to those who want no warnings (-q). */
-static fw_status check_head(fw_arena *arena, fw_diags *diags, const char *file, bool begun,
+fw_status fw_cli_check_head(fw_arena *arena, fw_diags *diags, const char *file, bool begun,
                             const fw_recipe_asrun *run) {
     const char *name;
     char *text;
@@ -48,152 +48,6 @@ static fw_status check_head(fw_arena *arena, fw_diags *diags, const char *file, 
     }
     FW_TRY(fw_input_read(arena, name, LARGEST_LOG, diags, &text, &n));
     return fw_recipe_asrun_check_head(run, name, text, n, diags);
-}
-
-/* ---- `flexwright calibrate`: measured coupons in, laboratory pack out ---- */
-
-enum { MOST_BYTES = 8 * 1024 * 1024 };
-
-typedef struct work {
-    fw_arena *arena;
-    fw_diags diags;
-    const fw_cli_options *options;
-    const char *text; /* of the table, for carets */
-    size_t n;
-} work;
-
-static fw_status read_data(work *w, const char *name, char **data, size_t *n) {
-    const char *path, *const *pack, *near = NULL;
-    size_t npack;
-    FW_TRY(fw_data_path(w->arena, w->options->design.data_directory, name, &path));
-    if (!path) {
-        FW_TRY(
-            fw_data_names(w->arena, w->options->design.data_directory, "processes", &pack, &npack));
-        if (w->options->design.flow) near = fw_did_you_mean(w->options->design.flow, pack, npack);
-        return fw_diag_error(&w->diags, 224, (fw_place){.file = name},
-                             "there is no such process pack%s%s%s: correct the name of the flow, "
-                             "or set FLEXWRIGHT_DATA to the directory that holds processes/",
-                             FW_DID_YOU_MEAN(near));
-    }
-    return fw_input_read(w->arena, path, MOST_BYTES, &w->diags, data, n);
-}
-
-static fw_status read_flow(work *w, fw_process_flow **flow) {
-    char *base, *xml;
-    size_t nbase, n;
-    const char *name = fw_arena_printf(w->arena, "processes/%s.xml", w->options->design.flow);
-    FW_NEED(name);
-    FW_TRY(read_data(w, "processes/base.xml", &base, &nbase));
-    FW_TRY(read_data(w, name, &xml, &n));
-    return fw_process_flow_read(w->arena, "processes/base.xml", base, nbase, name, xml, n,
-                                &w->diags, flow);
-}
-
-static fw_status of_table(work *w, const fw_process_flow *flow, const char *file, const char *text,
-                          fw_process_calibration *found) {
-    fw_process_measurement *row;
-    int nrow;
-    FW_TRY(fw_process_measurements_read(w->arena, file, text, w->n, &w->diags, &row, &nrow));
-    FW_TRY(fw_process_calibrate(w->arena, flow, row, nrow, &w->diags, found));
-    return fw_process_calibration_correlate(w->arena, flow, row, nrow, found);
-}
-
-/* a log is verified as far as it can be without its device: chain, head and entries, not the plan's hash */
-static fw_status of_log(work *w, const fw_process_flow *flow, const char *file, const char *text,
-                        const char *hash, fw_process_calibration *found) {
-    const char *slash = strrchr(file, '/');
-    fw_recipe_asrun run;
-    fw_process_readings readings;
-    FW_TRY(fw_recipe_asrun_read(w->arena, flow, NULL, file, text, w->n, &w->diags, &run));
-    FW_TRY(check_head(w->arena, &w->diags, file, true, &run));
-    FW_TRY(fw_recipe_asrun_readings(w->arena, &run, &w->diags, &readings));
-    readings.file = slash ? slash + 1 : file;
-    readings.sha256 = hash;
-    return fw_process_calibrate_wafers(w->arena, flow, &readings, &w->diags, found);
-}
-
-/* what was read of the value that a message names: a lab has no 'u' to correct there, but wafers that differ */
-static const char *with_readings(work *w, const fw_process_calibration *found,
-                                 const char *message) {
-    for (int i = 0; i < found->count; i++) {
-        const fw_process_calibrated *c = &found->item[i];
-        const char *name = fw_arena_printf(w->arena, "'%s'", c->id);
-        if (!name) return NULL;
-        if (!strstr(message, name)) continue;
-        return fw_arena_printf(
-            w->arena,
-            "%s. It comes of %s (%s): measure more wafers, or leave out what was "
-            "read where a step was repeated or went otherwise than planned",
-            message, c->source ? c->source : c->coupon, c->note);
-    }
-    return message;
-}
-
-/* what --lab would not take is not written: the same questions, asked of the flow with these values */
-static fw_status is_taken(work *w, fw_process_flow *flow, const fw_process_calibration *found,
-                          const fw_text *pack) {
-    fw_diags said = fw_diags_new(w->arena);
-    fw_status status =
-        fw_process_lab_apply(w->arena, "calibrated", pack->data, pack->length, flow, &said);
-    if (said.failed) return FW_NOMEM;
-    for (size_t i = 0; i < said.count; i++)
-        if (said.item[i].severity == FW_ERROR) {
-            fw_diag d = said.item[i];
-            d.place = (fw_place){.file = w->options->device};
-            FW_NEED(d.message = with_readings(w, found, d.message));
-            fw_diags_add(&w->diags, &d, FW_ERROR);
-        }
-    return w->diags.failed ? FW_NOMEM : status;
-}
-
-static fw_status run(work *w) {
-    const char *file = w->options->device, *slash = strrchr(file, '/');
-    fw_process_flow *flow;
-    fw_process_calibration found;
-    char *text, hash[65];
-    FW_TRY(read_flow(w, &flow));
-    FW_TRY(fw_input_read(w->arena, file, MOST_BYTES, &w->diags, &text, &w->n));
-    w->text = text;
-    fw_sha256(text, w->n, hash);
-    if (fw_recipe_asrun_is_log(text, w->n))
-        FW_TRY(of_log(w, flow, file, text, hash, &found));
-    else
-        FW_TRY(of_table(w, flow, file, text, &found));
-    fw_process_calibration_ask(flow, &found, file, &w->diags);
-    fw_text pack = fw_text_new(w->arena), table = fw_text_new(w->arena);
-    FW_TRY(fw_process_calibration_pack(flow, &found, slash ? slash + 1 : file, hash, &pack));
-    FW_TRY(fw_process_calibration_text(flow, &found, &table));
-    FW_TRY(is_taken(w, flow, &found, &pack));
-    const char *to = w->options->output ? w->options->output : "-";
-    FW_TRY(fw_output_single(w->arena, to, pack.data, pack.length, &w->diags));
-    if (!w->options->quiet) fputs(table.data, strcmp(to, "-") == 0 ? stderr : stdout);
-    return FW_OK;
-}
-
-int fw_cli_command_calibrate(fw_cli_options *options) {
-    if (!options->design.flow)
-        return fw_cli_usage("calibrate needs --flow NAME: the flow that the coupons went through");
-    if (strpbrk(options->design.flow, "/\\"))
-        return fw_cli_usage("--flow takes the name of a flow, not a path");
-    work w = {.arena = fw_arena_new(0), .options = options};
-    if (!w.arena) return fw_cli_session_no_memory();
-    w.diags = fw_diags_new(w.arena);
-    fw_status status = run(&w);
-    fw_text said = fw_text_new(w.arena);
-    fw_text_add(&said, "");
-    size_t kept = 0; /* notes of the pack are for plan -v */
-    for (size_t i = 0; i < w.diags.count; i++)
-        if (w.diags.item[i].severity != FW_NOTE || options->verbose)
-            w.diags.item[kept++] = w.diags.item[i];
-    w.diags.count = kept;
-    fw_diags_print(&w.diags, &said, options->device, w.text, w.n, 0);
-    if (!said.failed) fputs(said.data, stderr);
-    if (status == FW_NOMEM)
-        fw_cli_session_no_memory();
-    else if (status != FW_OK && w.diags.errors == 0)
-        fprintf(stderr, "flexwright: error: %s; nothing was written\n", fw_status_text(status));
-    fw_arena_free(w.arena);
-    return fw_status_exit(status);
 }
 
 /* ---- the as-run log ---- */
@@ -248,7 +102,7 @@ static fw_status read_log(fw_plan *plan, const fw_plan_flow *pf, const char *has
     FW_TRY(fw_input_read(plan->arena, options->run, LARGEST_LOG, &plan->diags, &text, &n));
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, text, n, &plan->diags,
                                 &run));
-    FW_TRY(check_head(plan->arena, &plan->diags, options->run, true, &run));
+    FW_TRY(fw_cli_check_head(plan->arena, &plan->diags, options->run, true, &run));
     if (options->report) FW_TRY(write_report(plan, pf->flow, &run, options));
     if (options->report && strcmp(options->report, "-") == 0) return FW_OK;
     return print_log(plan, pf->flow, &run, options->json);
@@ -448,7 +302,7 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     FW_TRY(fw_text_end(&whole));
     FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, whole.data, whole.length,
                                 &plan->diags, run));
-    FW_TRY(check_head(plan->arena, &plan->diags, options->run, begun, run));
+    FW_TRY(fw_cli_check_head(plan->arena, &plan->diags, options->run, begun, run));
     run->table = pf->table;
     FW_TRY(entries_of(plan, options, run, &list));
     FW_NEED(run->entry = fw_arena_grow(plan->arena, run->entry, (size_t)run->nentry,

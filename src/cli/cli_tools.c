@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands that need no design: the local page, a new device file, an explanation, what the program
-   finds. */
+/* Commands that need no design: measured coupons become a laboratory pack, the local page, a new device file, an
+   explanation, what the program finds. */
 #include "base/output.h"
 #include "cli/session.h"
+#include "base/text.h"
 #include "continuum/continuum.h"
+#include "process/calibrate.h"
+#include "recipe/asrun.h"
 #include "report/report.h"
 #include "serve/serve.h"
 #include <errno.h>
@@ -245,4 +248,215 @@ int fw_cli_command_doctor(fw_cli_options *options) {
            __builtin_cpu_supports("avx2") ? "yes" : "no");
 #endif
     return missing ? fw_status_exit(FW_IO) : 0;
+}
+
+/* ---- `flexwright calibrate`: measured coupons in, laboratory pack out ---- */
+
+enum { MOST_BYTES = 8 * 1024 * 1024, MOST_LAB_BYTES = 1024 * 1024, MOST_LABS = 8 };
+
+typedef struct lab { /* a laboratory pack */
+    const char *file, *xml;
+    size_t n;
+} lab;
+
+typedef struct work {
+    fw_arena *arena;
+    fw_diags diags;
+    const fw_cli_options *options;
+    const char *text; /* of the table, for carets */
+    size_t n;
+    lab lab[MOST_LABS]; /* (nlab) */
+    int nlab;
+    const char *packs; /* their names; NULL: none */
+} work;
+
+static fw_status read_data(work *w, const char *name, char **data, size_t *n) {
+    const char *path, *const *pack, *near = NULL;
+    size_t npack;
+    FW_TRY(fw_data_path(w->arena, w->options->design.data_directory, name, &path));
+    if (!path) {
+        FW_TRY(
+            fw_data_names(w->arena, w->options->design.data_directory, "processes", &pack, &npack));
+        if (w->options->design.flow) near = fw_did_you_mean(w->options->design.flow, pack, npack);
+        return fw_diag_error(&w->diags, 224, (fw_place){.file = name},
+                             "there is no such process pack%s%s%s: correct the name of the flow, "
+                             "or set FLEXWRIGHT_DATA to the directory that holds processes/",
+                             FW_DID_YOU_MEAN(near));
+    }
+    return fw_input_read(w->arena, path, MOST_BYTES, &w->diags, data, n);
+}
+
+/* the laboratory packs that the results are for use with */
+static fw_status read_packs(work *w) {
+    const char *at = w->options->design.laboratory ? w->options->design.laboratory : "", *of;
+    fw_text said = fw_text_new(w->arena);
+    for (size_t n; *at; at += n + (at[n] == ',')) {
+        lab *l = &w->lab[w->nlab];
+        char hash[65], *xml;
+        fw_place place;
+        n = strcspn(at, ",");
+        if (w->nlab == MOST_LABS)
+            return fw_diag_error(&w->diags, 211, (fw_place){0}, "more than %d laboratory packs",
+                                 MOST_LABS);
+        FW_NEED(l->file = fw_arena_strndup(w->arena, at, n));
+        FW_TRY(fw_input_read(w->arena, l->file, MOST_LAB_BYTES, &w->diags, &xml, &l->n));
+        l->xml = xml;
+        FW_TRY(fw_process_lab_flow(w->arena, l->file, l->xml, l->n, &of, &place));
+        if (*of && strcmp(of, w->options->design.flow) != 0)
+            return fw_diag_error(&w->diags, 211, place,
+                                 "this laboratory pack is for the flow '%s', and the coupons went "
+                                 "through '%s'",
+                                 of, w->options->design.flow);
+        const char *slash = strrchr(l->file, '/');
+        fw_sha256(l->xml, l->n, hash);
+        fw_text_printf(&said, "%s%s (SHA-256 %.16s)", w->nlab ? ", " : "",
+                       slash ? slash + 1 : l->file, hash);
+        w->nlab++;
+    }
+    if (w->nlab == 0) return FW_OK;
+    FW_TRY(fw_text_end(&said));
+    w->packs = said.data;
+    return FW_OK;
+}
+
+/* with the values of the laboratory, and the steps as it does them */
+static fw_status read_flow(work *w, fw_process_flow **flow) {
+    char *base, *xml;
+    size_t nbase, n;
+    fw_process_choice *choice = NULL;
+    int nchoice = 0;
+    const char *name = fw_arena_printf(w->arena, "processes/%s.xml", w->options->design.flow);
+    FW_NEED(name);
+    FW_TRY(read_data(w, "processes/base.xml", &base, &nbase));
+    FW_TRY(read_data(w, name, &xml, &n));
+    FW_TRY(read_packs(w));
+    for (int i = 0; i < w->nlab; i++)
+        FW_TRY(fw_process_lab_choices(w->arena, w->lab[i].file, w->lab[i].xml, w->lab[i].n,
+                                      w->options->design.flow, &choice, &nchoice));
+    FW_TRY(fw_process_flow_read_chosen(w->arena, "processes/base.xml", base, nbase, name, xml, n,
+                                       choice, nchoice, NULL, &w->diags, flow));
+    for (int i = 0; i < w->nlab; i++)
+        FW_TRY(fw_process_lab_apply(w->arena, w->lab[i].file, w->lab[i].xml, w->lab[i].n, *flow,
+                                    &w->diags));
+    return fw_process_lab_ask(w->arena, *flow, &w->diags);
+}
+
+static fw_status of_table(work *w, const fw_process_flow *flow, const char *file, const char *text,
+                          fw_process_calibration *found) {
+    fw_process_measurement *row;
+    int nrow;
+    FW_TRY(fw_process_measurements_read(w->arena, file, text, w->n, &w->diags, &row, &nrow));
+    const fw_process_measurement **each =
+        fw_arena_array(w->arena, const fw_process_measurement *, (size_t)nrow + 1);
+    FW_NEED(each);
+    for (int i = 0; i < nrow; i++)
+        each[i] = &row[i];
+    FW_TRY(fw_process_measurements_ask(flow, each, nrow, true, file, &w->diags));
+    FW_TRY(fw_process_calibrate(w->arena, flow, row, nrow, &w->diags, found));
+    return fw_process_calibration_correlate(w->arena, flow, row, nrow, found);
+}
+
+/* a log is verified as far as it can be without its device: chain, head and entries, not the plan's hash */
+static fw_status of_log(work *w, const fw_process_flow *flow, const char *file, const char *text,
+                        const char *hash, fw_process_calibration *found) {
+    const char *slash = strrchr(file, '/');
+    fw_recipe_asrun run;
+    fw_process_readings readings;
+    FW_TRY(fw_recipe_asrun_read(w->arena, flow, NULL, file, text, w->n, &w->diags, &run));
+    FW_TRY(fw_cli_check_head(w->arena, &w->diags, file, true, &run));
+    FW_TRY(fw_recipe_asrun_readings(w->arena, &run, &w->diags, &readings));
+    readings.file = slash ? slash + 1 : file;
+    readings.sha256 = hash;
+    const fw_process_measurement **each =
+        fw_arena_array(w->arena, const fw_process_measurement *, (size_t)readings.n + 1);
+    FW_NEED(each);
+    for (int i = 0; i < readings.n; i++)
+        each[i] = &readings.item[i].row;
+    FW_TRY(fw_process_measurements_ask(flow, each, readings.n, false, file, &w->diags));
+    return fw_process_calibrate_wafers(w->arena, flow, &readings, &w->diags, found);
+}
+
+/* what was read of the value that a message names: a lab has no 'u' to correct there, but wafers that differ */
+static const char *with_readings(work *w, const fw_process_calibration *found,
+                                 const char *message) {
+    for (int i = 0; i < found->count; i++) {
+        const fw_process_calibrated *c = &found->item[i];
+        const char *name = fw_arena_printf(w->arena, "'%s'", c->id);
+        if (!name) return NULL;
+        if (!strstr(message, name)) continue;
+        return fw_arena_printf(
+            w->arena,
+            "%s. It comes of %s (%s): measure more wafers, or leave out what was "
+            "read where a step was repeated or went otherwise than planned",
+            message, c->source ? c->source : c->coupon, c->note);
+    }
+    return message;
+}
+
+/* what --lab would not take is not written: the same questions, asked of the flow with these values */
+static fw_status is_taken(work *w, fw_process_flow *flow, const fw_process_calibration *found,
+                          const fw_text *pack) {
+    fw_diags said = fw_diags_new(w->arena);
+    fw_status status =
+        fw_process_lab_apply(w->arena, "calibrated", pack->data, pack->length, flow, &said);
+    if (said.failed) return FW_NOMEM;
+    for (size_t i = 0; i < said.count; i++)
+        if (said.item[i].severity == FW_ERROR) {
+            fw_diag d = said.item[i];
+            d.place = (fw_place){.file = w->options->device};
+            FW_NEED(d.message = with_readings(w, found, d.message));
+            fw_diags_add(&w->diags, &d, FW_ERROR);
+        }
+    return w->diags.failed ? FW_NOMEM : status;
+}
+
+static fw_status run(work *w) {
+    const char *file = w->options->device, *slash = strrchr(file, '/');
+    fw_process_flow *flow;
+    fw_process_calibration found;
+    char *text, hash[65];
+    FW_TRY(read_flow(w, &flow));
+    FW_TRY(fw_input_read(w->arena, file, MOST_BYTES, &w->diags, &text, &w->n));
+    w->text = text;
+    fw_sha256(text, w->n, hash);
+    if (fw_recipe_asrun_is_log(text, w->n))
+        FW_TRY(of_log(w, flow, file, text, hash, &found));
+    else
+        FW_TRY(of_table(w, flow, file, text, &found));
+    found.packs = w->packs;
+    fw_process_calibration_ask(flow, &found, file, &w->diags);
+    fw_text pack = fw_text_new(w->arena), table = fw_text_new(w->arena);
+    FW_TRY(fw_process_calibration_pack(flow, &found, slash ? slash + 1 : file, hash, &pack));
+    FW_TRY(fw_process_calibration_text(flow, &found, &table));
+    FW_TRY(is_taken(w, flow, &found, &pack));
+    const char *to = w->options->output ? w->options->output : "-";
+    FW_TRY(fw_output_single(w->arena, to, pack.data, pack.length, &w->diags));
+    if (!w->options->quiet) fputs(table.data, strcmp(to, "-") == 0 ? stderr : stdout);
+    return FW_OK;
+}
+
+int fw_cli_command_calibrate(fw_cli_options *options) {
+    if (!options->design.flow)
+        return fw_cli_usage("calibrate needs --flow NAME: the flow that the coupons went through");
+    if (strpbrk(options->design.flow, "/\\"))
+        return fw_cli_usage("--flow takes the name of a flow, not a path");
+    work w = {.arena = fw_arena_new(0), .options = options};
+    if (!w.arena) return fw_cli_session_no_memory();
+    w.diags = fw_diags_new(w.arena);
+    fw_status status = run(&w);
+    fw_text said = fw_text_new(w.arena);
+    fw_text_add(&said, "");
+    size_t kept = 0; /* notes of the pack are for plan -v */
+    for (size_t i = 0; i < w.diags.count; i++)
+        if (w.diags.item[i].severity != FW_NOTE || options->verbose)
+            w.diags.item[kept++] = w.diags.item[i];
+    w.diags.count = kept;
+    fw_diags_print(&w.diags, &said, options->device, w.text, w.n, 0);
+    if (!said.failed) fputs(said.data, stderr);
+    if (status == FW_NOMEM)
+        fw_cli_session_no_memory();
+    else if (status != FW_OK && w.diags.errors == 0)
+        fprintf(stderr, "flexwright: error: %s; nothing was written\n", fw_status_text(status));
+    fw_arena_free(w.arena);
+    return fw_status_exit(status);
 }

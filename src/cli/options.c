@@ -465,8 +465,8 @@ static const fw_cli_option_row table[] = {
      FW_OPT_SCHEDULE, take_cut},
     {"lab", 0, "FILE",
      "laboratory pack (or several with commas between): its values replace those of the process "
-     "packs by id, and every one is named in run sheet and report; calibrate writes one",
-     FW_OPT_PLAN, take_lab},
+     "packs by id, and every one is named in run sheet and report; calibrate writes and takes one",
+     FW_OPT_PLAN | FW_OPT_CALIBRATE, take_lab},
     {"output", 'o', "FILE", "the laboratory pack; default standard output", FW_OPT_CALIBRATE,
      take_output},
     {"output", 'o', "FILE",

@@ -39,6 +39,12 @@ int fw_cli_session_put(fw_plan *plan, const char *directory, const fw_output_mem
 /* --csv - : the table has standard output for itself */
 bool fw_cli_session_file_on_stdout(const fw_cli_options *options);
 
+/* ---- cli_laboratory.c: what is kept beside a log shows that no line of it was removed (FW-D280, FW-D283) ---- */
+
+struct fw_recipe_asrun;
+fw_status fw_cli_check_head(fw_arena *arena, fw_diags *diags, const char *file, bool begun,
+                            const struct fw_recipe_asrun *run);
+
 /* ---- cli_deck.c: input decks of the continuum level for a person's own solver ---- */
 
 /* Into DIRECTORY, made when it is not there, for every flow of the plan (the plan is loaded):

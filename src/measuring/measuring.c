@@ -94,11 +94,14 @@ static bool same_inputs(const fw_verdict_fabrication_input *a, int na,
     return na == nb;
 }
 
-/* Where the description states a thickness, that is what is made, as much apart as the pack's own is */
+/* Where the description states a thickness, that is what is made, as much apart as the pack's own is. A share of it holds
+   whoever states it, and is what a laboratory pack takes. */
 static void as_described(const fw_verdict_variant_verdict *v, fw_measuring_item *item) {
     for (int k = 0; k < v->ninput; k++) {
         const fw_verdict_fabrication_input *in = &v->input[k];
-        if (in->thickness == 0 || !in->q.id || strcmp(in->q.id, item->id) != 0) continue;
+        if (in->thickness == 0 || !in->q.id || strcmp(in->q.id, item->id) != 0 ||
+            !fw_quantity_dimension_equal(item->q.dimension, in->q.dimension))
+            continue;
         const double ratio = in->nominal / item->value;
         if (!(ratio > 0) || !isfinite(ratio)) return;
         item->value *= ratio, item->before *= ratio, item->after *= ratio;

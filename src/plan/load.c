@@ -215,6 +215,8 @@ static fw_status apply_packs(fw_plan *plan, fw_process_flow *flow) {
             fw_process_lab_apply(plan->arena, pack->file, pack->xml, pack->n, flow, &plan->diags));
         pack->used = pack->used || flow->noverride + flow->ntool_time > before;
     }
+    FW_TRY(fw_process_lab_ask(plan->arena, flow, &plan->diags));
+    FW_TRY(fw_process_lab_ask_bias(plan->arena, flow, &plan->diags));
     return fw_schedule_tool_words(flow, &plan->diags);
 }
 

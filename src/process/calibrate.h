@@ -37,9 +37,19 @@ typedef struct fw_process_calibrated {
     double least[FW_CONDITIONS], most[FW_CONDITIONS];
 } fw_process_calibrated;
 
+typedef struct
+    fw_process_found_with { /* a value of the flow, and a result that was found with it */
+    const fw_quantity *q;
+    const char *of;
+} fw_process_found_with;
+
 typedef struct fw_process_calibration {
     const fw_process_calibrated *item; /* (count) one for every id */
     int count;
+    const fw_process_found_with *with; /* (nwith) known or not; none of the items */
+    int nwith;
+    const char
+        *packs; /* laboratory packs that the flow had, "lab.xml (SHA-256 0123)"; NULL: none */
     /* what is correlated: ids (njoint), of the items first and then of those of the flow that the coupons used, and
        their correlations (njoint njoint); NULL: not asked for, or nothing is */
     const char *const *joint;
@@ -88,6 +98,11 @@ double fw_process_written_uncertainty(const char *number);
 /* is such a row looked at, without a value? */
 bool fw_process_coupon_is_looked_at(const fw_process_measurement *row);
 
+/* says what is given and cannot be used: a condition that nothing corrects the rate for, a column that the coupon does not
+   take (FW-D679). typed: all of it was written for its row, as in a table; else conditions are those of the run, too */
+fw_status fw_process_measurements_ask(const fw_process_flow *flow,
+                                      const fw_process_measurement *const *row, int n, bool typed,
+                                      const char *file, fw_diags *diags);
 /* asks after results that lie far from what the flow has (FW-D643) */
 void fw_process_calibration_ask(const fw_process_flow *flow,
                                 const fw_process_calibration *calibration, const char *file,
@@ -142,6 +157,11 @@ fw_status fw_process_lab_choices(fw_arena *arena, const char *file, const char *
                                  const char *flow, fw_process_choice **choice, int *nchoice);
 fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xml, size_t n,
                                fw_process_flow *flow, fw_diags *diags);
+/* once all packs are applied: what calibrate found with a value of the flow that is another now (FW-D676) */
+fw_status fw_process_lab_ask(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags);
+/* ... and what moves the bias of the mask beyond what was judged without it, so that wafers printed before are others
+   (FW-D683) */
+fw_status fw_process_lab_ask_bias(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags);
 
 /* ---- what a laboratory can read in a flow, and how exactly ----
    By the coupons of calibrate or by an instrument that the pack names; and the flow with one quantity as it would be after

@@ -312,104 +312,7 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
     return diags->errors > before ? FW_INPUT : FW_OK;
 }
 
-/* ---- what is asked after ---- */
-
-/* Residuals that agree better than one in a thousand of such tables would, with more than a few of them: the same coupon
-   tells several values, and is named once. Test: test_calibrate.c, too_good */
-static void ask_too_good(const fw_process_calibration *calibration, int i, const char *file,
-                         fw_diags *diags) {
-    static const double most = 0.999;
-    static const int few = 3;
-    const fw_process_calibrated *c = &calibration->item[i];
-    char p[32];
-    if (!(c->probability > most) || c->freedom <= few) return;
-    for (int k = 0; k < i; k++) {
-        const fw_process_calibrated *other = &calibration->item[k];
-        if (strcmp(other->coupon, c->coupon) == 0 && other->chi_square == c->chi_square) return;
-    }
-    fw_diag_warning(diags, 663, (fw_place){.file = file},
-                    "readings of %s agree with their law better than their uncertainties let them: "
-                    "%d degrees of freedom, probability %s of a larger chi square. Readings that "
-                    "were copied, or a u= that is of an error which all of them share, look so",
-                    c->coupon, c->freedom, fw_number_text(p, sizeof p, c->probability, 5));
-}
-
-/* A rate that the law of a step corrects is that under its reference conditions, and under which ones the coupon was etched
-   not every reading says. Test: test_calibrate.c, rates_of_a_temperature, of_open_areas. */
-static void ask_condition(const fw_process_flow *flow, const fw_process_calibrated *c,
-                          fw_process_condition which, const char *file, fw_diags *diags) {
-    static const struct {
-        int number;
-        const char *more, *at, *log, *table;
-        double of;       /* its value is asked for so much more */
-        double relative; /* ... and that share of it more */
-    } say[FW_CONDITIONS] = {
-        [FW_CONDITION_TEMPERATURE] = {668, "a kelvin more", "at which temperature it was etched",
-                                      "set temperature= of the step, or temperature= of the coupon",
-                                      "columns temperature_Cel and u_temperature_K", 1.0, 0.0},
-        [FW_CONDITION_OPEN_AREA] = {677, "twice that area", "how much of its wafer was open",
-                                    "open-area= of the coupon, or set the open area of the step",
-                                    "columns open_area_cm2 and u_open_area_cm2", 0.0, 1.0}};
-    const fw_process_step *s = fw_process_flow_corrects(flow, which, c->id);
-    fw_process_coupon_work *w = s ? fw_arena_one(diags->arena, fw_process_coupon_work) : NULL;
-    double times;
-    char at[32], more[32];
-    if (!w || c->most[which] > 0.0) return;
-    const fw_quantity *from = fw_process_step_argument(s, fw_process_condition_reference(which)),
-                      *to = fw_process_step_corrects(s, which, c->id);
-    *w = (fw_process_coupon_work){.arena = diags->arena, .flow = flow, .diags = diags};
-    if (fw_process_step_speed(w, s, which,
-                              from->value * (1.0 + say[which].relative) + say[which].of,
-                              &times) != FW_OK)
-        return;
-    fw_diag_warning(
-        diags, say[which].number, (fw_place){.file = file},
-        "%s is written as the rate at %s = %s %s, and plans correct it from there to %s (%s "
-        "makes it %s times as fast); not every reading of %s says %s. Say so (%s), and it is "
-        "corrected",
-        c->id, from->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(from), 4), from->unit,
-        to->id, say[which].more, fw_number_text(more, sizeof more, times, 4), c->coupon,
-        say[which].at, c->source ? say[which].log : say[which].table);
-}
-
-/* Nothing that a laboratory reads is known to one part in a hundred thousand; a spread of 0, or a u= in another unit than its
-   value, says so. Test: test_calibrate.c, rows_that_read_the_same */
-static void ask_too_exact(const fw_process_calibrated *c, const char *file, fw_diags *diags) {
-    static const double least = 1e-5;
-    char parts[32];
-    if (!(c->uncertainty < least * fabs(c->value))) return;
-    fw_diag_warning(
-        diags, 682, (fw_place){.file = file},
-        "%s of %s would be known to one part in %s: no instrument reads so exactly. Give "
-        "what it may be off by as u, in the unit of the value",
-        c->id, c->coupon, fw_number_text(parts, sizeof parts, fabs(c->value) / c->uncertainty, 2));
-}
-
-/* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
-   test_calibrate.c, far_from_the_plan. */
-void fw_process_calibration_ask(const fw_process_flow *flow,
-                                const fw_process_calibration *calibration, const char *file,
-                                fw_diags *diags) {
-    for (int i = 0; i < calibration->count; i++) {
-        const fw_process_calibrated *c = &calibration->item[i];
-        const fw_quantity *old = fw_process_flow_quantity(flow, c->id);
-        char times[32];
-        ask_too_good(calibration, i, file, diags);
-        ask_too_exact(c, file, diags);
-        for (int k = 0; k < FW_CONDITIONS; k++)
-            ask_condition(flow, c, (fw_process_condition)k, file, diags);
-        if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
-        double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
-        const fw_process_coupon *kind = fw_process_coupon_kind(c->coupon);
-        if (!(far > 5.0)) continue;
-        fw_diag_warning(diags, 643, (fw_place){.file = file},
-                        "%s lies %s times its uncertainty from what the flow has: before a plan "
-                        "goes by it, look at units, drawn sizes and rows of %s%s%s",
-                        c->id, fw_number_text(times, sizeof times, far, 2), c->coupon,
-                        kind && kind->mistaken ? "; " : "",
-                        kind && kind->mistaken ? kind->mistaken : "");
-    }
-}
+/* ---- the pack ---- */
 
 /* value and uncertainty in the unit of the flow's own quantity */
 static bool in_unit(const fw_quantity *q, double value, double u, double *shown, double *u_shown) {
@@ -472,13 +375,21 @@ static void put_test(fw_text *out, const fw_process_calibrated *c) {
     fw_text_number(out, c->probability, 2);
 }
 
+static void put_packs(const fw_process_calibration *c, fw_text *out) {
+    if (!c->packs) return;
+    fw_text_add(out, "; for use with ");
+    fw_text_escaped(out, c->packs);
+}
+
 /* of one value: its wafers, readings and days */
-static void put_source(const fw_process_calibrated *c, fw_text *out) {
+static void put_source(const fw_process_calibration *of, const fw_process_calibrated *c,
+                       fw_text *out) {
     if (!c->source) return;
     fw_text_printf(out, "  <source id=\"%s-measured\" kind=\"measured\"", c->id);
     if (c->date) attribute(out, "date", c->date);
     fw_text_add(out, ">");
     fw_text_escaped(out, c->source);
+    put_packs(of, out);
     fw_text_add(out, "</source>\n");
 }
 
@@ -502,6 +413,31 @@ static void put_correlation(const fw_process_calibration *c, fw_text *out) {
     fw_text_add(out, "  </correlation>\n");
 }
 
+/* values of the flow that this was found with: a plan that has others says so */
+static void put_with(const fw_process_calibration *c, fw_text *out) {
+    for (int i = 0; i < c->nwith; i++) {
+        const fw_quantity *q = c->with[i].q;
+        bool told = false;
+        for (int k = 0; k < c->count; k++)
+            told = told || strcmp(c->item[k].id, q->id) == 0; /* found itself */
+        for (int k = 0; k < i; k++)
+            told = told || c->with[k].q == q;
+        if (told) continue;
+        fw_text_add(out, "  <with");
+        attribute(out, "q", q->id);
+        if (!q->unknown) {
+            fw_text_add(out, " value=\"");
+            fw_text_number(out, fw_quantity_in_unit(q), 9);
+            fw_text_add(out, "\"");
+            attribute(out, "unit", q->unit);
+        }
+        fw_text_add(out, " of=\"");
+        for (int k = i, n = 0; k < c->nwith; k++)
+            if (c->with[k].q == q) fw_text_printf(out, "%s%s", n++ ? " " : "", c->with[k].of);
+        fw_text_add(out, "\"/>\n");
+    }
+}
+
 fw_status fw_process_calibration_pack(const fw_process_flow *flow,
                                       const fw_process_calibration *calibration,
                                       const char *measured_file, const char *measured_sha256,
@@ -517,10 +453,12 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
     if (calibration->count == 0 || !calibration->item[0].source) {
         fw_text_add(out, "  <source id=\"coupons\" kind=\"measured\">measured coupons, ");
         fw_text_escaped(out, measured_file);
-        fw_text_printf(out, ", SHA-256 %.16s</source>\n", measured_sha256);
+        fw_text_printf(out, ", SHA-256 %.16s", measured_sha256);
+        put_packs(calibration, out);
+        fw_text_add(out, "</source>\n");
     }
     for (int i = 0; i < calibration->count; i++)
-        put_source(&calibration->item[i], out);
+        put_source(calibration, &calibration->item[i], out);
     for (int i = 0; i < calibration->count; i++) {
         const fw_process_calibrated *c = &calibration->item[i];
         const fw_quantity *q = fw_process_flow_quantity(flow, c->id);
@@ -547,6 +485,7 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         fw_text_add(out, "\"/>\n");
     }
     put_correlation(calibration, out);
+    put_with(calibration, out);
     fw_text_add(out, "</process>\n");
     return fw_text_end(out);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Coupons of a lot: several wafers, several sites of each. */
+/* Coupons of a lot: several wafers, several sites of each. And what is asked after, in what is given and in what is found. */
 #include "process/coupon.h"
+#include "process/pack.h"
 #include "maths/functions.h"
 #include <math.h>
 #include <string.h>
@@ -378,5 +379,194 @@ fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *fl
     for (int i = 0; i < all.m; i++)
         deviation[i] = i < l->nitem ? item[i].uncertainty : sqrt(all.C[i * all.m + i]);
     *calibration = (fw_process_calibration){.item = item, .count = l->nitem};
+    for (int i = 0; i < l->nwafer; i++)
+        for (int k = 0; k < l->wafer[i].found.nwith; k++)
+            FW_TRY(fw_process_calibration_with(arena, calibration, &l->wafer[i].found.with[k]));
     return fw_process_coupon_joint(arena, &all, deviation, calibration);
+}
+
+/* ---- what is asked after ---- */
+
+/* Residuals that agree better than one in a thousand of such tables would, with more than a few of them: the same coupon
+   tells several values, and is named once. Test: test_calibrate.c, too_good */
+static void ask_too_good(const fw_process_calibration *calibration, int i, const char *file,
+                         fw_diags *diags) {
+    static const double most = 0.999;
+    static const int few = 3;
+    const fw_process_calibrated *c = &calibration->item[i];
+    char p[32];
+    if (!(c->probability > most) || c->freedom <= few) return;
+    for (int k = 0; k < i; k++) {
+        const fw_process_calibrated *other = &calibration->item[k];
+        if (strcmp(other->coupon, c->coupon) == 0 && other->chi_square == c->chi_square) return;
+    }
+    fw_diag_warning(diags, 663, (fw_place){.file = file},
+                    "readings of %s agree with their law better than their uncertainties let them: "
+                    "%d degrees of freedom, probability %s of a larger chi square. Readings that "
+                    "were copied, or a u= that is of an error which all of them share, look so",
+                    c->coupon, c->freedom, fw_number_text(p, sizeof p, c->probability, 5));
+}
+
+/* A rate that the law of a step corrects is that under its reference conditions, and under which ones the coupon was etched
+   not every reading says. Test: test_calibrate.c, rates_of_a_temperature, of_open_areas. */
+static void ask_condition(const fw_process_flow *flow, const fw_process_calibrated *c,
+                          fw_process_condition which, const char *file, fw_diags *diags) {
+    static const struct {
+        int number;
+        const char *more, *at, *log, *table;
+        double of;       /* its value is asked for so much more */
+        double relative; /* ... and that share of it more */
+    } say[FW_CONDITIONS] = {
+        [FW_CONDITION_TEMPERATURE] = {668, "a kelvin more", "at which temperature it was etched",
+                                      "set temperature= of the step, or temperature= of the coupon",
+                                      "columns temperature_Cel and u_temperature_K", 1.0, 0.0},
+        [FW_CONDITION_OPEN_AREA] = {677, "twice that area", "how much of its wafer was open",
+                                    "open-area= of the coupon, or set the open area of the step",
+                                    "columns open_area_cm2 and u_open_area_cm2", 0.0, 1.0}};
+    const fw_process_step *s = fw_process_flow_corrects(flow, which, c->id);
+    fw_process_coupon_work *w = s ? fw_arena_one(diags->arena, fw_process_coupon_work) : NULL;
+    double times;
+    char at[32], more[32];
+    if (!w || c->most[which] > 0.0) return;
+    const fw_quantity *from = fw_process_step_argument(s, fw_process_condition_reference(which)),
+                      *to = fw_process_step_corrects(s, which, c->id);
+    *w = (fw_process_coupon_work){.arena = diags->arena, .flow = flow, .diags = diags};
+    if (fw_process_step_speed(w, s, which,
+                              from->value * (1.0 + say[which].relative) + say[which].of,
+                              &times) != FW_OK)
+        return;
+    fw_diag_warning(
+        diags, say[which].number, (fw_place){.file = file},
+        "%s is written as the rate at %s = %s %s, and plans correct it from there to %s (%s "
+        "makes it %s times as fast); not every reading of %s says %s. Say so (%s), and it is "
+        "corrected",
+        c->id, from->id, fw_number_text(at, sizeof at, fw_quantity_in_unit(from), 4), from->unit,
+        to->id, say[which].more, fw_number_text(more, sizeof more, times, 4), c->coupon,
+        say[which].at, c->source ? say[which].log : say[which].table);
+}
+
+/* Nothing that a laboratory reads is known to one part in a hundred thousand; a spread of 0, or a u= in another unit than its
+   value, says so. Test: test_calibrate.c, rows_that_read_the_same */
+static void ask_too_exact(const fw_process_calibrated *c, const char *file, fw_diags *diags) {
+    static const double least = 1e-5;
+    char parts[32];
+    if (!(c->uncertainty < least * fabs(c->value))) return;
+    fw_diag_warning(
+        diags, 682, (fw_place){.file = file},
+        "%s of %s would be known to one part in %s: no instrument reads so exactly. Give "
+        "what it may be off by as u, in the unit of the value",
+        c->id, c->coupon, fw_number_text(parts, sizeof parts, fabs(c->value) / c->uncertainty, 2));
+}
+
+/* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
+   test_calibrate.c, far_from_the_plan. */
+void fw_process_calibration_ask(const fw_process_flow *flow,
+                                const fw_process_calibration *calibration, const char *file,
+                                fw_diags *diags) {
+    for (int i = 0; i < calibration->count; i++) {
+        const fw_process_calibrated *c = &calibration->item[i];
+        const fw_quantity *old = fw_process_flow_quantity(flow, c->id);
+        char times[32];
+        ask_too_good(calibration, i, file, diags);
+        ask_too_exact(c, file, diags);
+        for (int k = 0; k < FW_CONDITIONS; k++)
+            ask_condition(flow, c, (fw_process_condition)k, file, diags);
+        if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
+        double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
+        const fw_process_coupon *kind = fw_process_coupon_kind(c->coupon);
+        if (!(far > 5.0)) continue;
+        fw_diag_warning(diags, 643, (fw_place){.file = file},
+                        "%s lies %s times its uncertainty from what the flow has: before a plan "
+                        "goes by it, look at units, drawn sizes and rows of %s%s%s",
+                        c->id, fw_number_text(times, sizeof times, far, 2), c->coupon,
+                        kind && kind->mistaken ? "; " : "",
+                        kind && kind->mistaken ? kind->mistaken : "");
+    }
+}
+
+/* what the coupon itself does not take */
+static void ask_columns(const fw_process_measurement *r, const fw_process_coupon *kind,
+                        const char *file, fw_diags *diags) {
+    if (!kind->drawn && !isnan(r->drawn_m) && r->drawn_m > 0.0)
+        fw_diag_warning(diags, 679, (fw_place){file, r->place.line, r->place.column},
+                        "%s takes no drawn width: what stands under drawn_um is not used",
+                        r->coupon);
+    if (!kind->at && !isnan(r->at))
+        fw_diag_warning(diags, 679, (fw_place){file, r->place.line, r->place.column},
+                        "%s is measured under no condition: what stands under at is not used",
+                        r->coupon);
+}
+
+/* the quantities that a step would correct the rate by, and that nobody knows; "": no step would */
+static fw_status lacks(const fw_process_flow *flow, fw_process_condition which, const char *rate,
+                       fw_diags *diags, const char **names, const char **step) {
+    const fw_process_coupon_lacking of = fw_process_coupon_lacks(flow, which, rate);
+    fw_text text = fw_text_new(diags->arena);
+    fw_text_add(&text, "");
+    for (int i = 0; i < of.n; i++)
+        fw_text_printf(&text, "%s%s", i ? " and " : "", of.q[i]->id);
+    FW_TRY(fw_text_end(&text));
+    *names = text.data;
+    *step = of.step ? of.step->id : "";
+    return FW_OK;
+}
+
+static fw_status ask_given(const fw_process_flow *flow, const fw_process_measurement *r, int rows,
+                           fw_process_condition which, bool typed, const char *file,
+                           fw_diags *diags) {
+    static const char *const word[FW_CONDITIONS] = {
+        [FW_CONDITION_TEMPERATURE] = "temperature", [FW_CONDITION_OPEN_AREA] = "open area"};
+    const char *rate = fw_process_coupon_rate(flow, r), *names, *step;
+    const bool by_depth =
+        fw_quantity_dimension_equal(r->at_dimension, (fw_quantity_dimension)FW_DIM_LENGTH);
+    const fw_place at = {file, r->place.line, r->place.column};
+    if (rate && fw_process_flow_corrects(flow, which, rate)) {
+        if (by_depth && typed)
+            fw_diag_warning(
+                diags, 679, at,
+                "the %s of %d row%s of %s is not used: these give no rate, but what was "
+                "etched at a depth",
+                word[which], rows, rows > 1 ? "s" : "", r->coupon);
+        return FW_OK;
+    }
+    FW_TRY(lacks(flow, which, rate ? rate : "", diags, &names, &step));
+    if (*names)
+        fw_diag_warning(
+            diags, 679, at,
+            "the %s of %d row%s of %s is not used: step %s corrects %s for it where %s "
+            "are known, and here they are not. State them in a laboratory pack and name "
+            "it with --lab",
+            word[which], rows, rows > 1 ? "s" : "", r->coupon, step, rate, names);
+    else
+        fw_diag_warning(
+            diags, 679, at,
+            "the %s of %d row%s of %s is not used: no step of flow '%s' corrects %s for "
+            "it",
+            word[which], rows, rows > 1 ? "s" : "", r->coupon, flow->id,
+            rate ? rate : "what it gives");
+    return FW_OK;
+}
+
+/* once for all rows of a coupon, at the first. Test: test_calibrate.c, columns_that_nothing_takes */
+fw_status fw_process_measurements_ask(const fw_process_flow *flow,
+                                      const fw_process_measurement *const *row, int n, bool typed,
+                                      const char *file, fw_diags *diags) {
+    for (int i = 0; i < n; i++) {
+        const fw_process_coupon *kind = fw_process_coupon_kind(row[i]->coupon);
+        bool first = kind != NULL;
+        for (int k = 0; k < i; k++)
+            first = first && (strcmp(row[k]->coupon, row[i]->coupon) != 0 ||
+                              strcmp(row[k]->feature, row[i]->feature) != 0);
+        if (typed && first) ask_columns(row[i], kind, file, diags);
+        for (int c = 0; c < FW_CONDITIONS; c++) {
+            int rows = 0, before = 0;
+            for (int k = 0; k < n; k++)
+                if (strcmp(row[k]->coupon, row[i]->coupon) == 0 &&
+                    strcmp(row[k]->feature, row[i]->feature) == 0 && row[k]->condition[c] > 0.0)
+                    rows++, before += k < i;
+            if (kind && row[i]->condition[c] > 0.0 && before == 0)
+                FW_TRY(ask_given(flow, row[i], rows, (fw_process_condition)c, typed, file, diags));
+        }
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
 }

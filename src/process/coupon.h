@@ -24,7 +24,7 @@ double fw_process_chi_square_above(double x, int n);
 
 /* Kinds of coupons: a file coupon_*.c and a line in coupons.def each. Private to process/. */
 
-enum { FW_COUPON_ROWS = 200, FW_COUPON_RESULTS = 64, FW_COUPON_USED = 32 };
+enum { FW_COUPON_ROWS = 200, FW_COUPON_RESULTS = 64, FW_COUPON_USED = 32, FW_COUPON_READ = 64 };
 
 /* of a larger chi square: below, the data contradict */
 #define FW_COUPON_LEAST_PROBABILITY 0.001
@@ -42,6 +42,8 @@ typedef struct fw_process_coupon_work { /* what a kind reads and fills */
     fw_diags *diags;
     const fw_quantity *used[FW_COUPON_USED]; /* (nused) of the flow, with their uncertainty */
     int nused;
+    const fw_quantity *read[FW_COUPON_READ]; /* (nread) of the flow, by this kind, known or not */
+    int nread;
     const fw_quantity *shifted; /* one of them, counted with this much more: process_calibrate.c */
     double shift;
 } fw_process_coupon_work;
@@ -61,11 +63,19 @@ typedef struct fw_process_coupon {
     const char *sides[2]; /* features that bound from either side, and say nothing alone */
     bool sides_measured;  /* ... with a value; else they are looked at */
     fw_quantity_dimension under[2];
+    bool
+        metered; /* what stands under `at` is told by one meter, with one error, in all rows of all such kinds */
     const char *mistaken; /* what is often taken for it; NULL */
     bool plain;           /* read on any wafer: stands on no test die */
     bool rate;            /* its feature is the id of a rate of the flow */
     bool of_mask; /* what the layer loses that masks the etch: no more than there is of it */
 } fw_process_coupon;
+
+/* coupon_plating.c: is what stands under `at` of the row told by the meter of all kinds, or of this one (of)? And the least
+   relative uncertainty of any such row, which all have of the meter; 0: none states one */
+bool fw_process_coupon_is_metered(const fw_process_measurement *row, const fw_process_coupon *of);
+double fw_process_coupon_meter(const fw_process_measurement *row, int n,
+                               const fw_process_coupon *of);
 
 /* process_calibrate.c: covariance of the items of a calibration and, behind them, of the quantities of the flow that the
    coupons used (id and C are m and m m, made here). u (n): standard uncertainties of the rows; shared: errors of what the
@@ -79,6 +89,9 @@ fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *f
                                        const fw_process_measurement *measurement, int n,
                                        const fw_process_calibration *found, const double *u,
                                        bool shared, fw_process_covariance *out);
+/* process_calibrate.c: one more, unless it is there */
+fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *calibration,
+                                      const fw_process_found_with *with);
 /* process_calibrate.c: the correlations of those ids that are correlated at all, into `calibration` */
 fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *of,
                                   const double *deviation, fw_process_calibration *calibration);
@@ -102,6 +115,8 @@ fw_status fw_process_coupon_wrong(fw_process_coupon_work *work, const fw_process
    exact */
 bool fw_process_coupon_value(fw_process_coupon_work *work, const char *id, double *value,
                              double *uncertainty);
+/* the result follows from that quantity of the flow, too; NULL: from none */
+void fw_process_coupon_note_read(fw_process_coupon_work *work, const fw_quantity *q);
 typedef struct fw_process_coupon_speed { /* what the conditions do to a rate */
     double factor;      /* of the rate, against that at the reference values of its law */
     double uncertainty; /* of it, relative: of the law's inputs and of the conditions */
@@ -121,6 +136,13 @@ void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calib
 /* the first step of the flow that corrects the rate for that; NULL: none does */
 const fw_process_step *fw_process_flow_corrects(const fw_process_flow *flow,
                                                 fw_process_condition which, const char *rate);
+typedef struct fw_process_coupon_lacking {  /* what a step lacks to correct a rate */
+    const fw_process_step *step;            /* NULL: none would */
+    const fw_quantity *q[FW_LAW_ARGUMENTS]; /* (n) */
+    int n;
+} fw_process_coupon_lacking;
+fw_process_coupon_lacking fw_process_coupon_lacks(const fw_process_flow *flow,
+                                                  fw_process_condition which, const char *rate);
 /* all rows stand under one condition of dimension d, which is set; FW-D211 otherwise */
 fw_status fw_process_coupon_condition(fw_process_coupon_work *work, fw_quantity_dimension d,
                                       const char *what, double *value, double *uncertainty);
@@ -144,7 +166,12 @@ typedef struct
 fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const char *efficiency);
 /* id of the edge that lines of the mask layer read: of the layer that was etched under the resist, or the printed one */
 const char *fw_process_coupon_edge(const fw_process_flow *flow);
-/* what isotropic masked etches take from every edge on the way, and the mask adds: m */
-double fw_process_coupon_loss(const fw_process_flow *flow);
+/* how far the edges of the layer that masks the etch stand outside of the drawn ones, m, as the flow plans it or the coupons
+   before found: printed, less what isotropic etches take */
+void fw_process_coupon_mask_edge(fw_process_coupon_work *work, double *edge_m,
+                                 double *uncertainty_m);
+/* what isotropic masked etches take from every edge on the way, and the mask adds: m. What it follows from is noted for
+   the coupon; NULL: for none */
+double fw_process_coupon_loss(const fw_process_flow *flow, fw_process_coupon_work *work);
 
 #endif

@@ -124,6 +124,13 @@ static void note_use(fw_process_coupon_work *w, const fw_quantity *q) {
     if (q->uncertainty > 0.0 && w->nused < FW_COUPON_USED) w->used[w->nused++] = q;
 }
 
+void fw_process_coupon_note_read(fw_process_coupon_work *w, const fw_quantity *q) {
+    if (!q || !q->id || fw_process_quantity_computed(q)) return;
+    for (int i = 0; i < w->nread; i++)
+        if (w->read[i] == q) return;
+    if (w->nread < FW_COUPON_READ) w->read[w->nread++] = q;
+}
+
 bool fw_process_coupon_value(fw_process_coupon_work *w, const char *id, double *value,
                              double *uncertainty) {
     for (int i = 0; i < w->nknown; i++)
@@ -133,6 +140,7 @@ bool fw_process_coupon_value(fw_process_coupon_work *w, const char *id, double *
             return true;
         }
     const fw_quantity *q = fw_process_flow_quantity(w->flow, id);
+    fw_process_coupon_note_read(w, q);
     if (!q || q->unknown) return false;
     *value = q->value + (q == w->shifted ? w->shift : 0.0);
     if (uncertainty) {
@@ -318,14 +326,54 @@ fw_status fw_process_coupon_sped(fw_process_coupon_work *w, const char *id,
     return FW_OK;
 }
 
-double fw_process_coupon_loss(const fw_process_flow *flow) {
+/* would the step correct the rate, were all of it known? */
+static const fw_quantity *would_correct(const fw_process_step *s, fw_process_condition which,
+                                        const char *rate) {
+    const fw_quantity *R = fw_process_step_argument(s, of_rate);
+    return R && R->id && strcmp(R->id, rate) == 0 &&
+                   fw_process_step_argument(s, condition[which].reference)
+               ? fw_process_step_argument(s, condition[which].at)
+               : NULL;
+}
+
+/* what a rate is corrected by later, known now or not */
+static void note_corrections(fw_process_coupon_work *w, const char *rate) {
+    for (int i = 0; i < w->flow->nstep * FW_CONDITIONS; i++) {
+        const fw_process_step *s = &w->flow->step[i / FW_CONDITIONS];
+        const fw_quantity *is = would_correct(s, (fw_process_condition)(i % FW_CONDITIONS), rate);
+        for (int m = 0; m < s->nargument && is; m++)
+            if (s->argument[m].q != is && corrects(s, s->argument[m].name))
+                fw_process_coupon_note_read(w, s->argument[m].q);
+    }
+}
+
+fw_process_coupon_lacking fw_process_coupon_lacks(const fw_process_flow *flow,
+                                                  fw_process_condition which, const char *rate) {
+    fw_process_coupon_lacking out = {0};
+    for (int i = 0; i < flow->nstep && !out.step; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const fw_quantity *is = would_correct(s, which, rate);
+        if (is) out.step = s;
+        for (int m = 0; m < s->nargument && is; m++) {
+            const fw_quantity *q = s->argument[m].q;
+            if (q != is && q->id && q->unknown && corrects(s, s->argument[m].name) &&
+                out.n < FW_LAW_ARGUMENTS)
+                out.q[out.n++] = q;
+        }
+    }
+    return out;
+}
+
+double fw_process_coupon_loss(const fw_process_flow *flow, fw_process_coupon_work *w) {
     double loss = 0.0;
     for (int i = 0; i < flow->nstep; i++)
         for (int k = 0; k < flow->step[i].nchange; k++) {
             const fw_process_change *c = &flow->step[i].change[k];
-            if (c->isotropic && fw_process_where_is_of_device(flow, c->where) && c->thickness &&
-                !c->thickness->unknown)
-                loss += c->thickness->value * (1.0 + flow->step[i].overrun);
+            if (!c->isotropic || !fw_process_where_is_of_device(flow, c->where) || !c->thickness)
+                continue;
+            if (w) fw_process_coupon_note_read(w, c->thickness);
+            if (w) fw_process_coupon_note_read(w, flow->step[i].overrun_from);
+            if (!c->thickness->unknown) loss += c->thickness->value * (1.0 + flow->step[i].overrun);
         }
     return loss;
 }
@@ -382,6 +430,7 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
                                                 .freedom = fit->freedom};
     for (int k = 0; k < FW_CONDITIONS; k++)
         note_condition(w, (fw_process_condition)k, &w->out[w->nout - 1]);
+    note_corrections(w, id);
     return FW_OK;
 }
 
@@ -453,4 +502,27 @@ fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const ch
 const char *fw_process_coupon_edge(const fw_process_flow *flow) {
     static const char etched[] = "made.al-edge";
     return has(flow, etched) ? etched : FW_PROCESS_PRINTED_EDGE;
+}
+
+static bool is_found(const fw_process_coupon_work *w, const char *id) {
+    for (int i = 0; i < w->nknown; i++)
+        if (strcmp(w->known[i].id, id) == 0) return true;
+    return false;
+}
+
+/* e = sum e_k - L: e_k of the flow's corners of edges that count, as the fixed point has them; where cd-lines found the edge
+   of this layer, that alone, since what was printed is in it. m. Test: test_calibrate.c, slots_as_the_mask_opens_them */
+void fw_process_coupon_mask_edge(fw_process_coupon_work *w, double *edge, double *uncertainty) {
+    const char *read = fw_process_coupon_edge(w->flow);
+    double e, u;
+    *edge = -fw_process_coupon_loss(w->flow, w);
+    *uncertainty = 0.0;
+    for (int i = 0; i < w->flow->ncorner; i++) {
+        const fw_process_corner *c = &w->flow->corner[i];
+        if (c->of != FW_CORNER_EDGE || !c->q || !c->q->id || !fw_process_corner_counts(c)) continue;
+        if (is_found(w, read) && strcmp(c->q->id, read) != 0) continue;
+        if (!fw_process_coupon_value(w, c->q->id, &e, &u)) continue;
+        *edge += e;
+        *uncertainty = hypot(*uncertainty, u);
+    }
 }

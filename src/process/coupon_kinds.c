@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kinds of coupons. Of etching: rates and selectivities, the ladder of undercut lines, slots of several widths. Of
-   printing, resist and plating: lines and spaces, thickness over spin speed, mass and pads of what is plated. */
+   printing and resist: lines and spaces, thickness over spin speed. */
 #include "base/constants.h"
 #include "process/coupon.h"
 #include <math.h>
@@ -225,7 +225,7 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
     FW_TRY(ladder_losses(w, y, s, &n));
     fw_process_coupon_value(w, fw_process_coupon_edge(w->flow), &edge, &u_edge);
     fw_process_fit f = fw_process_fit_mean(y, s, n);
-    double u = 0.5 * f.value[0] - (fw_process_coupon_loss(w->flow) - edge);
+    double u = 0.5 * f.value[0] - (fw_process_coupon_loss(w->flow, w) - edge);
     double A = 1.0 - u / E, u_A = hypot(hypot(0.5 * f.uncertainty[0], u_edge), u / E * u_E) / E;
     if (!(A > 0.0) || !(A < 1.0 + 2.0 * u_A))
         return fw_process_coupon_wrong(w, w->measurement[0],
@@ -319,18 +319,35 @@ static double depth_of(double width, double travelled, double S) {
     return D;
 }
 
-/* Slots of widths w, the same time t: D_i = R0 t - S J(w_i, D_i)
-   (docs/theory/calibrate.md). With two slots that is S = (D2 - D1)/(J1 - J2), R0 = (D1 + S J1)/t;
-   with more, the start of Gauss and Newton on D_i(R0 t, S), weighted with 1/u^2: dD/d(R0 t) = 1/(1
-   + S J'), dD/dS = -J/(1 + S J').
-   The time is common to all: its uncertainty comes on top of R0's. w, D m, t s; S 1. Lag above
-   twice its uncertainty below zero is refused. Test: test_calibrate.c, two_slots, coverage. */
-static fw_status fit_slots(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], p[FW_COUPON_ROWS], q[FW_COUPON_ROWS], t, u_t;
-    fw_process_etch etch = fw_process_flow_etch(w->flow);
-    if (!etch.rate || !etch.lag) return no_etch(w, "arde-slots", "a rate and a lag");
-    FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM_TIME, "the etch time", &t,
-                                       &u_t));
+/* the opening in the layer that masks the etch; edges that stand out by `edge` narrow it */
+static double opening_of(const fw_process_measurement *r, double edge) {
+    return r->drawn_m - 2.0 * edge;
+}
+
+/* D_i = R0 t - S J(w_i, D_i), two parameters R0 t and S; the rows were looked at. NaN: all are equally wide */
+static fw_process_fit lag_of(const fw_process_coupon_work *w, double edge) {
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], p[FW_COUPON_ROWS], q[FW_COUPON_ROWS];
+    for (int i = 0; i < w->n; i++) {
+        const fw_process_measurement *r = w->measurement[i];
+        y[i] = r->value, s[i] = r->uncertainty, p[i] = 1.0;
+        q[i] = -fw_process_arde_integral(opening_of(r, edge), r->value, false);
+    }
+    fw_process_fit f = fw_process_fit_plane(y, s, p, q, w->n);
+    for (int round = 0; round < 8 && f.value[1] > -0.5; round++) {
+        const double travelled = f.value[0], S = f.value[1];
+        for (int i = 0; i < w->n; i++) {
+            double width = opening_of(w->measurement[i], edge), D = depth_of(width, travelled, S);
+            double slope = 1.0 + S * (1.0 / fw_process_knudsen_slot(D / width) - 1.0);
+            p[i] = 1.0 / slope;
+            q[i] = -fw_process_arde_integral(width, D, false) / slope;
+            y[i] = w->measurement[i]->value - D + p[i] * travelled + q[i] * S;
+        }
+        f = fw_process_fit_plane(y, s, p, q, w->n);
+    }
+    return f;
+}
+
+static fw_status check_slots(fw_process_coupon_work *w, double edge) {
     if (w->n < 2)
         return fw_process_coupon_wrong(w, w->measurement[0], "arde-slots needs two widths or more");
     for (int i = 0; i < w->n; i++) {
@@ -338,37 +355,57 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
         if (!(r->value > 0.0) || r->value / r->drawn_m > 1000.0)
             return fw_process_coupon_wrong(
                 w, r, "the depth of a slot must be above zero and below 1000 times its width");
-        y[i] = r->value, s[i] = r->uncertainty, p[i] = 1.0;
-        q[i] = -fw_process_arde_integral(r->drawn_m, r->value, false);
+        if (!(opening_of(r, edge) > 0.0))
+            return fw_process_coupon_wrong(w, r,
+                                           "this slot is closed in the layer that masks the etch, "
+                                           "whose edges stand out by %.3g um: check drawn_um, and "
+                                           "the rows of cd-lines",
+                                           1e6 * edge);
     }
-    fw_process_fit f = fw_process_fit_plane(y, s, p, q, w->n);
-    double travelled = f.value[0], S = f.value[1];
+    return FW_OK;
+}
+
+/* Slots drawn w_i wide, which the layer that masks the etch opens by w_i - 2 e, e where its edges stand; the same time t:
+   D_i = R0 t - S J(w_i - 2 e, D_i) (docs/theory/calibrate.md). With two slots that is S = (D2 - D1)/(J1 - J2),
+   R0 = (D1 + S J1)/t; with more, the start of Gauss and Newton on D_i(R0 t, S), weighted with 1/u^2: dD/d(R0 t) = 1/(1
+   + S J'), dD/dS = -J/(1 + S J').
+   Time and e are common to all: their uncertainties come on top, that of e by a fit with e + u_e. w, e, D m, t s; S 1. Lag
+   above twice its uncertainty below zero is refused. Test: test_calibrate.c, two_slots, coverage. */
+static fw_status fit_slots(fw_process_coupon_work *w) {
+    double t, u_t, edge, u_edge;
+    fw_process_etch etch = fw_process_flow_etch(w->flow);
+    if (!etch.rate || !etch.lag) return no_etch(w, "arde-slots", "a rate and a lag");
+    FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM_TIME, "the etch time", &t,
+                                       &u_t));
+    fw_process_coupon_mask_edge(w, &edge, &u_edge);
+    FW_TRY(check_slots(w, edge));
+    fw_process_fit f = lag_of(w, edge);
+    const double travelled = f.value[0], S = f.value[1];
     if (!isfinite(S))
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "all slots of arde-slots are equally wide; the lag follows "
                                        "from slots of different widths");
-    for (int round = 0; round < 8 && S > -0.5; round++) {
-        for (int i = 0; i < w->n; i++) {
-            double width = w->measurement[i]->drawn_m, D = depth_of(width, travelled, S);
-            double slope = 1.0 + S * (1.0 / fw_process_knudsen_slot(D / width) - 1.0);
-            p[i] = 1.0 / slope;
-            q[i] = -fw_process_arde_integral(width, D, false) / slope;
-            y[i] = w->measurement[i]->value - D + p[i] * travelled + q[i] * S;
-        }
-        f = fw_process_fit_plane(y, s, p, q, w->n);
-        travelled = f.value[0], S = f.value[1];
-    }
     if (!(S > -2.0 * f.uncertainty[1]))
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "narrow slots came out deeper than wide ones: that is no "
                                        "lag of this law; check the order of the rows");
+    fw_process_fit wider = lag_of(w, edge - u_edge); /* the side on which none closes */
+    const double u_travelled = hypot(f.uncertainty[0], wider.value[0] - travelled),
+                 u_S = hypot(f.uncertainty[1], wider.value[1] - S);
     FW_TRY(correct_run(w, etch.rate->id, &t, &u_t));
-    double R = travelled / t, u = hypot(f.uncertainty[0] / t, R * u_t / t);
-    const char *note = fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%",
-                                       w->n, (int)lround(100.0 * f.correlation));
+    double R = travelled / t, u = hypot(u_travelled / t, R * u_t / t);
+    const char *note =
+        edge == 0.0
+            ? fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%", w->n,
+                              (int)lround(100.0 * f.correlation))
+            : fw_arena_printf(w->arena,
+                              "from %d slots, %.4g um %s in the layer that masks the etch than "
+                              "drawn; correlation of rate and lag %d %%",
+                              w->n, 2e6 * fabs(edge), edge < 0.0 ? "wider" : "narrower",
+                              (int)lround(100.0 * f.correlation));
     FW_NEED(note);
     FW_TRY(fw_process_coupon_give(w, etch.rate->id, R, u, &f, note));
-    return fw_process_coupon_give(w, etch.lag->id, fmax(S, 0.0), f.uncertainty[1], &f, note);
+    return fw_process_coupon_give(w, etch.lag->id, fmax(S, 0.0), u_S, &f, note);
 }
 
 const fw_process_coupon fw_process_coupon_slots = {
@@ -381,7 +418,7 @@ const fw_process_coupon fw_process_coupon_slots = {
    layer sideways by L = sum d (1 + overrun), made.al-edge = e + L is what is left of it; else e is
    litho.edge. Weighted mean; residuals are tested. Source: geometry. Test: test_calibrate.c. */
 static fw_status fit_lines(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], loss = fw_process_coupon_loss(w->flow);
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], loss = fw_process_coupon_loss(w->flow, w);
     for (int i = 0; i < w->n; i++) {
         const fw_process_measurement *r = w->measurement[i];
         bool space = strcmp(r->feature, "space") == 0;
@@ -456,115 +493,3 @@ static fw_status fit_spin(fw_process_coupon_work *w) {
 const fw_process_coupon fw_process_coupon_spin = {
     "spin",       FW_DIM_LENGTH, false, false, true, false, fit_spin, .under = {FW_DIM_ROTATION},
     .plain = true};
-
-/* ---- plating ---- */
-
-static fw_status need(fw_process_coupon_work *w, const fw_quantity *q, const char *what,
-                      double *value) {
-    const char *id = q && q->id ? q->id : what;
-    *value = q ? q->value : 0.0; /* of a number that stands in the step itself */
-    if (q && (q->id ? fw_process_coupon_value(w, q->id, value, NULL) : !q->unknown)) return FW_OK;
-    return fw_process_coupon_wrong(
-        w, w->measurement[0], "%s is not known in this flow; enter it in a laboratory pack", id);
-}
-
-/* the plating that the rows are of, and n F/M of its metal; what its efficiency is called tells one of several */
-static fw_status plating_of(fw_process_coupon_work *w, fw_process_plating *of, double *C_per_kg) {
-    const fw_process_measurement *r = w->measurement[0];
-    double n, M;
-    *of = fw_process_flow_plating(w->flow, r->feature);
-    if (!of->efficiency)
-        return fw_process_coupon_wrong(w, r,
-                                       "flow '%s' has no step that plates by its charge (law "
-                                       "faraday, with an efficiency), which %s reads; take the "
-                                       "rows out",
-                                       w->flow->id, r->coupon);
-    FW_TRY(need(w, of->valence, "the valence", &n));
-    FW_TRY(need(w, of->molar_mass, "the molar mass", &M));
-    *C_per_kg = n * FW_FARADAY_C_PER_mol / M;
-    return FW_OK;
-}
-
-static fw_status too_much(fw_process_coupon_work *w, const fw_process_plating *of,
-                          const char *check) {
-    return fw_process_coupon_wrong(w, w->measurement[0],
-                                   "more than the charge can deposit of %s: check %s",
-                                   fw_process_flow_material_name(w->flow, of->material), check);
-}
-
-/* Mass m of a deposit for a charge Q: eta = m n F/(M Q), through the origin over several runs. m
-   kg, Q A s, M kg/mol; eta 1. Source: Faraday's law. Test: test_calibrate.c. */
-static fw_status by_mass(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], sy[FW_COUPON_ROWS], x[FW_COUPON_ROWS], sx[FW_COUPON_ROWS], per;
-    fw_process_plating of;
-    FW_TRY(plating_of(w, &of, &per));
-    for (int i = 0; i < w->n; i++) {
-        const fw_process_measurement *r = w->measurement[i];
-        if (!fw_quantity_dimension_equal(r->at_dimension, (fw_quantity_dimension)FW_DIM_CHARGE) ||
-            !(r->at > 0.0))
-            return fw_process_coupon_wrong(
-                w, r,
-                "plating-mass needs the charge in the columns at, u_at and "
-                "at_unit");
-        y[i] = r->value * per, sy[i] = r->uncertainty * per;
-        x[i] = r->at, sx[i] = r->at_uncertainty;
-    }
-    fw_process_fit f = fw_process_fit_ratio(y, sy, x, sx, w->n);
-    if (f.value[0] > 1.0 + 3.0 * f.uncertainty[0])
-        return too_much(w, &of, "mass, charge and units");
-    return fw_process_coupon_give(w, of.efficiency->id, f.value[0], f.uncertainty[0], &f,
-                                  "mass over charge");
-}
-
-/* rows with a pad of the least (or largest) sizes */
-static int pads_of(const fw_process_coupon_work *w, bool wide, double size_m, double *y,
-                   double *s) {
-    int n = 0;
-    for (int i = 0; i < w->n; i++) {
-        const fw_process_measurement *r = w->measurement[i];
-        if (wide ? r->drawn_m < size_m : r->drawn_m > size_m) continue;
-        y[n] = r->value, s[n++] = r->uncertainty;
-    }
-    return n;
-}
-
-/* Thickness of pads of several widths, one run of charge q per area: the widest ones give
-   eta = d n F rho/(M q), and those up to 30 um, as wide as flexures, the factor f =
-   d_narrow/d_wide: what is plated to d on average is f d there, which is the thickness that the flow's corner has
-   (made.cu of the copper flow). d m, q A s/m2, rho kg/m3; eta, f 1. Both groups are tested on their own. Source:
-   Faraday's law. Test: test_calibrate.c. */
-static fw_status by_pads(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], q, u_q, per, rho, widest = 0.0, d = 0.0;
-    fw_process_plating of;
-    FW_TRY(plating_of(w, &of, &per));
-    FW_TRY(need(w, of.density, "the density", &rho));
-    FW_TRY(fw_process_coupon_condition(w, (fw_quantity_dimension)FW_DIM(-2, 0, 1, 1, 0, 0, 0),
-                                       "the charge per area", &q, &u_q));
-    for (int i = 0; i < w->n; i++)
-        widest = fmax(widest, w->measurement[i]->drawn_m);
-    fw_process_fit wide = fw_process_fit_mean(y, s, pads_of(w, true, widest * (1.0 - 1e-9), y, s));
-    double eta = wide.value[0] * per * rho / q;
-    double u_wide = wide.uncertainty[0] / wide.value[0], u = eta * hypot(u_wide, u_q / q);
-    if (eta > 1.0 + 3.0 * u) return too_much(w, &of, "thickness, charge per area and units");
-    FW_TRY(fw_process_coupon_give(w, of.efficiency->id, eta, u, &wide,
-                                  "thickness of the widest pads over charge"));
-    int narrow = pads_of(w, false, 30.0e-6 * (1.0 + 1e-9), y, s);
-    if (narrow == 0 || widest < 100.0e-6 || !of.made || !of.thickness || !of.thickness->id ||
-        !fw_process_coupon_value(w, of.thickness->id, &d, NULL))
-        return FW_OK;
-    fw_process_fit thin = fw_process_fit_mean(y, s, narrow);
-    double f = thin.value[0] / wide.value[0];
-    const char *note = fw_arena_printf(
-        w->arena, "pads up to 30 um are %d permille as thick as the widest; that times %s",
-        (int)lround(1000.0 * f), of.thickness->id);
-    FW_NEED(note);
-    return fw_process_coupon_give(
-        w, of.made, f * d, f * d * hypot(thin.uncertainty[0] / thin.value[0], u_wide), &thin, note);
-}
-
-const fw_process_coupon fw_process_coupon_mass = {
-    "plating-mass",           FW_DIM_MASS,  false, false, true, false, by_mass,
-    .under = {FW_DIM_CHARGE}, .plain = true};
-const fw_process_coupon fw_process_coupon_pads = {
-    "plating-pads", FW_DIM_LENGTH, false,   true,
-    true,           true,          by_pads, .under = {FW_DIM(-2, 0, 1, 1, 0, 0, 0)}};

@@ -10,6 +10,34 @@
 #include "quantity/quantity.h"
 #include <stdbool.h>
 
+/* <corner of>: what a flow does not make exactly as drawn */
+typedef enum fw_process_corner_of {
+    FW_CORNER_EDGE,       /* m: edges stand out of the drawn ones */
+    FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
+    FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device layer */
+    FW_CORNER_THICKNESS,  /* m: of the device layer */
+    FW_CORNER_YOUNGS,     /* of the material as it is */
+    FW_CORNER_LOCAL       /* m: edges of one hinge against those of the others */
+} fw_process_corner_of;
+
+typedef struct fw_process_corner { /* <corner of q assumed>: an input of what stands in the end */
+    fw_process_corner_of of;
+    const char *name;           /* "printed edge" */
+    const fw_quantity *q;       /* its range; NULL: the material's own (youngs) */
+    const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
+    const fw_quantity *within;  /* holds this one, too, once it was measured; may be NULL */
+    /* of a thickness that is a length: what the flow aimed at where it was stated, which its range is about; 0: q itself, or
+       q is the share of what is planned */
+    double aim_m;
+    bool etched; /* of an edge: q is uncertain by what the flow's isotropic etches are */
+    fw_place place;
+} fw_process_corner;
+
+/* is it a thickness that is stated as its share of the planned one? */
+bool fw_process_corner_is_share(fw_process_corner_of of, const fw_quantity *q);
+/* false: what was measured holds it already */
+bool fw_process_corner_counts(const fw_process_corner *corner);
+
 struct fw_process_flow;
 struct fw_process_step;
 struct fw_process_exposed;

@@ -211,6 +211,124 @@ static fw_status read_tools(fw_arena *arena, const fw_xml_record *root, fw_proce
     return FW_OK;
 }
 
+/* ---- with what its values were found ---- */
+
+static fw_status no_such(fw_process_flow *flow, fw_diags *diags, const fw_xml_attribute *id) {
+    const char *best = NULL;
+    int least = 3;
+    for (int i = 0; i < flow->nquantity; i++) {
+        int d = fw_edit_distance(id->value, flow->quantity[i]->id, 2);
+        if (d >= least) continue;
+        least = d;
+        best = flow->quantity[i]->id;
+    }
+    const size_t stem = strcspn(id->value, ".") + 1; /* "cavity.depth": others of the cavity */
+    for (int i = 0; !best && id->value[stem - 1] == '.' && i < flow->nquantity; i++)
+        if (strncmp(flow->quantity[i]->id, id->value, stem) == 0 &&
+            strncmp(flow->quantity[i]->id + stem, id->value + stem, 1) == 0)
+            best = flow->quantity[i]->id;
+    return fw_diag_error(diags, 211, id->place, "flow '%s' has no quantity '%s'%s%s%s", flow->id,
+                         id->value, FW_DID_YOU_MEAN(best));
+}
+
+/* "1.2 um", "unknown" */
+static fw_status bare(fw_arena *arena, const fw_quantity *q, const char **text) {
+    fw_text out = fw_text_new(arena);
+    if (q->unknown)
+        fw_text_add(&out, "unknown");
+    else {
+        fw_text_number(&out, fw_quantity_in_unit(q), 6);
+        if (strcmp(q->unit, "1") != 0) fw_text_printf(&out, " %s", q->unit);
+    }
+    FW_TRY(fw_text_end(&out));
+    *text = out.data;
+    return FW_OK;
+}
+
+/* a value as it was; false: said what is wrong */
+static bool value_then(const fw_xml_record *e, const fw_quantity *q, fw_diags *diags,
+                       double *value) {
+    const fw_xml_attribute *is = fw_process_pack_get(e, "value"),
+                           *unit = fw_process_pack_get(e, "unit");
+    fw_quantity_unit u;
+    *value = (double)NAN;
+    if (!is) return true;
+    if (unit && fw_number_parse(is->value, strlen(is->value), value) &&
+        fw_quantity_unit_parse(unit->value, strlen(unit->value), &u, NULL, NULL) &&
+        fw_quantity_dimension_equal(u.dimension, q->dimension)) {
+        *value = fw_quantity_unit_to_si(&u, *value);
+        return true;
+    }
+    fw_diag_error(diags, 211, is->place, "<with> of '%s' needs a number and its unit", q->id);
+    return false;
+}
+
+/* <with> of a laboratory pack (FW-D211) */
+static fw_status read_with(fw_arena *arena, const fw_xml_record *root, fw_process_flow *flow,
+                           fw_diags *diags) {
+    for (const fw_xml_record *e = root->first_child; e; e = e->next) {
+        const fw_xml_attribute *id = fw_process_pack_get(e, "q");
+        if (!fw_xml_is(e, "with") || !id) continue; /* said by the table */
+        const fw_quantity *q = fw_process_flow_quantity(flow, id->value);
+        double value;
+        if (!q) {
+            FW_TRY(no_such(flow, diags, id) == FW_NOMEM ? FW_NOMEM : FW_OK);
+            continue;
+        }
+        if (!value_then(e, q, diags, &value)) continue;
+        fw_process_was_with *grown = fw_arena_grow(arena, flow->was_with, (size_t)flow->nwas_with,
+                                                   (size_t)flow->nwas_with + 1, sizeof *grown);
+        FW_NEED(grown);
+        flow->was_with = grown;
+        grown[flow->nwas_with++] = (fw_process_was_with){.q = q,
+                                                         .value = value,
+                                                         .results = fw_process_pack_text(e, "of"),
+                                                         .place = e->element->place};
+    }
+    return FW_OK;
+}
+
+static bool is_another(const fw_process_was_with *w) {
+    static const double same = 1e-6; /* a pack is written with nine digits */
+    if (isnan(w->value) || w->q->unknown) return isnan(w->value) == !w->q->unknown;
+    return fabs(w->q->value - w->value) > same * fmax(fabs(w->q->value), fabs(w->value));
+}
+
+/* of the results of the pack those that the flow still has from it, "" for none */
+static const char *still_used(fw_arena *arena, const fw_process_flow *flow,
+                              const fw_process_was_with *w) {
+    fw_text out = fw_text_new(arena);
+    fw_text_add(&out, "");
+    for (const char *at = w->results, *id; (id = word_of(arena, &at)) && *id;) {
+        const fw_quantity *q = fw_process_flow_quantity(flow, id);
+        if (q && q->replaced && q->place.file && strcmp(q->place.file, w->place.file) == 0)
+            fw_text_printf(&out, "%s%s", out.length ? ", " : "", id);
+    }
+    return fw_text_end(&out) == FW_OK ? out.data : NULL;
+}
+
+/* d = |x - x_then|: a value that calibrate found follows from others of the flow, and holds with those. Test:
+   test_calibrate.c, found_with_other_values. */
+fw_status fw_process_lab_ask(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags) {
+    for (int i = 0; i < flow->nwas_with; i++) {
+        const fw_process_was_with *w = &flow->was_with[i];
+        fw_quantity then = *w->q;
+        const char *results, *was, *is;
+        if (!is_another(w)) continue;
+        then.value = w->value, then.unknown = isnan(w->value), then.uncertainty = 0.0;
+        FW_NEED(results = still_used(arena, flow, w));
+        if (!*results) continue;
+        FW_TRY(bare(arena, &then, &was));
+        FW_TRY(bare(arena, w->q, &is));
+        fw_diag_warning(diags, 676, w->place,
+                        "%s %s found with %s = %s, and %s is %s now (%s): the plan takes both "
+                        "together. Calibrate again, with the packs of this plan named by --lab",
+                        results, strchr(results, ',') ? "were" : "was", w->q->id, was, w->q->id, is,
+                        w->q->source ? w->q->source : "the flow");
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 /* ---- values that replace those of a flow by id ---- */
 
 static fw_status amount(fw_arena *arena, const fw_quantity *q, const char **text) {
@@ -233,24 +351,6 @@ static fw_status amount(fw_arena *arena, const fw_quantity *q, const char **text
     FW_TRY(fw_text_end(&out));
     *text = out.data;
     return FW_OK;
-}
-
-static fw_status no_such(fw_process_flow *flow, fw_diags *diags, const fw_xml_attribute *id) {
-    const char *best = NULL;
-    int least = 3;
-    for (int i = 0; i < flow->nquantity; i++) {
-        int d = fw_edit_distance(id->value, flow->quantity[i]->id, 2);
-        if (d >= least) continue;
-        least = d;
-        best = flow->quantity[i]->id;
-    }
-    const size_t stem = strcspn(id->value, ".") + 1; /* "cavity.depth": others of the cavity */
-    for (int i = 0; !best && id->value[stem - 1] == '.' && i < flow->nquantity; i++)
-        if (strncmp(flow->quantity[i]->id, id->value, stem) == 0 &&
-            strncmp(flow->quantity[i]->id + stem, id->value + stem, 1) == 0)
-            best = flow->quantity[i]->id;
-    return fw_diag_error(diags, 211, id->place, "flow '%s' has no quantity '%s'%s%s%s", flow->id,
-                         id->value, FW_DID_YOU_MEAN(best));
 }
 
 static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags,
@@ -281,6 +381,7 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
     fw_process_override o = {.id = old->id, .source = new->source};
     FW_TRY(amount(arena, old, &o.was));
     const fw_quantity was = *old;
+    o.before = was;
     FW_TRY(forget_correlation(arena, flow, old->id));
     *old = *new;
     old->id = was.id;
@@ -325,9 +426,21 @@ static fw_status replace_all(fw_arena *arena, const fw_xml_record *root, fw_proc
             status = read_correlation(arena, e, flow, diags);
             if (status != FW_OK && status != FW_INPUT) return status;
         }
+    FW_TRY(read_with(arena, root, flow, diags));
     fw_status tools = read_tools(arena, root, flow, diags);
     if (tools != FW_OK && tools != FW_INPUT) return tools;
     return diags->failed ? FW_NOMEM : diags->errors > before ? FW_INPUT : FW_OK;
+}
+
+/* A thickness that a pack states beside the planned one is about what is planned with that pack: one that stays is about what
+   it was stated with, so that it follows the plan. Test: test_corners.c thickness_follows_its_plan. */
+static void aim_anew(fw_process_flow *flow, const char *file) {
+    for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++) {
+        const fw_quantity *q = flow->corner[i].q;
+        if (flow->corner[i].aim_m > 0.0 && q->replaced && q->place.file &&
+            strcmp(q->place.file, file) == 0)
+            flow->corner[i].aim_m = flow->thickness->value;
+    }
 }
 
 fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xml, size_t n,
@@ -344,14 +457,57 @@ fw_status fw_process_lab_apply(fw_arena *arena, const char *file, const char *xm
     FW_TRY(fw_xml_words_read(&r));
     if (!of || other) return FW_INPUT;
     FW_TRY(replace_all(arena, r.record, flow, diags));
-    for (int i = 0; i < flow->ncorner && !flow->thickness->unknown; i++)
-        if (flow->corner[i].aim_m > 0.0) flow->corner[i].aim_m = flow->thickness->value;
+    aim_anew(flow, file);
     FW_TRY(fw_process_flow_lint_values(arena, flow, diags));
     for (int i = 0; i < flow->nstep; i++)
         fw_process_step_overrun(&flow->step[i]);
     FW_TRY(fw_process_corners_follow(arena, flow));
     FW_TRY(fw_process_flow_waits(arena, flow)); /* their longest times are values, too */
     return diags->errors > before ? FW_INPUT : FW_OK;
+}
+
+/* ---- wafers that were printed before ---- */
+
+/* the range that the verdict had before; false: none */
+static bool range_before(const fw_process_corner *c, const fw_quantity *was, double *low,
+                         double *high) {
+    const fw_quantity *q = was->unknown ? c->assumed : was;
+    if (!q || q->unknown) return false;
+    fw_process_quantity_range(q, low, high);
+    return true;
+}
+
+/* The bias of the mask follows where edges come out, so that a verdict with another value is about another plate. What lies
+   within the range that was judged before holds for the old plate, too; x outside of it is told. SI. Test: test_corners.c
+   another_bias. */
+fw_status fw_process_lab_ask_bias(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags) {
+    for (int i = 0; i < flow->ncorner; i++) {
+        const fw_process_corner *c = &flow->corner[i];
+        const fw_process_override *o = NULL;
+        const char *is, *apart = "";
+        double low, high;
+        for (int k = 0; k < flow->noverride; k++)
+            if (c->q && strcmp(flow->override[k].id, c->q->id) == 0) o = &flow->override[k];
+        if ((c->of != FW_CORNER_EDGE && c->of != FW_CORNER_ANISOTROPY) || !o || c->q->unknown ||
+            !range_before(c, &o->before, &low, &high) ||
+            (c->q->value >= low && c->q->value <= high))
+            continue;
+        FW_TRY(bare(arena, c->q, &is));
+        const double edge_m = o->before.unknown ? 0.0 : o->before.value;
+        if (c->of == FW_CORNER_EDGE)
+            FW_NEED(apart = fw_arena_printf(arena, ", where lines come out %.3g um %s than here",
+                                            2e6 * fabs(c->q->value - edge_m),
+                                            c->q->value < edge_m ? "narrower" : "wider"));
+        fw_diag_warning(
+            diags, 683, c->q->place,
+            "%s is %s, beyond what it was taken to be before (%s): the mask makes up for "
+            "it, so that bias, times and verdict are of a plate that is drawn anew. "
+            "They are not of a wafer that was printed with the plate before%s: judge that "
+            "one without this value, by --set of the widths that it has, and --corners "
+            "none",
+            c->q->id, is, o->was, apart);
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
 }
 
 /* ---- what a laboratory pack chooses ---- */

@@ -62,7 +62,7 @@ static const double cd_um[] = {4, 6, 10}, slot_um[] = {4, 5, 7, 10, 20, 50, 100}
 static void of_lines(meant *m) {
     const char *edge = fw_process_coupon_edge(m->flow);
     bool printed = strcmp(edge, FW_PROCESS_PRINTED_EDGE) == 0;
-    double e = known(m->flow, edge) - (printed ? 0.0 : fw_process_coupon_loss(m->flow));
+    double e = known(m->flow, edge) - (printed ? 0.0 : fw_process_coupon_loss(m->flow, NULL));
     for (size_t i = 0; i < sizeof cd_um / sizeof cd_um[0]; i++) {
         double w = cd_um[i] * 1e-6;
         add(m, lengths("cd-lines", "line", w, w + 2.0 * e, m->width_m));
@@ -76,10 +76,15 @@ static void of_slots(meant *m) {
     fw_process_etch etch = fw_process_flow_etch(m->flow);
     double R = value_of(m, etch.rate), S = value_of(m, etch.lag);
     double D = m->flow->thickness ? 0.9 * known(m->flow, m->flow->thickness->id) : (double)NAN;
+    double edge, u;
+    fw_process_coupon_work *of = fw_arena_one(m->arena, fw_process_coupon_work);
+    if (!of) return; /* reads nothing; what comes next says that there is no memory */
+    of->arena = m->arena, of->flow = m->flow;
+    fw_process_coupon_mask_edge(of, &edge, &u);
     for (size_t i = 0; i < sizeof slot_um / sizeof slot_um[0]; i++) {
         double w = slot_um[i] * 1e-6, depth = D;
         for (int k = 0; k < 40 && isfinite(depth); k++) /* contracts by S (1/K - 1) */
-            depth = D - S * fw_process_arde_integral(w, depth, false);
+            depth = D - S * fw_process_arde_integral(w - 2.0 * edge, depth, false);
         fw_process_measurement row = lengths("arde-slots", "", w, depth, m->depth_m);
         row.at = D / R;
         row.at_uncertainty = m->time_s;
@@ -95,7 +100,8 @@ static void of_ladder(meant *m) {
     double D = m->flow->thickness ? known(m->flow, m->flow->thickness->id) : (double)NAN;
     double E = D * (1.0 + (isnan(over) ? 0.0 : over)),
            edge = known(m->flow, fw_process_coupon_edge(m->flow));
-    double lost = fw_process_coupon_loss(m->flow) - (isnan(edge) ? 0.0 : edge) + (1.0 - A) * E;
+    double lost =
+        fw_process_coupon_loss(m->flow, NULL) - (isnan(edge) ? 0.0 : edge) + (1.0 - A) * E;
     for (size_t i = 0; i < sizeof line_um / sizeof line_um[0]; i++) {
         double w = line_um[i] * 1e-6;
         fw_process_measurement row =
@@ -137,6 +143,9 @@ static void of_pads(meant *m) {
     double d = value_of(m, of.thickness), made = of.made ? known(m->flow, of.made) : (double)NAN,
            q = d * value_of(m, of.valence) * FW_FARADAY_C_PER_mol * value_of(m, of.density) /
                (value_of(m, of.efficiency) * value_of(m, of.molar_mass));
+    if (of.made &&
+        fw_process_corner_is_share(FW_CORNER_THICKNESS, fw_process_flow_quantity(m->flow, of.made)))
+        made *= d;
     for (size_t i = 0; i < sizeof pad_um / sizeof pad_um[0]; i++) {
         bool narrow = pad_um[i] <= 30.0 && isfinite(made);
         fw_process_measurement row =
@@ -175,9 +184,12 @@ static const struct {
     const char *coupon, *with;
     void (*before)(meant *m), (*rows)(meant *m);
 } table[] = {
-    {"cd-lines", NULL, NULL, of_lines},    {"etch-rate", NULL, NULL, of_rates},
-    {"arde-slots", NULL, NULL, of_slots},  {"undercut-ladder", "cd-lines", of_lines, of_ladder},
-    {"al-step", NULL, NULL, of_mask_step}, {"release-holes", NULL, NULL, of_release},
+    {"cd-lines", NULL, NULL, of_lines},
+    {"etch-rate", NULL, NULL, of_rates},
+    {"arde-slots", "cd-lines", of_lines, of_slots},
+    {"undercut-ladder", "cd-lines", of_lines, of_ladder},
+    {"al-step", NULL, NULL, of_mask_step},
+    {"release-holes", NULL, NULL, of_release},
     {"plating-pads", NULL, NULL, of_pads},
 };
 enum { KINDS = sizeof table / sizeof table[0] };

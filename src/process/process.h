@@ -255,30 +255,6 @@ typedef struct fw_process_step {
     double booked_stop_own_s; /* the latter without what attendance takes beyond it */
 } fw_process_step;
 
-/* <corner of>: what a flow does not make exactly as drawn */
-typedef enum fw_process_corner_of {
-    FW_CORNER_EDGE,       /* m: edges stand out of the drawn ones */
-    FW_CORNER_TAPER,      /* rad: of the walls, about mid-depth */
-    FW_CORNER_ANISOTROPY, /* 1: of the etch that cuts the device layer */
-    FW_CORNER_THICKNESS,  /* m: of the device layer */
-    FW_CORNER_YOUNGS,     /* of the material as it is */
-    FW_CORNER_LOCAL       /* m: edges of one hinge against those of the others */
-} fw_process_corner_of;
-
-typedef struct fw_process_corner { /* <corner of q assumed>: an input of what stands in the end */
-    fw_process_corner_of of;
-    const char *name;           /* "printed edge" */
-    const fw_quantity *q;       /* its range; NULL: the material's own (youngs) */
-    const fw_quantity *assumed; /* range taken where q is unknown; may be NULL */
-    const fw_quantity *within;  /* holds this one, too, once it was measured; may be NULL */
-    double aim_m; /* of a thickness: what the flow aims at, which its range is about; 0: q itself */
-    bool etched;  /* of an edge: q is uncertain by what the flow's isotropic etches are */
-    fw_place place;
-} fw_process_corner;
-
-/* false: what was measured holds it already */
-bool fw_process_corner_counts(const fw_process_corner *corner);
-
 /* <finished>: what must be true of the wafer when the flow has ended */
 typedef struct fw_process_finished {
     const char *material, *where; /* "all", "structure", "field" */
@@ -295,7 +271,16 @@ typedef struct fw_process_text {
 
 typedef struct fw_process_override {    /* a value of the laboratory in the place of the pack's */
     const char *id, *was, *is, *source; /* "0.97 +- 0.02 (assumed)" */
+    fw_quantity before;
 } fw_process_override;
+
+/* <with> of a laboratory pack: a value of the flow, as it was where calibrate found what the pack has */
+typedef struct fw_process_was_with {
+    const fw_quantity *q;
+    double value;        /* SI; NaN: it was not known */
+    const char *results; /* ids with blanks between */
+    fw_place place;
+} fw_process_was_with;
 
 /* <tool> of a laboratory: when a machine may be used, or a stretch of days on which it may not */
 typedef struct fw_process_tool_time {
@@ -378,6 +363,8 @@ typedef struct fw_process_flow {
     fw_process_left_out *left_out;       /* (nleft_out) in the order of the pack */
     fw_process_tool_time *tool_time;     /* (ntool_time) */
     int nalternative, nleft_out, ntool_time;
+    fw_process_was_with *was_with; /* (nwas_with) */
+    int nwas_with;
     int nprocess_material, nopen_point, ncorner, nfinished, nconsumable, nbath;
     int count[FW_ASSUMED + 1];     /* quantities that the steps use, by status */
     int unknown;                   /* ... and that are unknown */

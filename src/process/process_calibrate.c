@@ -286,9 +286,31 @@ static fw_status check_result(const fw_process_flow *flow, const fw_process_cali
     return fw_process_quantity_in_range(&q, diags) ? FW_OK : FW_INPUT;
 }
 
-/* all rows through all kinds, into work->out */
+fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *c,
+                                      const fw_process_found_with *with) {
+    for (int i = 0; i < c->nwith; i++)
+        if (c->with[i].q == with->q && strcmp(c->with[i].of, with->of) == 0) return FW_OK;
+    fw_process_found_with *grown =
+        fw_arena_grow(arena, c->with, (size_t)c->nwith, (size_t)c->nwith + 1, sizeof *grown);
+    FW_NEED(grown);
+    grown[c->nwith++] = *with;
+    c->with = grown;
+    return FW_OK;
+}
+
+/* what this kind found, from `first` on, and of which values of the flow */
+static fw_status add_with(const fw_process_coupon_work *w, int first, fw_process_calibration *to) {
+    for (int i = 0; i < w->nread; i++)
+        for (int k = first; k < w->nout; k++) {
+            const fw_process_found_with with = {w->read[i], w->out[k].id};
+            FW_TRY(fw_process_calibration_with(w->arena, to, &with));
+        }
+    return FW_OK;
+}
+
+/* all rows through all kinds, into work->out; `with`: what they were found with goes there; NULL: it is not asked for */
 static fw_status fit_all(fw_process_coupon_work *w, const fw_process_measurement *measurement,
-                         int n) {
+                         int n, fw_process_calibration *with) {
     fw_status status = FW_OK;
     for (int k = 0; k < KINDS; k++) {
         w->n = 0;
@@ -301,7 +323,10 @@ static fw_status fit_all(fw_process_coupon_work *w, const fw_process_measurement
         }
         if (w->n == 0) continue;
         w->one_run = table[k]->one_run;
+        w->nread = 0;
+        const int first = w->nout;
         fw_status of_kind = table[k]->fit(w);
+        if (with && of_kind == FW_OK) FW_TRY(add_with(w, first, with));
         if (of_kind == FW_OK) of_kind = join(w->arena, w->diags, w->out, &w->nout);
         if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
         if (of_kind == FW_INPUT) status = of_kind; /* and what is wrong with the others */
@@ -327,12 +352,14 @@ fw_status fw_process_calibrate(fw_arena *arena, const fw_process_flow *flow,
     }
     if (n == 0) return fw_diag_error(diags, 211, (fw_place){0}, "the table holds no measurement");
     FW_TRY(status);
-    status = fit_all(w, measurement, n);
+    fw_process_calibration with = {0};
+    status = fit_all(w, measurement, n, &with);
     if (status != FW_OK && status != FW_INPUT) return status;
     for (int k = 0; k < w->nout; k++)
         if (check_result(flow, &out[k], measurement[0].place, diags) != FW_OK) status = FW_INPUT;
     FW_TRY(status);
-    *calibration = (fw_process_calibration){.item = out, .count = w->nout};
+    *calibration = (fw_process_calibration){
+        .item = out, .count = w->nout, .with = with.with, .nwith = with.nwith};
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
@@ -342,6 +369,8 @@ typedef struct source { /* one independent error of the data */
     int row;            /* its measured value, or what it was measured under; -1: of the flow */
     bool at;            /* of `at` */
     bool common;        /* of a condition, which one instrument told of all rows */
+    double metered;     /* relative, of `at` of all rows of the kind that one meter told; 0: no */
+    const fw_process_coupon *kind; /* NULL: of all metered kinds */
     fw_process_condition of;
     const fw_quantity *q;
     double u;
@@ -359,9 +388,17 @@ typedef struct problem {
    which they are solved */
 static const double step = 0.1;
 
+static double beyond(double u, double shared) {
+    static const double rounding = 1e-9;
+    return u > shared * (1.0 + rounding) ? sqrt(u * u - shared * shared) : 0.0;
+}
+
 static void shift_row(const problem *p, const source *s, double by, fw_process_measurement *row) {
     const fw_process_coupon *kind = fw_process_coupon_kind(p->row[s->row].coupon);
     memcpy(row, p->row, (size_t)p->n * sizeof *row);
+    for (int i = 0; s->metered > 0.0 && i < p->n; i++)
+        if (fw_process_coupon_is_metered(&row[i], s->kind)) row[i].at *= 1.0 + by * s->metered;
+    if (s->metered > 0.0) return;
     for (int i = 0; s->common && i < p->n; i++)
         if (row[i].condition[s->of] > 0.0)
             row[i].condition[s->of] += by / s->u * row[i].condition_uncertainty[s->of];
@@ -388,7 +425,7 @@ static bool results(const problem *p, const source *s, double by, fw_process_cou
         w->shifted = s->q, w->shift = by;
     } else
         shift_row(p, s, by, row);
-    *status = fit_all(w, row, p->n);
+    *status = fit_all(w, row, p->n, NULL);
     bool good = *status == FW_OK && w->nout == p->found->count;
     for (int i = 0; good && i < w->nout; i++) {
         good = strcmp(out[i].id, p->found->item[i].id) == 0;
@@ -409,8 +446,18 @@ static int sources_of(const problem *p, const fw_process_coupon_work *w, const d
         if (u[i] > 0.0) list[n++] = (source){.row = i, .u = u[i]};
         for (int k = 0; k < i; k++)
             first = first && fw_process_coupon_kind(p->row[k].coupon) != kind;
-        if (shared && r->at_uncertainty > 0.0 && (first || !kind->one_run))
-            list[n++] = (source){.row = i, .at = true, .u = r->at_uncertainty};
+        const double own =
+            kind->metered
+                ? beyond(r->at_uncertainty, fw_process_coupon_meter(p->row, p->n, kind) * r->at)
+                : r->at_uncertainty;
+        if (shared && own > 0.0 && (first || !kind->one_run))
+            list[n++] = (source){.row = i, .at = true, .u = own};
+    }
+    const double all = fw_process_coupon_meter(p->row, p->n, NULL);
+    if (shared && all > 0.0) list[n++] = (source){.metered = all, .u = 1.0};
+    for (int k = 0; shared && k < KINDS; k++) {
+        const double own = beyond(fw_process_coupon_meter(p->row, p->n, table[k]), all);
+        if (own > 0.0) list[n++] = (source){.metered = own, .kind = table[k], .u = 1.0};
     }
     for (int k = 0; shared && k < FW_CONDITIONS; k++) {
         bool off = false;
@@ -455,7 +502,8 @@ fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *f
     FW_NEED(w);
     FW_NEED(w->out = fw_arena_array(arena, fw_process_calibrated, FW_COUPON_RESULTS));
     fw_process_measurement *row = fw_arena_array(arena, fw_process_measurement, (size_t)n);
-    source *list = fw_arena_array(arena, source, (size_t)(2 * n + FW_CONDITIONS + FW_COUPON_USED));
+    source *list =
+        fw_arena_array(arena, source, (size_t)(2 * n + FW_CONDITIONS + FW_COUPON_USED + KINDS + 1));
     double value[FW_COUPON_RESULTS];
     fw_status status;
     FW_NEED(row ? list : NULL);
@@ -514,13 +562,15 @@ fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *
    central differences over +-0.1 u_s of the whole calibration, so that joined coupons and results that use others are in
    it, and new kinds of coupons without a line of their own. Of a run that several rows share, what they were measured
    under is one error. r_ij = C_ij/(s_i s_j), s_i^2 the larger of C_ii and the variance that the fit states (a ladder read
-   by what stands has a part that no row carries).
+   by what stands has a part that no row carries). Where C_ii is the larger it is stated, too: what two coupons of one
+   quantity share does not average out where they are joined.
    Rows and results SI; r 1. First order: exact for fits that are linear in the data, and good to the square of the
    relative uncertainties else. Cost: two calibrations for every row.
    Source: JCGM 102:2011, 6.2 (law of propagation, several outputs). Test: test_correlation.c. */
 fw_status fw_process_calibration_correlate(fw_arena *arena, const fw_process_flow *flow,
                                            const fw_process_measurement *measurement, int n,
                                            fw_process_calibration *calibration) {
+    static const double more = 1.01; /* first order, on either side */
     double *u = fw_arena_array(arena, double, (size_t)n);
     fw_process_covariance all;
     FW_NEED(u);
@@ -529,8 +579,17 @@ fw_status fw_process_calibration_correlate(fw_arena *arena, const fw_process_flo
     FW_TRY(fw_process_coupon_covariance(arena, flow, measurement, n, calibration, u, true, &all));
     double *deviation = fw_arena_array(arena, double, (size_t)all.m);
     FW_NEED(deviation);
-    for (int i = 0; i < all.m; i++)
-        deviation[i] = fmax(sqrt(all.C[i * all.m + i]),
-                            i < calibration->count ? calibration->item[i].uncertainty : 0.0);
+    fw_process_calibrated *item =
+        fw_arena_array(arena, fw_process_calibrated, (size_t)calibration->count + 1);
+    FW_NEED(item);
+    for (int i = 0; i < all.m; i++) {
+        const double found = sqrt(all.C[i * all.m + i]);
+        deviation[i] = found;
+        if (i >= calibration->count) continue;
+        item[i] = calibration->item[i];
+        if (found > more * item[i].uncertainty) item[i].uncertainty = found;
+        deviation[i] = fmax(found, item[i].uncertainty);
+    }
+    calibration->item = item;
     return fw_process_coupon_joint(arena, &all, deviation, calibration);
 }

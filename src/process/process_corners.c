@@ -103,12 +103,18 @@ static const struct {
             {"thickness", FW_DIM_LENGTH}, {"youngs", {0}},       {"local", FW_DIM_LENGTH}};
 enum { KINDS = sizeof kind / sizeof kind[0] };
 
+bool fw_process_corner_is_share(fw_process_corner_of of, const fw_quantity *q) {
+    return of == FW_CORNER_THICKNESS && q &&
+           fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_NONE);
+}
+
 static const fw_quantity *quantity(fw_process_pack *pack, const fw_xml_record *e, const char *name,
                                    int of) {
     const fw_xml_attribute *a = fw_process_pack_get(e, name);
     if (!a) return NULL;
     const fw_quantity *q = fw_process_pack_find(pack, a, FW_ID_QUANTITY);
-    if (q && !fw_quantity_dimension_equal(q->dimension, kind[of].dimension))
+    if (q && !fw_quantity_dimension_equal(q->dimension, kind[of].dimension) &&
+        !fw_process_corner_is_share((fw_process_corner_of)of, q))
         fw_diag_error(pack->diags, 260, a->place, "'%s' is no %s; give a quantity of that kind",
                       a->value, kind[of].word);
     return q;
@@ -138,7 +144,8 @@ static void read_corner(fw_process_pack *pack, const fw_xml_record *e) {
                       "etched is of an edge that an isotropic etch leaves; '%s' is none",
                       kind[of].word);
     const fw_quantity *layer = f->thickness;
-    if (of == FW_CORNER_THICKNESS && layer && c->q != layer && !layer->unknown)
+    if (of == FW_CORNER_THICKNESS && layer && c->q != layer && !layer->unknown &&
+        !fw_process_corner_is_share(c->of, c->q))
         c->aim_m = layer->value;
     if ((of == FW_CORNER_YOUNGS) == (fw_process_pack_get(e, "q") != NULL))
         fw_diag_error(pack->diags, 260, e->element->place,
@@ -228,6 +235,16 @@ static void scale_range(fw_verdict_fabrication_input *in, double by) {
     in->nominal *= by, in->low *= by, in->high *= by, in->sigma *= by;
 }
 
+/* What is made is what is planned times the share x that comes of it: d = x h, h m the thickness that the device is planned
+   with, whoever says it; x 1. Then it is a length like any other. Test: test_corners.c thickness_follows_its_plan. */
+static void of_planned(fw_verdict_fabrication_input *in, double planned_m) {
+    fw_quantity *q = &in->q;
+    scale_range(in, planned_m);
+    q->value *= planned_m, q->uncertainty *= planned_m, q->low *= planned_m, q->high *= planned_m;
+    q->dimension = (fw_quantity_dimension)FW_DIM_LENGTH;
+    q->unit = "um";
+}
+
 /* u(z) = (1 - A)(E - z - lag(z)) from every wall at depth z: the edge goes back by the mean of both
    faces, (1 - A)(E - (D + lag)/2), against the m that the mask adds, and one face is left
    2 (1 - A)(D + lag) wider than the other; lag beside the open field, where flexures stand. E, D,
@@ -286,7 +303,10 @@ static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
         break;
     case FW_CORNER_THICKNESS:
         /* the device may ask for another one; what is measured may lie beside what was aimed at */
-        scale_range(in, v->thickness_m / (c->aim_m > 0.0 ? c->aim_m : q->value));
+        if (fw_process_corner_is_share(c->of, q))
+            of_planned(in, v->thickness_m);
+        else
+            scale_range(in, v->thickness_m / (c->aim_m > 0.0 ? c->aim_m : q->value));
         in->thickness = 1.0 / v->thickness_m;
         in->drawn = v->thickness_m;
         break;

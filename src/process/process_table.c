@@ -183,7 +183,10 @@ static const fw_xml_attribute_row corner_rows[] = {
      .sentence = "What is not made exactly as drawn; local: by how much the "
                  "edges of one hinge may stand apart from those of the others."},
     {"name", TEXT, REQUIRED, .sentence = "What reports call it."},
-    {"q", TO(QUANTITY), .sentence = "Its range is the corner; none for youngs."},
+    {"q", TO(QUANTITY),
+     .sentence =
+         "Its range is the corner; none for youngs. Of a thickness: a length beside the planned "
+         "one, or the share of it that comes out, which follows whatever is planned."},
     {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},
     {"within", TO(QUANTITY),
      .sentence =
@@ -435,6 +438,14 @@ static const fw_xml_attribute_row row_rows[] = {
     {"values", TEXT, REQUIRED,
      .sentence = "Its correlations with all of them, -1 to 1, with blanks between; 1 with itself."},
 };
+static const fw_xml_attribute_row with_rows[] = {
+    {"q", TOKEN, REQUIRED, .sentence = "A quantity of the flow."},
+    {"value", TEXT, .sentence = "What it was then, a number; left out: it was not known."},
+    {"unit", TEXT, .sentence = "Of the value."},
+    {"of", TEXT, REQUIRED,
+     .sentence = "ids of what was found with it, with blanks between: where a plan has another "
+                 "value of q together with these, it says so."},
+};
 static const fw_xml_element_row laboratory[] = {
     {"process", "", ROWS(laboratory_rows), .sentence = "Values of a laboratory."},
     {"source", "process", "id", .text = true, ROWS(laboratory_source_rows),
@@ -447,6 +458,8 @@ static const fw_xml_element_row laboratory[] = {
      .sentence =
          "How the errors of quantities go together that were found from the same measurements."},
     {"row", "correlation", .needed = true, ROWS(row_rows), .sentence = "A row of the matrix."},
+    {"with", "process", ROWS(with_rows),
+     .sentence = "A value of the flow with which calibrate found values of this pack."},
     {0},
 };
 

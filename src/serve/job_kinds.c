@@ -48,7 +48,7 @@ static const option_row options[] = {
     {"accuracy", "accuracy", ABOUT},
     {"effects", "effects", ABOUT},
     {"corners", "corners", ABOUT},
-    {"lab", "lab", ABOUT | OF_FILE},
+    {"lab", "lab", ABOUT | CALIBRATE | OF_FILE},
     {"advice", "advice", CHECK | MADE},
     {"measurements", "measurements", CHECK | MADE},
     {"hinge_model", "hinge-model", ABOUT},

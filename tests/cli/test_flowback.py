@@ -64,7 +64,7 @@ class Flowback(unittest.TestCase):
     def etch(self, wafer, *more, power="250 W", rate=0.545, lag=0.09, end="10:05", words=""):
         coupons = []
         for width in (5, 10, 20, 50, 100):
-            values = self.sites(depth(width, rate * 90, lag), 0.25)
+            values = self.sites(depth(width + 2.2, rate * 90, lag), 0.25)
             coupons += ["--coupon", f"arde-slots, drawn={width} um, value={values} um, u=0.05 um, at=90 min, u-at=3 s"]
         return self.command("--entry", f"S18; start=2026-11-0{wafer}T08:00; end=2026-11-0{wafer}T{end}; by=AB; second=CD{words}",
                             "--wafer", wafer, "--instrument", "profilometer 2", "--setting", f"power={power}",

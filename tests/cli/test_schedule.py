@@ -26,6 +26,26 @@ etch-rate,pan.R,,0.90,0.02,um,20,0.1,min
 """
 
 
+STAGE = """<device xmlns="urn:flexwright:device:1" name="stage">
+  <material ref="{material}"{thickness}/>
+  <limits safety-factor="2"/>
+  <flow ref="{flow}"/>
+  <die clearance="400 um"/>
+  <flexure id="leaf" kind="leaf" length="520 um" width="{t}" gap="12 um"/>
+  <mechanism>
+    <body id="left" x="0 mm" y="0.6 mm" width="100 um"/>
+    <body id="stage" x="0.7 mm" y="1.2 mm" plate-width="0.5 mm" plate-height="0.4 mm"/>
+    <body id="right" x="1.4 mm" y="0.6 mm" width="100 um"/>
+    <revolute id="A" a="ground" a-x="0 mm" a-y="0 mm" b="left" b-x="0 mm" b-y="-0.6 mm" hinge="leaf"/>
+    <revolute id="B" a="left" a-x="0 mm" a-y="0.6 mm" b="stage" b-x="-0.7 mm" b-y="0 mm" hinge="leaf"/>
+    <revolute id="C" a="stage" a-x="0.7 mm" a-y="0 mm" b="right" b-x="0 mm" b-y="0.6 mm" hinge="leaf"/>
+    <revolute id="D" a="right" a-x="0 mm" a-y="-0.6 mm" b="ground" b-x="1.4 mm" b-y="0 mm" hinge="leaf"/>
+  </mechanism>
+  <scene name="push" duration="20 ms"><force on="stage" fx="{force}" law="ramp" rise="5 ms"/></scene>
+</device>
+"""
+
+
 class InTemporary(unittest.TestCase):
     def setUp(self):
         self.temporary = tempfile.TemporaryDirectory()
@@ -132,7 +152,7 @@ class Calibrate(InTemporary):
     def test_a_thickness_beside_its_aim(self):
         lab = self.here / "pads.xml"
         lab.write_text('<process xmlns="urn:flexwright:process:1" id="lab" version="1" title="x" flow="' + COPPER +
-                       '"><source id="s" kind="measured">pads</source><q id="made.cu" value="10.8" u="0.1" unit="um" '
+                       '"><source id="s" kind="measured">pads</source><q id="made.cu" value="1.2" u="0.0111111" unit="1" '
                        'status="measured" src="s"/></process>')
         made = {}
         for name, more in (("pack", ()), ("lab", ("--lab", lab))):
@@ -143,6 +163,43 @@ class Calibrate(InTemporary):
         self.assertIn("thickness 10.6 um", made["lab"]["C"]["corner"])
         # a force bends what is thicker less: the stress goes with 1/h, 9/10.8 = 0.833
         self.assertAlmostEqual(made["lab"]["A"]["nominal"] / made["pack"]["A"]["nominal"], 9 / 10.8, delta=0.005)
+
+    def test_a_thickness_that_a_laboratory_plans(self):
+        """what comes of it goes with it, as where the description states it: 8.1 um stayed, and was accepted"""
+        head = f'<process xmlns="urn:flexwright:process:1" flow="{COPPER}"><source id="s" kind="measured">book</source>'
+        lab, old = self.here / "thin.xml", self.here / "old.xml"
+        lab.write_text(head + '<q id="cu.d" value="6.5" u="0.01" unit="um" status="measured" src="s"/></process>')
+        old.write_text(head + '<q id="made.cu" value="9.28" u="0.07" unit="um" status="measured" src="s"/></process>')
+        said = []
+        for name, thickness, more in (("none", "", ("--lab", lab)), ("thin", ' thickness="6.5 um"', ())):
+            device = self.here / f"{name}.xml"
+            device.write_text(STAGE.format(thickness=thickness, material="copper-plated", flow=COPPER, force="0.018 mN", t="10 um"))
+            said.append(json.loads(run("check", device, "--json", "--measurements", "none", *more).stdout)["hinges"])
+        self.assertIn("thickness 5.85 um", said[0][0]["as_fabricated"]["corner"])
+        self.assertEqual([h["as_fabricated"] for h in said[0]], [h["as_fabricated"] for h in said[1]])
+        # a length says nothing of another plan: refused by name
+        self.assertRegex(self.expect(run("check", GALLERY, "--flow", COPPER, "--lab", old), 3).stderr,
+                         "'made.cu' is pure number in the process pack, and not length")
+
+    def test_with_the_packs_of_the_laboratory(self):
+        """what follows from values that the laboratory has replaced is found with those, and a plan with others is told so"""
+        head = f'<process xmlns="urn:flexwright:process:1" flow="{SILICON}"><source id="s" kind="measured">book</source>'
+        mine, lab, other = (self.here / name for name in ("mine.xml", "lab.xml", "other.xml"))
+        mine.write_text(head + '<q id="al.d" value="1.2" u="0.03" unit="um" status="measured" src="s"/></process>')
+        other.write_text(head.replace(SILICON, COPPER) + "</process>")
+        table = self.coupons("coupon,feature,drawn_um,measured,u,unit\ncd-lines,line,10,7.36,0.03,um\ncd-lines,space,10,12.64,0.03,um\n")
+        edge = {}
+        for name, with_lab in (("without", ()), ("with", ("--lab", mine))):
+            self.expect(run("calibrate", table, "--flow", SILICON, "-o", lab, *with_lab))
+            edge[name] = float(lab.read_text().split('"made.al-edge" value="')[1].split('"')[0])
+            self.assertEqual("for use with mine.xml (SHA-256 " in lab.read_text(), bool(with_lab))
+            for packs in (f"{mine},{lab}", f"{lab},{mine}", lab):
+                told = run("check", GALLERY, "--flow", SILICON, "--lab", packs, "--measurements", "none").stderr
+                self.assertEqual("FW-D676" in told, bool(with_lab) == (packs == lab), told)
+        self.assertAlmostEqual(edge["with"], 0, places=6)
+        self.assertAlmostEqual(edge["without"], -0.22, places=6)
+        self.assertIn("for the flow 'copper-on-porous-silicon'", self.expect(run("calibrate", table, "--flow", SILICON, "--lab", other), 3).stderr)
+        self.expect(run("calibrate", table, "--flow", SILICON, "--lab", self.here / "none.xml"), 5)
 
     def test_refusals(self):
         lab = self.here / "lab.xml"

@@ -78,7 +78,7 @@ def transport(w, depth, n=400):
 
 
 def process(g):
-    J1, J2 = transport(g["w1"], g["d1"]), transport(g["w2"], g["d2"])
+    J1, J2 = (transport(g[w] - 2 * g["edge"], g[d]) for w, d in (("w1", "d1"), ("w2", "d2")))
     S = (g["d2"] - g["d1"]) / (J1 - J2)
     rate = g["D"] / g["t"]
     return {"J1": J1, "S_meas": S, "R_meas": (g["d1"] + S * J1) / g["t"],

@@ -231,6 +231,15 @@ describe("numbers of the laboratory", () => {
         writeFileSync(`${server.directory}/measured.csv`, COUPONS);
         execFileSync(program, ["calibrate", `${server.directory}/measured.csv`, "--flow", FLOW, "-o", own, "-q"], { cwd: source });
         assert.equal(await page.evaluate((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW), readFileSync(own, "utf8"));
+        // with a pack of the laboratory it is found with that, as by --lab
+        const thicker = `${server.directory}/thicker.xml`;
+        writeFileSync(thicker, `<process xmlns="urn:flexwright:process:1" flow="${FLOW}"><source id="s" kind="measured">book</source><q id="al.d" value="1.2" u="0.03" unit="um" status="measured" src="s"/></process>`);
+        await page.locator('.laboratory input[type="file"]').nth(0).setInputFiles(thicker);
+        await page.waitForFunction(() => globalThis.flexwright.state.lab["thicker.xml"], null, { timeout: 60000 });
+        await page.locator('.laboratory input[type="file"]').nth(1).setInputFiles(csv);
+        await page.waitForFunction((f) => /for use with thicker\.xml/.test(globalThis.flexwright.state.lab[`calibrated-${f}.xml`]), FLOW, { timeout: 60000 });
+        execFileSync(program, ["calibrate", `${server.directory}/measured.csv`, "--flow", FLOW, "--lab", thicker, "-o", own, "-q"], { cwd: source });
+        assert.equal(await page.evaluate((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW), readFileSync(own, "utf8"));
     });
 
     test("no serious finding of axe", async () => {

@@ -176,16 +176,27 @@ export class Laboratory {
         this.box.open = true;
         this.said.textContent = `Fitting the numbers of ${this.flow} to ${name}…`;
         try {
-            const job = await run("calibrate", what);
+            const packs = this.#others();
+            const names = Object.keys(packs);
+            const job = await run("calibrate", names.length ? { ...what, files: packs, options: { ...what.options, lab: names.join(",") } } : what);
             if (job.state !== "done" || !job.files?.length) return this.#refuse((job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)));
             const pack = await (await fetch(`/api/jobs/${job.id}/files/laboratory.xml`, { credentials: "same-origin" })).text();
             this.#refuse([]);
-            state.lab[`calibrated-${this.flow}.xml`] = pack;
+            state.lab[this.#calibrated()] = pack;
             changed(`numbers of ${name} are used`);
         } catch (error) {
             this.#refuse([error.message]);
         }
         return this.#say();
+    }
+
+    #calibrated() {
+        return `calibrated-${this.flow}.xml`;
+    }
+
+    /** The packs of this flow that are not made of its coupons: what is found is for use with them. */
+    #others() {
+        return Object.fromEntries(Object.entries(state.lab).filter(([name, text]) => name !== this.#calibrated() && /<process[^>]*\sflow="([^"]*)"/.exec(text)?.[1] === this.flow));
     }
 
     #refuse(list) {

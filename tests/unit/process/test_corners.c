@@ -312,6 +312,89 @@ static void numbers_that_are_meant(void **state) {
     assert_non_null(said_of(675, "write 0.992"));
 }
 
+/* what thickness comes of a lab pack `text` or two */
+static fw_verdict_fabrication_input thickness_with(fw_process_flow *flow, const char *first, const char *second, double h) {
+    const char *text[] = {first, second}, *file[] = {"first.xml", "second.xml"};
+    fw_mechanism_variant v = variant_of(h, 0);
+    const fw_verdict_fabrication_input *list;
+    int n;
+    for (int i = 0; i < 2 && text[i]; i++) {
+        const char *xml = fw_arena_printf(arena,
+                                          "<process xmlns=\"urn:flexwright:process:1\" flow=\"" COPPER "\">"
+                                          "<source id=\"m\" kind=\"measured\">x</source>%s</process>",
+                                          text[i]);
+        assert_int_equal(fw_process_lab_apply(arena, file[i], xml, strlen(xml), flow, &diags), FW_OK);
+    }
+    assert_int_equal(fw_process_flow_fabricated(arena, flow, NULL, &v, &list, &n), FW_OK);
+    return list[named(list, n, "thickness")];
+}
+
+#define SAID(id, value, u, unit) \
+    "<q id=\"" id "\" value=\"" value "\" u=\"" u "\" unit=\"" unit "\" status=\"measured\" src=\"m\"/>"
+
+/* What is made follows what is planned, whoever plans it: stated as its share, or as a length beside what was planned then.
+   A range of 8.1 to 9.9 um stayed where a laboratory plated 6.5 um. */
+static void thickness_follows_its_plan(void **state) {
+    (void)state;
+    static const char share[] = "id=\"made.cu\" value=\"1\" lo=\"0.9\" hi=\"1.1\" unit=\"1\"",
+                      length[] = "id=\"made.cu\" value=\"9\" lo=\"8.1\" hi=\"9.9\" unit=\"um\"",
+                      least[] = "least=\"0.5\" most=\"2\" note=\"share";
+    for (int k = 0; k < 2; k++) {
+        size_t nb = 0, n = 0;
+        const char *base = pack_text(arena, "base", &nb), *text = pack_text(arena, COPPER, &n);
+        text = replaced(arena, text, share, k ? length : share, &n);
+        if (k) text = replaced(arena, text, least, "note=\"share", &n);
+        static const char thinner[] = SAID("cu.d", "6.5", "0", "um");
+        const char *read = k ? SAID("made.cu", "9.27", "0.07", "um") : SAID("made.cu", "1.03", "0.00778", "1");
+        const char *read_so = k ? SAID("made.cu", "6.695", "0.05", "um") : read;
+        struct {
+            const char *first, *second;
+            double h, nominal, low;
+        } of[] = {{NULL, NULL, 9e-6, 9e-6, 8.1e-6},
+                  {NULL, NULL, 12e-6, 12e-6, 10.8e-6}, /* of the device file */
+                  {thinner, NULL, 6.5e-6, 6.5e-6, 5.85e-6},
+                  {read, NULL, 9e-6, 9.27e-6, 0},
+                  {read, thinner, 6.5e-6, 6.695e-6, 0},
+                  {thinner, read_so, 6.5e-6, 6.695e-6, 0}};
+        for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+            fw_process_flow *flow = NULL;
+            diags = fw_diags_new(arena);
+            assert_int_equal(fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, n, &diags, &flow), FW_OK);
+            fw_verdict_fabrication_input in = thickness_with(flow, of[i].first, of[i].second, of[i].h);
+            assert_near(in.nominal, of[i].nominal, 1e-12);
+            if (of[i].low > 0) assert_near(in.low, of[i].low, 1e-12);
+            assert_near(in.thickness * of[i].h, 1, 1e-12);
+            assert_string_equal(in.q.unit, "um"); /* as it is told */
+            if (!k) assert_near(in.q.value, of[i].nominal, 1e-12);
+        }
+    }
+}
+
+/* A laboratory's edge that was judged without it changes nothing of wafers that are printed; one beyond that is of a mask drawn
+   anew, which is told */
+static void another_bias(void **state) {
+    (void)state;
+    static const struct {
+        const char *q, *words; /* NULL: nothing is told */
+    } of[] = {{SAID("made.al-edge", "-0.2", "0.02", "um"), NULL},
+              {SAID("made.al-edge", "-0.8", "0.02", "um"), "where lines come out 1.6 um narrower than here"},
+              {SAID("made.al-edge", "0.5", "0.02", "um"), "1 um wider"},
+              {SAID("rie.A", "0.993", "0.0003", "1"), NULL}, /* 0.99 to 1 was judged */
+              {SAID("rie.A", "0.97", "0.0003", "1"), "rie.A is 0.97, beyond what it was taken to be before"},
+              {SAID("al.d", "1.2", "0.02", "um"), NULL}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        fw_process_flow *flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+        const char *xml = fw_arena_printf(arena,
+                                          "<process xmlns=\"urn:flexwright:process:1\" flow=\"" SILICON "\">"
+                                          "<source id=\"m\" kind=\"measured\">x</source>%s</process>",
+                                          of[i].q);
+        diags = fw_diags_new(arena);
+        assert_int_equal(fw_process_lab_apply(arena, "l.xml", xml, strlen(xml), flow, &diags), FW_OK);
+        assert_int_equal(fw_process_lab_ask_bias(arena, flow, &diags), FW_OK);
+        assert_true(of[i].words ? said_of(683, of[i].words) != NULL : said_of(683, "") == NULL);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edge_of_an_etch_follows_its_rate),
@@ -324,6 +407,8 @@ int main(void) {
         cmocka_unit_test(corners_that_move_nothing),
         cmocka_unit_test(corners_that_lack),
         cmocka_unit_test(numbers_that_are_meant),
+        cmocka_unit_test(thickness_follows_its_plan),
+        cmocka_unit_test(another_bias),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

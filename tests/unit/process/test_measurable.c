@@ -72,7 +72,7 @@ static void other_flows(void **state) {
     read(read_pack(arena, COPPER, NULL, NULL, &diags));
     assert_relative(u_of("litho.edge"), 0.5 * WIDTH / sqrt(6), 1e-9);
     assert_relative(u_of("cu.eta") / 0.97, STEP / 9e-6, 1e-3); /* the widest pad */
-    assert_relative(u_of("made.cu") / 9e-6, hypot(STEP / 9e-6 / sqrt(2), STEP / 9e-6), 1e-3);
+    assert_relative(u_of("made.cu"), hypot(STEP / 9e-6 / sqrt(2), STEP / 9e-6), 1e-3);
     assert_null(fw_process_measurable_of(list, n, "made.wall"));
     assert_null(fw_process_measurable_of(list, n, "ps.P"));
     read(read_pack(arena, "soi-deep-rie", NULL, NULL, &diags));
