@@ -6,6 +6,7 @@
    its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
    comes behind it. Test: test_program.py, EndsEarly */
 #include "base/constants.h"
+#include "effects/effects.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
@@ -263,6 +264,111 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
         if (way > 0) most = fmax(all, part[2]);
     }
     return tell_soft(arena, s, v->left[i], e, goes, most, brief, diags, v);
+}
+
+/* ---- equilibria of what is required without a measure ----
+   A frequency or a stiffness about an equilibrium is off by what the flexures' errors take of it there, and by what they do to
+   the equilibrium: a pull that softens closes its gap further, without end towards pull-in. So both are found again with all
+   flexures 1/(1 + e) and 1 + e times as stiff, e: their own error, twice what the next level changes of a frequency, and what
+   bodies give; and, where electrodes act, each of these with the pull as it is and with all that may be missing of it. Bands hold
+   all of these. Error: one e for all that gives. Cost: two small motions, four with electrodes. Test: test_effects.py,
+   NearPullIn */
+
+double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
+    const fw_dynamics_motion *x = v->motion ? v->motion[scene] : NULL;
+    double most = 0;
+    for (int i = 0; x && x->loads && i < x->loads->nelement; i++) {
+        const fw_effects_comb_element *c = fw_effects_comb_of(&x->loads->element[i]);
+        if (c) most = fmax(most, fw_effects_comb_fringe(c));
+    }
+    if (!x && v->pull_in && v->pull_in[scene]) most = v->pull_in[scene]->fringe;
+    return most;
+}
+
+/* a copy of a scene whose electrodes pull 1 + more times as much */
+static fw_status pull_more(fw_arena *arena, double more, fw_device_scene *scene) {
+    fw_device_comb *comb;
+    FW_NEED(comb = fw_arena_array(arena, fw_device_comb, (size_t)scene->ncomb));
+    for (int i = 0; i < scene->ncomb; i++)
+        comb[i] = scene->comb[i], comb[i].voltage_V *= sqrt(1 + more);
+    scene->comb = comb;
+    return FW_OK;
+}
+
+/* of stiffnesses */
+static double gives_more(const fw_mechanism *m, const fw_statics_modes *modes,
+                         const fw_verdict_variant_verdict *v) {
+    double most = 0;
+    for (int k = 0; k < m->nhinge; k++)
+        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
+    return most + 2 * (m->nhinge > 0 ? modes->ledger.hinge.error : 0) +
+           fw_verdict_bending_of_any(v);
+}
+
+static const char *no_equilibrium(fw_arena *arena, double e, double missing, int which) {
+    char off[32], part[32];
+    return fw_arena_printf(
+        arena,
+        "with flexures and bodies %s by the %s %% that they may be off%s%s%s no stable equilibrium "
+        "was found, so that the device may have snapped: keep away from there",
+        which % 2 ? "stiffer" : "softer", fw_number_text(off, sizeof off, 100 * e, 2),
+        which > 1 ? ", and electrodes that pull by " : "",
+        which > 1 ? fw_number_text(part, sizeof part, 100 * missing, 2) : "",
+        which > 1 ? " % more," : "");
+}
+
+fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, int scene,
+                                 const fw_statics_mode_options *given,
+                                 const fw_statics_modes *modes, const fw_verdict_variant_verdict *v,
+                                 fw_verdict_small_others *to) {
+    *to = (fw_verdict_small_others){0};
+    if (scene == FW_NONE || !modes) return FW_OK;
+    const double e = gives_more(m, modes, v), missing = fw_verdict_pull_missing(v, scene);
+    if (!isfinite(e)) return FW_OK; /* bands have no ends then */
+    fw_device_scene more = m->device->scene[scene];
+    FW_TRY(pull_more(arena, missing, &more));
+    for (int k = 0; k < (missing > 0 ? 4 : 2); k++) {
+        fw_statics_mode_options o = *given;
+        fw_diags own = fw_diags_new(arena);
+        o.effects.hinge = modes->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+        o.effects.stiffer = k % 2 ? e : 1 / (1 + e) - 1;
+        const fw_device_scene *s = k < 2 ? &m->device->scene[scene] : &more;
+        const fw_statics_modes *found = NULL;
+        const fw_status status = fw_statics_small_motions(arena, m, s, &o, &own, &found);
+        if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+        const bool stands = status == FW_OK && found &&
+                            !(found->count > 0 && found->mode[0].kind == FW_MODE_UNSTABLE);
+        if (stands)
+            to->modes[to->count++] = found;
+        else if (!to->lost)
+            FW_NEED(to->lost = no_equilibrium(arena, e, missing, k));
+    }
+    return FW_OK;
+}
+
+void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
+                            double times, double *low, double *high) {
+    for (int i = 0; i < others->count; i++) {
+        const fw_statics_modes *now = others->modes[i];
+        const double x = mode == 0            ? fw_probe_small(probe, now)
+                         : mode <= now->count ? now->mode[mode - 1].f_Hz
+                                              : (double)NAN;
+        if (!isfinite(x)) continue;
+        *low = fmin(*low, x * fmin(1, times)), *high = fmax(*high, x * fmax(1, times));
+    }
+    if (others->lost) *low = 0, *high = HUGE_VAL;
+}
+
+const char *fw_verdict_small_open(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_statics_modes *modes,
+                                  const fw_verdict_small_others *others) {
+    bool turned = false; /* which way is not known */
+    if (others->lost) return others->lost;
+    for (int k = 0; k < m->nhinge; k++)
+        turned = turned || !isfinite(m->hinge[k].axis_rad);
+    return fw_arena_printf(arena, "%s%s",
+                           modes->ledger.hinge.why ? modes->ledger.hinge.why : "nothing bounds it",
+                           turned ? ": state its `axis`, or draw the bodies that it joins" : "");
 }
 
 /* ---- what takes hold again and again ----

@@ -365,17 +365,6 @@ static bool put_across(const fw_verdict_variant_verdict *v, const fw_device_prob
     return true;
 }
 
-/* why a band has no ends, and what would give it some */
-static const char *open_band(fw_arena *arena, const fw_mechanism *m,
-                             const fw_statics_modes *modes) {
-    bool turned = false; /* which way is not known */
-    for (int k = 0; k < m->nhinge; k++)
-        turned = turned || !isfinite(m->hinge[k].axis_rad);
-    return fw_arena_printf(arena, "%s%s",
-                           modes->ledger.hinge.why ? modes->ledger.hinge.why : "nothing bounds it",
-                           turned ? ": state its `axis`, or draw the bodies that it joins" : "");
-}
-
 static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
                              const fw_dynamics_motion_options *options,
                              fw_verdict_variant_verdict *v, int scene) {
@@ -392,13 +381,15 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
     if (status == FW_NOMEM || status == FW_CANCELLED || own.failed)
         return status == FW_CANCELLED ? status : FW_NOMEM;
     FW_TRY(fw_probe_bind(arena, m, s, NULL, &probe));
+    fw_verdict_small_others others;
+    FW_TRY(fw_verdict_small_again(arena, m, scene, &o, modes, v, &others));
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
+        int mode = 0;
         if (r->measure || r->scene_index != scene) continue;
         const fw_probe *p = &probe[m->device->requirement[r->asked].probe];
         double value = modes ? fw_probe_small(p, modes) : (double)NAN;
         if (p->asked->row == FW_PROBE_IS_frequency) {
-            int mode = 0;
             if (put_across(v, p->asked, modes, &mode, r)) continue;
             bool there = modes && mode >= 1 && mode <= modes->count;
             value = there ? modes->mode[mode - 1].f_Hz : (double)NAN;
@@ -410,15 +401,18 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         const fw_device_probe_row row = p->asked->row;
         const bool is_mode = row == FW_PROBE_IS_frequency, yields = row == FW_PROBE_IS_compliance;
         const double model = fw_probe_small_error(p, modes),
-                     soft = 1 + fw_verdict_bending_of_any(v) + gives * (yields ? 1 / value : value),
+                     part = gives * (yields ? 1 / value : value),
+                     soft = 1 + fw_verdict_bending_of_any(v) + part,
                      times = yields ? soft : 1 / (is_mode ? sqrt(soft) : soft),
-                     other = fmin(fabs(times - 1), 0.01);
+                     here = yields ? 1 + part : 1 / (1 + part), other = fmin(fabs(times - 1), 0.01);
         put(r, value, 0, model, modes->stiffness_error, value, true);
         *(yields ? &r->high : &r->low) *= times, r->lasting += fabs(times - 1);
         *(yields ? &r->low : &r->high) += (yields ? -1 : 1) * other * value;
+        fw_verdict_small_widen(&others, p, mode, here, &r->low, &r->high);
         if (is_mode) overtaken(v, p->asked, r);
         decide(r);
-        if (isinf(model)) FW_NEED(r->open = open_band(arena, m, modes));
+        if (isinf(model) || others.lost)
+            FW_NEED(r->open = fw_verdict_small_open(arena, m, modes, &others));
     }
     return FW_OK;
 }
