@@ -59,5 +59,44 @@ class Equilibria(unittest.TestCase):
         self.assertTrue(any("no stable equilibrium was found" in r["text"] for r in said["reasons"]), said["reasons"])
 
 
+GUIDED = """<device xmlns="urn:flexwright:device:1" name="guided"><parameter name="volts" value="60 V"/><parameter name="force" value="0 uN"/>
+<material ref="silicon-100" youngs-modulus="160 GPa" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>
+<flexure id="la" kind="leaf" length="900 um" width="5 um" fillet="5 um"/><flexure id="lb" kind="leaf" length="780 um" width="5 um" fillet="5 um"/>
+<mechanism><body id="stage" x="0 mm" y="1.2 mm"><plate width="3400 um" height="300 um" y="0.1 mm"/></body>
+<revolute id="A" a="ground" a-x="-1.1 mm" a-y="0.4 mm" b="stage" b-x="-1.1 mm" b-y="-0.8 mm" hinge="la" axis="0 deg"/>
+<revolute id="B" a="ground" a-x="1.1 mm" a-y="0.46 mm" b="stage" b-x="1.1 mm" b-y="-0.74 mm" hinge="lb" axis="0 deg"/></mechanism>
+<probe id="stroke" kind="displacement" on="stage" direction="0 deg"/><require probe="stroke" measure="final" min="0.1 um"/>
+<scene name="slow" duration="60 ms"><comb-drive id="main" kind="comb" on="stage" x="1.75 mm" y="0.1 mm" direction="0 deg" fingers="12" gap="10 um"
+overlap="40 um" length="120 um" width="8 um" voltage="volts" law="ramp" rise="58 ms"/><force on="stage" fx="force" law="ramp" rise="58 ms"/>
+<air kind="slide" on="stage" gap="20 um"/></scene></device>"""
+
+
+class PullIn(unittest.TestCase):
+    """What pull-in voltages may be off by for the stiffness of flexures: no more than that stiffness is, where nothing else acts."""
+
+    def pull_in(self, *settings):
+        return said_of(GUIDED, *settings, command="statics")["pull_in"][0]
+
+    def test_a_leaf_that_is_far_displaced_is_hardly_stretched(self):
+        pull = self.pull_in()
+        self.assertTrue(0.005 < pull["stiffness_error"] < 0.03, pull)  # it was 4.05: of energies along leaves that become shorter
+        softer = self.pull_in(modulus(160 * (1 - pull["stiffness_error"])))
+        self.assertAlmostEqual((softer["voltage_V"] / pull["voltage_V"]) ** 2, 1 - pull["stiffness_error"], places=3)
+        said = said_of(GUIDED)
+        self.assertEqual(said["verdict"], "accept", said["reasons"])
+
+    def test_other_loads_are_followed_again(self):
+        pull = self.pull_in("force=100 uN")
+        softer = self.pull_in("force=100 uN", modulus(160 * (1 - 0.005)))
+        self.assertGreaterEqual(pull["stiffness_error"], 1 - (softer["voltage_V"] / pull["voltage_V"]) ** 2)
+
+    def test_so_it_is_with_modes(self):
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            device.write_text(GUIDED)
+            said = json.loads(run("modes", device, "--at", "equilibrium", "--set", "volts=300 V", "--json").stdout)
+        self.assertLess(said["stiffness_error"], 0.03)  # it was 0.35
+
+
 if __name__ == "__main__":
     unittest.main()
