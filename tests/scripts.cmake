@@ -46,6 +46,7 @@ fw_script_test(cli.sizing COMMAND ${Python3_EXECUTABLE} tests/cli/test_sizing.py
 # a cluster of one node; what needs none is tried first, and 77 says that there is no Slurm
 fw_script_test(cli.slurm COMMAND ${Python3_EXECUTABLE} tests/cli/test_slurm.py ${FW_PROGRAM} TIMEOUT 300)
 set_tests_properties(cli.slurm PROPERTIES SKIP_RETURN_CODE 77)
+fw_script_test(cli.near_pull_in COMMAND ${Python3_EXECUTABLE} tests/cli/test_near_pull_in.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.measurements COMMAND ${Python3_EXECUTABLE} tests/cli/test_measurements.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.inputs COMMAND ${Python3_EXECUTABLE} tests/cli/test_inputs.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})

@@ -211,11 +211,33 @@ static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, cons
     out[1] = cos(axis) * ux + sin(axis) * uy, out[2] = cos(axis) * uy - sin(axis) * ux;
 }
 
+/* what each flexure that gives has of a mode's stiffness, by the tangent of its element at the pose, J per unit^2; NaN: none */
+fw_status fw_statics_hinge_energies(const fw_statics_equilibrium *w, const double *q,
+                                    const double *shape, double **energy) {
+    FW_NEED(*energy = fw_arena_array(w->arena, double, (size_t)w->mechanism->nhinge + 1));
+    for (int i = 0; i < w->mechanism->nhinge; i++)
+        (*energy)[i] = (double)NAN;
+    for (int j = 0; j < w->model->nelement; j++) {
+        const fw_effects_force_element *e = w->model->element[j].own;
+        double p[6], d[6], stiff[36], damp[36], sum = 0;
+        if (!(e->class_->closed_form || e->class_->beam) || e->ports != 2) continue;
+        fw_effects_element_place_ports(e, q, shape, p, d);
+        const fw_effects_port_state seen = {.load = 1, .p = p, .w = d, .still = true};
+        e->class_->tangent(e, &seen, stiff, damp);
+        for (int n = 0; n < 36; n++)
+            sum += d[n / 6] * stiff[n] * d[n % 6];
+        (*energy)[w->mechanism->pin[e->pin].hinge] = sum;
+    }
+    return FW_OK;
+}
+
 /* Of a mode's stiffness, by the energy that each flexure has of it: e = sum k d^2 e_k/whole, with k and e_k of rotation, along
    and across, d as deformed, whole = omega^2 M, M the modal mass: what loads leave of it bears all that is off of what they
-   take from; of an unstable one ten times its share. Source: Rayleigh. Test: test_rest.py, test_modes.c errors_go_with_energy */
+   take from; of an unstable one ten times its share. A strip that is displaced far across itself becomes shorter along itself
+   by far more than it is stretched: of its stiffest direction counts what its tangent has beyond the other two.
+   Source: Rayleigh. Test: test_rest.py, test_near_pull_in.py, test_modes.c errors_go_with_energy */
 double fw_statics_shape_error(const fw_mechanism *m, const double *q, const double *shape,
-                              bool pins, double whole) {
+                              bool pins, double whole, const double *energy) {
     double all = 0, off = 0;
     for (int i = 0; i < m->nhinge; i++) {
         const fw_mechanism_hinge *h = &m->hinge[i];
@@ -226,9 +248,15 @@ double fw_statics_shape_error(const fw_mechanism *m, const double *q, const doub
         fw_flexure_hinge_law_at(&h->law, 0, &at);
         const double k[3] = {m->pin[h->pin].stiffness_Nm_per_rad, at.kx_N_per_m.value,
                              at.ky_N_per_m.value};
+        const int stiff = k[1] > k[2] ? 1 : 2;
+        double part[3];
+        for (int n = 0; n < 3; n++)
+            part[n] = k[n] * d[n] * d[n];
+        if (energy && !isnan(energy[i]))
+            part[stiff] = fmin(part[stiff], fmax(0, energy[i] - part[0] - part[3 - stiff]));
         for (int n = 0; n < 3; n++) {
             if (n > 0 && !(e[n] > 0)) continue;
-            all += k[n] * d[n] * d[n], off += k[n] * d[n] * d[n] * e[n];
+            all += part[n], off += part[n] * e[n];
         }
     }
     return off > 0 ? off / (isnan(whole) ? all : whole > 0 ? whole : 0.1 * all) : 0;
@@ -240,7 +268,7 @@ static fw_status describe(seeker *k, const fw_statics_path *path, int i) {
     fw_statics_pull_in *out = k->out;
     size_t n = (size_t)w->model->nq;
     const double *q = path->q + (size_t)i * n;
-    double best[4] = {0}, part[4], all = 0;
+    double best[4] = {0}, part[4];
     const fw_effects_force_element *e = NULL;
     for (size_t j = 0; j < n; j++)
         w->y[j] = (q[j] - w->q0[j]) / (j % 3 == 2 ? 1 : w->model->scale.length_m);
@@ -258,17 +286,16 @@ static fw_status describe(seeker *k, const fw_statics_path *path, int i) {
     for (int j = 0; j < w->model->nelement; j++) {
         if (!comb_at(k, j)) continue;
         taken(w->model->element[j].own, q, out->shape, part);
-        all += part[3]; /* which is what is left of the stiffness without the field */
         if (e && !(part[3] > best[3])) continue;
         e = w->model->element[j].own;
         memcpy(best, part, sizeof best);
     }
     report_comb(k, e, s * w->drive_unit, q);
-    /* of flexures that stiffen on the way the larger stiffness is off by the same share */
     const bool pins = w->ledger.hinge.used == FW_HINGE_REVOLUTE;
+    double *energy;
+    FW_TRY(fw_statics_hinge_energies(w, q, out->shape, &energy));
     out->stiffness_error =
-        fmax(fw_statics_shape_error(w->mechanism, q, out->shape, pins, s * w->drive_unit * all),
-             fw_statics_shape_error(w->mechanism, q, out->shape, pins, (double)NAN));
+        fw_statics_shape_error(w->mechanism, q, out->shape, pins, (double)NAN, energy);
     out->kind = fabs(best[2]) > fmax(fabs(best[0]), fabs(best[1])) ? FW_PULL_IN_TILT
                 : fabs(best[1]) > fabs(best[0])                    ? FW_PULL_IN_SIDE
                                                                    : FW_PULL_IN_FOLD;
@@ -469,7 +496,7 @@ static fw_status warn_fringe(const seeker *k, const char *scene, fw_diags *diags
                     fw_statics_pull_in_fringe_text(out),
                     fw_number_text(part, sizeof part, 100 * out->fringe, 2),
                     out->fingers > 0.01 ? " and with stiff fingers" : "",
-                    fw_number_text(off, sizeof off, 100 * out->stiffness_error, 2),
+                    fw_percent_text(off, sizeof off, out->stiffness_error),
                     fw_number_text(asked, sizeof asked, out->largest_V, 5));
     return diags->failed ? FW_NOMEM : FW_OK;
 }
@@ -508,6 +535,28 @@ static fw_status warn(const seeker *k, const fw_device_scene *scene, fw_diags *d
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
+/* What the flexures' errors take of it. Where nothing but flexures and electrodes acts, V^2 goes with all of the stiffness, so
+   that it is off by e, the share of their stiffness by which flexures are off in the motion that becomes free: energies of rotation,
+   along and across weigh their errors. Where springs or other loads act besides it may be more: it is followed
+   again with flexures softer by e. Error: one e for all flexures. Test: test_near_pull_in.py, PullIn */
+static fw_status softer(const seeker *k, const fw_mechanism *mechanism,
+                        const fw_effect_choice *effects, fw_diags *silent) {
+    fw_statics_pull_in *out = k->out;
+    const double e = out->stiffness_error;
+    fw_effect_choice soft = *effects;
+    seeker *again;
+    if (out->kind == FW_PULL_IN_NONE || !(e > 0)) return FW_OK;
+    FW_NEED(again = fw_arena_one(k->arena, seeker));
+    again->arena = k->arena, again->scene = k->scene;
+    soft.hinge = k->w.ledger.hinge.used, soft.like = NULL, soft.untold = true;
+    soft.stiffer = (1 + soft.stiffer) * (1 - e) - 1;
+    const fw_status status = seek(again, mechanism, &soft, silent);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    const double left = status == FW_OK && again->out ? again->out->margin / out->margin : 0;
+    out->stiffness_error = fmin(1, fmax(e, 1 - left * left));
+    return FW_OK;
+}
+
 fw_status fw_statics_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism,
                                   const fw_device_scene *scene, const fw_effect_choice *effects,
                                   fw_diags *diags, const fw_statics_pull_in **found) {
@@ -532,6 +581,7 @@ fw_status fw_statics_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism
     if (status == FW_NOMEM || status == FW_CANCELLED) return status;
     if (status != FW_OK || !k->out) return FW_OK; /* statics itself says why it cannot start */
     fingers(k, mechanism);
+    FW_TRY(softer(k, mechanism, effects, &silent));
     FW_TRY(warn(k, scene, diags));
     *found = k->out;
     return FW_OK;

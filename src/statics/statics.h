@@ -248,9 +248,10 @@ typedef struct fw_statics_modes {
 /* of one frequency, as frequency_error */
 double fw_statics_mode_error(const fw_statics_mode *mode);
 /* what the flexures' errors against solids may take from the stiffness `whole` of a small motion (3 nbody) about the pose
-   q, relative; pins: flexures neither give nor drift there; whole NaN: of what flexures alone have of it */
+   q, relative; pins: flexures neither give nor drift there; whole NaN: of what flexures alone have of it; energy (nhinge): of
+   fw_statics_hinge_energies, or NULL */
 double fw_statics_shape_error(const fw_mechanism *mechanism, const double *q, const double *shape,
-                              bool pins, double whole);
+                              bool pins, double whole, const double *energy);
 /* FW_SOLVER: no equilibrium (FW-D111), or the eigenvalues were not found */
 fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_device_scene *scene,

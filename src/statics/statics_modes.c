@@ -482,14 +482,19 @@ double fw_statics_mode_error(const fw_statics_mode *mode) {
 }
 
 /* each: what the next level changes; NULL: not compared by mode */
-static void set_errors(const fw_mechanism *m, const double *each, fw_statics_modes *modes) {
+static fw_status set_errors(const fw_statics_equilibrium *w, const double *each,
+                            fw_statics_modes *modes) {
+    const fw_mechanism *m = w->mechanism;
     const double level = m->nhinge > 0 ? modes->ledger.hinge.error : 0;
     const bool pins = modes->ledger.hinge.used == FW_HINGE_REVOLUTE;
     double first = 0;
     for (int k = modes->count - 1; k >= 0; k--) {
         fw_statics_mode *mode = &modes->mode[k];
         const double whole = mode->stiffness_per_s2 * mode->modal_mass_kg_m2;
-        mode->stiffness_error = fw_statics_shape_error(m, modes->q, mode->shape, pins, whole);
+        double *energy;
+        FW_TRY(fw_statics_hinge_energies(w, modes->q, mode->shape, &energy));
+        mode->stiffness_error =
+            fw_statics_shape_error(m, modes->q, mode->shape, pins, whole, energy);
         mode->model_error = each && m->nhinge > 0 ? each[k] * (1 + each[k]) : level;
         if (mode->kind == FW_MODE_OSCILLATION) first = mode->stiffness_error;
     }
@@ -497,6 +502,7 @@ static void set_errors(const fw_mechanism *m, const double *each, fw_statics_mod
         if (!m->hinge[k].stated) first = fmax(first, m->hinge[k].closed_form.error.stiffness);
     modes->stiffness_error = first;
     modes->frequency_error = of_root(first) + level;
+    return FW_OK;
 }
 
 static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
@@ -543,7 +549,7 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
         FW_NEED(to = fw_arena_one(arena, fw_statics_modes));
         *to = *found;
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
-        set_errors(w.mechanism, each, to);
+        FW_TRY(set_errors(&w, each, to));
         *modes = to;
         return FW_OK;
     }

@@ -204,6 +204,28 @@ fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, i
 fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
                               const fw_dynamics_motion_options *options, bool brief,
                               fw_diags *diags, fw_verdict_variant_verdict *v);
+/* most of a pull that may be missing in a scene (fw_effects_comb_fringe), relative; 0: no electrodes act */
+double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
+/* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with all of the pull;
+   without a scene there are none */
+typedef struct fw_verdict_small_others {
+    const fw_statics_modes *modes[4]; /* (count) */
+    int count;
+    const char *lost; /* a clause: one of them is not there; NULL: all are */
+} fw_verdict_small_others;
+fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_device_scene *of, int scene,
+                                 const fw_statics_mode_options *options,
+                                 const fw_statics_modes *modes, const fw_verdict_variant_verdict *v,
+                                 fw_verdict_small_others *others);
+/* a band takes in what a probe, or the frequency of a mode (from 1 on; 0: the probe), is in these. times: of the softer side, by
+   what the place of the probe gives */
+void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
+                            double times, double *low, double *high);
+/* why a band has no ends, and what would give it some */
+const char *fw_verdict_small_open(fw_arena *arena, const fw_mechanism *mechanism,
+                                  const fw_statics_modes *modes,
+                                  const fw_verdict_small_others *others);
 /* the largest in the scene: (nbody) ways of centres, then turns, then (nhinge) angles */
 void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far);
 /* moved_again.c: what of v->shaken[scene] grows where what takes hold again and again meets other phases (FW-D685) */

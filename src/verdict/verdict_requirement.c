@@ -363,17 +363,6 @@ static bool put_across(const fw_verdict_variant_verdict *v, const fw_device_prob
     return true;
 }
 
-/* why a band has no ends, and what would give it some */
-static const char *open_band(fw_arena *arena, const fw_mechanism *m,
-                             const fw_statics_modes *modes) {
-    bool turned = false; /* which way is not known */
-    for (int k = 0; k < m->nhinge; k++)
-        turned = turned || !isfinite(m->hinge[k].axis_rad);
-    return fw_arena_printf(arena, "%s%s",
-                           modes->ledger.hinge.why ? modes->ledger.hinge.why : "nothing bounds it",
-                           turned ? ": state its `axis`, or draw the bodies that it joins" : "");
-}
-
 /* Bodies that give only soften. Solids of whole devices swing up to 0.3 % higher than computed: the other way what they leave
    counts up to 1 % */
 static void put_soft(const fw_probe *p, double left, double value, fw_verdict_requirement *r) {
@@ -403,12 +392,14 @@ fw_status fw_verdict_requirements_at(fw_arena *arena, const fw_mechanism *m,
     if (status == FW_NOMEM || status == FW_CANCELLED || own.failed)
         return status == FW_CANCELLED ? status : FW_NOMEM;
     FW_TRY(fw_probe_bind(arena, m, s, NULL, &probe));
+    fw_verdict_small_others others;
+    FW_TRY(fw_verdict_small_again(arena, m, s, scene, &o, modes, v, &others));
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
+        int mode = 0;
         if (r->measure || r->scene_index != scene) continue;
         const fw_probe *p = &probe[m->device->requirement[r->asked].probe];
         double value = modes ? fw_probe_small(p, modes) : (double)NAN;
-        int mode = 0;
         if (p->asked->row == FW_PROBE_IS_frequency) {
             if (put_across(v, p->asked, modes, &mode, r)) continue;
             bool there = modes && mode >= 1 && mode <= modes->count;
@@ -417,6 +408,7 @@ fw_status fw_verdict_requirements_at(fw_arena *arena, const fw_mechanism *m,
         r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
         if (!isfinite(value)) continue;
         const double model = fw_probe_small_error(p, modes);
+        const bool yields = p->asked->row == FW_PROBE_IS_compliance;
         if (!soft.looked)
             FW_TRY(fw_verdict_soft_new(arena, &options->effects, fw_verdict_bending_of_any(v), v,
                                        &soft));
@@ -425,11 +417,13 @@ fw_status fw_verdict_requirements_at(fw_arena *arena, const fw_mechanism *m,
             FW_TRY(fw_verdict_soft_leaves(arena, &soft, p, mode, value, closely, v, &left));
             put(r, value, 0, model, modes->stiffness_error, value, true);
             put_soft(p, left, value, r);
+            fw_verdict_small_widen(&others, p, mode, yields ? 1 / left : left, &r->low, &r->high);
             if (p->asked->row == FW_PROBE_IS_frequency) overtaken(v, p->asked, r);
             decide(r);
             if (r->decision != FW_INCONCLUSIVE || left > hardly_soft || v->corner || !v->arm) break;
         }
-        if (isinf(model)) FW_NEED(r->open = open_band(arena, m, modes));
+        if (isinf(model) || others.lost)
+            FW_NEED(r->open = fw_verdict_small_open(arena, m, modes, &others));
     }
     return FW_OK;
 }

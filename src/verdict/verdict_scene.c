@@ -104,7 +104,7 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
     fw_number_text(at, sizeof at, p->voltage_V, 4);
     fw_number_text(asked, sizeof asked, p->largest_V, 4);
     fw_number_text(part, sizeof part, 100 * p->fringe, 2);
-    fw_number_text(off, sizeof off, 100 * p->stiffness_error, 2);
+    fw_percent_text(off, sizeof off, p->stiffness_error);
     v->beyond_pull_in = true;
     const char *text =
         p->margin < 1
@@ -146,7 +146,7 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
         "%s %% that it may be",
         FW_NAMED("scene", scene->name), FW_NAMED("comb drive", p->comb),
         fw_statics_pull_in_fringe_text(p), fw_number_text(part, sizeof part, 100 * p->fringe, 2),
-        fw_number_text(off, sizeof off, 100 * p->stiffness_error, 2));
+        fw_percent_text(off, sizeof off, p->stiffness_error));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);
     v->beyond_pull_in = true;

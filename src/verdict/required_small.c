@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is required of equilibria: frequencies, stiffnesses and compliances, which have no measure of a motion. */
+#include "base/constants.h"
+#include "base/sort.h"
+#include "effects/effects.h"
+#include "quantity/law_kind.h"
+#include "statics/statics.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- equilibria of what is required without a measure ----
+   A frequency or a stiffness about an equilibrium is off by what the flexures' errors take of it there, and by what they do to
+   the equilibrium: a pull that softens closes its gap further, without end towards pull-in. So both are found again with all
+   flexures 1/(1 + e) and 1 + e times as stiff, e: their own error, twice what the next level changes of a frequency, and what
+   bodies give; and, where electrodes act, each of these with the pull as it is and with all that may be missing of it. Bands hold
+   all of these. Error: one e for all that gives. Cost: two small motions, four with electrodes. Test: test_effects.py,
+   NearPullIn */
+
+double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
+    const fw_dynamics_motion *x = v->motion ? v->motion[scene] : NULL;
+    double most = 0;
+    for (int i = 0; x && x->loads && i < x->loads->nelement; i++) {
+        const fw_effects_comb_element *c = fw_effects_comb_of(&x->loads->element[i]);
+        if (c) most = fmax(most, fw_effects_comb_fringe(c));
+    }
+    if (!x && v->pull_in && v->pull_in[scene]) most = v->pull_in[scene]->fringe;
+    return most;
+}
+
+/* a copy of a scene whose electrodes pull 1 + more times as much */
+static fw_status pull_more(fw_arena *arena, double more, fw_device_scene *scene) {
+    fw_device_comb *comb;
+    FW_NEED(comb = fw_arena_array(arena, fw_device_comb, (size_t)scene->ncomb));
+    for (int i = 0; i < scene->ncomb; i++)
+        comb[i] = scene->comb[i], comb[i].voltage_V *= sqrt(1 + more);
+    scene->comb = comb;
+    return FW_OK;
+}
+
+/* of stiffnesses */
+static double gives_more(const fw_mechanism *m, const fw_statics_modes *modes,
+                         const fw_verdict_variant_verdict *v) {
+    double most = 0;
+    for (int k = 0; k < m->nhinge; k++)
+        if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
+    return most + 2 * (m->nhinge > 0 ? modes->ledger.hinge.error : 0) +
+           fw_verdict_bending_of_any(v);
+}
+
+static const char *no_equilibrium(fw_arena *arena, double e, double missing, int which) {
+    char off[32], part[32];
+    return fw_arena_printf(
+        arena,
+        "with flexures and bodies %s by the %s %% that they may be off%s%s%s no stable equilibrium "
+        "was found, so that the device may have snapped: keep away from there",
+        which % 2 ? "stiffer" : "softer", fw_number_text(off, sizeof off, 100 * e, 2),
+        which > 1 ? ", and electrodes that pull by " : "",
+        which > 1 ? fw_number_text(part, sizeof part, 100 * missing, 2) : "",
+        which > 1 ? " % more," : "");
+}
+
+fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
+                                 int scene, const fw_statics_mode_options *given,
+                                 const fw_statics_modes *modes, const fw_verdict_variant_verdict *v,
+                                 fw_verdict_small_others *to) {
+    *to = (fw_verdict_small_others){0};
+    if (scene == FW_NONE || !modes) return FW_OK;
+    const double e = gives_more(m, modes, v), missing = fw_verdict_pull_missing(v, scene);
+    if (!isfinite(e)) return FW_OK; /* bands have no ends then */
+    fw_device_scene more = *of;
+    FW_TRY(pull_more(arena, missing, &more));
+    for (int k = 0; k < (missing > 0 ? 4 : 2); k++) {
+        fw_statics_mode_options o = *given;
+        fw_diags own = fw_diags_new(arena);
+        o.effects.hinge = modes->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+        o.effects.stiffer = k % 2 ? e : 1 / (1 + e) - 1;
+        const fw_device_scene *s = k < 2 ? of : &more;
+        const fw_statics_modes *found = NULL;
+        const fw_status status = fw_statics_small_motions(arena, m, s, &o, &own, &found);
+        if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+        const bool stands = status == FW_OK && found &&
+                            !(found->count > 0 && found->mode[0].kind == FW_MODE_UNSTABLE);
+        if (stands)
+            to->modes[to->count++] = found;
+        else if (!to->lost)
+            FW_NEED(to->lost = no_equilibrium(arena, e, missing, k));
+    }
+    return FW_OK;
+}
+
+void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
+                            double times, double *low, double *high) {
+    for (int i = 0; i < others->count; i++) {
+        const fw_statics_modes *now = others->modes[i];
+        const double x = mode == 0            ? fw_probe_small(probe, now)
+                         : mode <= now->count ? now->mode[mode - 1].f_Hz
+                                              : (double)NAN;
+        if (!isfinite(x)) continue;
+        *low = fmin(*low, x * fmin(1, times)), *high = fmax(*high, x * fmax(1, times));
+    }
+    if (others->lost) *low = 0, *high = HUGE_VAL;
+}
+
+const char *fw_verdict_small_open(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_statics_modes *modes,
+                                  const fw_verdict_small_others *others) {
+    bool turned = false; /* which way is not known */
+    if (others->lost) return others->lost;
+    for (int k = 0; k < m->nhinge; k++)
+        turned = turned || !isfinite(m->hinge[k].axis_rad);
+    return fw_arena_printf(arena, "%s%s",
+                           modes->ledger.hinge.why ? modes->ledger.hinge.why : "nothing bounds it",
+                           turned ? ": state its `axis`, or draw the bodies that it joins" : "");
+}
+
+/* ---- instants that stand for all of a scene ----
+   What is of an equilibrium goes with the values of the laws alone. Those are looked at where the scene ends and begins,
+   where laws begin another piece, where each is least and largest, and between two such instants. In: laws; out: s. Error:
+   extremes of a smooth piece by samples, 32 to a turn of the fastest sine, which misses 0.5 % of its height. Test:
+   test_probe.py */
+
+enum { LAWS = 64, KEPT = FW_VERDICT_INSTANTS, SAMPLES = 20000 };
+
+typedef struct laws {
+    const fw_quantity_law *of[LAWS];
+    int n;
+    bool more; /* than there is room for */
+    double end_s;
+} laws;
+
+static void take_law(laws *to, const fw_quantity_law *law) {
+    if (fw_quantity_law_is_constant(law)) return;
+    for (int i = 0; i < to->n; i++)
+        if (to->of[i] == law) return;
+    if (to->n == LAWS)
+        to->more = true;
+    else
+        to->of[to->n++] = law;
+}
+
+static void laws_of(const fw_mechanism *m, const fw_device_scene *s, laws *to) {
+    *to = (laws){.end_s = s->duration_s};
+#define TAKE(kind)                                                                                 \
+    for (int i = 0; i < s->n##kind; i++)                                                           \
+    take_law(to, s->kind[i].law)
+    TAKE(force);
+    TAKE(torque);
+    TAKE(tendon);
+    TAKE(comb);
+    TAKE(part);
+    TAKE(temperature);
+    TAKE(base);
+#undef TAKE
+    for (int i = 0; i < m->ndriver; i++)
+        take_law(to, &m->driver[i].law);
+}
+
+/* as a scene that ends then has it: the value before a jump */
+static double value_at(const laws *l, int law, double t_s) {
+    double value[3];
+    fw_quantity_law_value(l->of[law], t_s, t_s * (1 - 1e-9), value);
+    return value[0];
+}
+
+static bool are_alike(const laws *l, double a_s, double b_s) {
+    for (int i = 0; i < l->n; i++) {
+        const double a = value_at(l, i, a_s), b = value_at(l, i, b_s);
+        if (!(fabs(a - b) <= 1e-6 * fmax(fmax(fabs(a), fabs(b)), 1e-3))) return false;
+    }
+    return true;
+}
+
+/* false: there is no room for it */
+static bool add_instant(const laws *l, double t_s, double at[KEPT], int *n) {
+    for (int i = 0; i < *n; i++)
+        if (are_alike(l, at[i], t_s)) return true;
+    if (*n == KEPT) return false;
+    at[(*n)++] = t_s;
+    return true;
+}
+
+static bool add_extremes(const laws *l, int law, double at[KEPT], int *n) {
+    const double turns = l->end_s * fw_quantity_law_wave_of(l->of[law]).fastest_Hz;
+    const int samples = (int)fmin(fmax(256, 32 * turns), SAMPLES);
+    double least_s = l->end_s, most_s = l->end_s, low = value_at(l, law, l->end_s), high = low;
+    for (int i = 1; i < samples; i++) {
+        const double t = l->end_s * i / samples, value = value_at(l, law, t);
+        if (value < low) low = value, least_s = t;
+        if (value > high) high = value, most_s = t;
+    }
+    return add_instant(l, least_s, at, n) && add_instant(l, most_s, at, n);
+}
+
+static bool add_breaks(const laws *l, int law, double at[KEPT], int *n) {
+    double break_s[4 * KEPT];
+    const int count = fw_quantity_law_breaks_of(l->of[law], l->end_s, break_s, 4 * KEPT);
+    for (int i = 0; i < count && i < 4 * KEPT; i++)
+        if (!add_instant(l, break_s[i], at, n)) return false;
+    return count <= 4 * KEPT;
+}
+
+int fw_verdict_instants(const fw_mechanism *m, const fw_device_scene *scene, bool between,
+                        double at_s[FW_VERDICT_INSTANTS]) {
+    laws l;
+    int n = 1;
+    laws_of(m, scene, &l);
+    at_s[0] = l.end_s;
+    if (l.n == 0) return 1;
+    bool all = !l.more && add_instant(&l, 1e-6 * l.end_s, at_s, &n);
+    for (int i = 0; i < l.n && all; i++)
+        all = add_breaks(&l, i, at_s, &n) && add_extremes(&l, i, at_s, &n);
+    if (!all) return 0;
+    double sorted[FW_VERDICT_INSTANTS];
+    const int ends = n;
+    memcpy(sorted, at_s, (size_t)n * sizeof *sorted);
+    fw_sort_doubles(sorted, (size_t)ends);
+    for (int i = 1; i < ends && between && all; i++)
+        all = add_instant(&l, 0.5 * (sorted[i - 1] + sorted[i]), at_s, &n);
+    return n;
+}
+
+/* by how much of its value a bound is missed; what is not known there is not known */
+static double worst_share(const fw_verdict_requirement *r) {
+    if (r->why || isnan(r->value)) return HUGE_VAL;
+    return fmax(isnan(r->min) ? -HUGE_VAL : (r->min - r->low) / fabs(r->value),
+                isnan(r->max) ? -HUGE_VAL : (r->high - r->max) / fabs(r->value));
+}
+
+/* The worse of two instants stays; what is beyond a bound for certain at one of them is so, whatever is not known at others. A
+   band of two bounds holds those of all instants. */
+static void take_worse(const fw_verdict_requirement *best, fw_verdict_requirement *now) {
+    const fw_verdict_requirement then = *now;
+    const bool out = best->decision == FW_REJECT, then_out = then.decision == FW_REJECT;
+    if (out != then_out ? out : worst_share(best) >= worst_share(&then)) *now = *best;
+    if (out || then_out || isnan(now->min) || isnan(now->max) || now->why) return;
+    now->low = fmin(best->low, then.low), now->high = fmax(best->high, then.high);
+    if (now->low < now->min || now->high > now->max) now->decision = FW_INCONCLUSIVE;
+    now->utilisation_high = fmax(best->utilisation_high, then.utilisation_high);
+}
+
+static const fw_device_scene without_loads = {.name = "(none)", .duration_s = 1};
+
+fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
+                                        const fw_dynamics_motion_options *options, int scene,
+                                        fw_verdict_variant_verdict *v) {
+    const size_t size = (size_t)v->nrequirement;
+    fw_verdict_requirement *fresh = fw_arena_array(arena, fw_verdict_requirement, 2 * size);
+    fw_device_scene s = scene == FW_NONE ? without_loads : m->device->scene[scene];
+    double at_s[FW_VERDICT_INSTANTS];
+    const int n = scene == FW_NONE ? 1 : fw_verdict_instants(m, &s, !v->corner, at_s);
+    if (scene == FW_NONE) at_s[0] = s.duration_s;
+    FW_NEED(fresh);
+    fw_verdict_requirement *best = fresh + size;
+    memcpy(fresh, v->requirement, size * sizeof *fresh);
+    for (int i = 0; i < n; i++) {
+        s.duration_s = at_s[i];
+        memcpy(best, v->requirement, size * sizeof *best);
+        for (int k = 0; k < v->nrequirement; k++)
+            if (!fresh[k].measure && fresh[k].scene_index == scene) v->requirement[k] = fresh[k];
+        FW_TRY(fw_verdict_requirements_at(arena, m, options, &s, scene, v));
+        for (int k = 0; k < v->nrequirement; k++) {
+            fw_verdict_requirement *r = &v->requirement[k];
+            if (r->measure || r->scene_index != scene) continue;
+            if (n > 1) r->t_s = at_s[i];
+            if (i > 0) take_worse(&best[k], r);
+        }
+    }
+    for (int k = 0; k < v->nrequirement && n == 0; k++)
+        if (!v->requirement[k].measure && v->requirement[k].scene_index == scene)
+            v->requirement[k].why = "loads are at an extreme at more instants of its scene than "
+                                    "are looked at; put parts of it into scenes of their own";
+    return FW_OK;
+}

@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is required of devices under voltage: bands hold what the same device does with a modulus that is off by what its flexures'
+stiffness is said to be off by."""
+import json
+import pathlib
+import tempfile
+import unittest
+
+from common import run
+
+CLAMP = """<device xmlns="urn:flexwright:device:1" name="clamp-arm"><parameter name="volts" value="39 V" min="0 V" max="300 V"/>
+<material ref="silicon-100" youngs-modulus="160 GPa" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>
+<flexure id="la" kind="leaf" length="500 um" width="8 um" fillet="5 um"/><mechanism><body id="arm" x="0 mm" y="0 mm">
+<plate x="0.9 mm" width="900 um" height="160 um"/><plate x="1.25 mm" y="0.2 mm" width="150 um" height="300 um"/></body>
+<revolute id="A" a="ground" b="arm" hinge="la" axis="-90 deg"/></mechanism>
+<probe id="way" kind="displacement" on="arm" x="1.1 mm" y="-0.08 mm" direction="-90 deg"/>
+<probe id="kk" kind="stiffness" on="arm" x="1.1 mm" y="-0.08 mm" direction="-90 deg"/><probe id="pull" kind="force" of="cl"/>%s
+<scene name="go" duration="40 ms"><comb-drive id="cl" kind="plate" on="arm" x="1.0 mm" y="-0.08 mm" direction="-90 deg" gap="12 um"
+length="400 um" voltage="volts"%s/><air kind="slide" on="arm" gap="20 um"/></scene></device>"""
+SLOWLY = ' law="ramp" rise="30 ms"'
+
+
+def said_of(text, *settings, command="check"):
+    options = ("--corners", "none", "--advice", "none") if command == "check" else ()
+    with tempfile.TemporaryDirectory() as place:
+        device = pathlib.Path(place, "device.xml")
+        device.write_text(text)
+        done = run(command, device, *options, "--json", *(w for s in settings for w in ("--set", s)))
+    return json.loads(done.stdout)
+
+
+def modulus(gpa):
+    return f"material/@youngs-modulus={gpa} GPa"
+
+
+class Equilibria(unittest.TestCase):
+    """A frequency and a stiffness about an equilibrium that a softer device has elsewhere."""
+
+    ASKED = '<require frequency="1" plane="in" min="580 Hz" scene="go"/><require probe="kk" min="0.1 N/m" scene="go"/>'
+
+    def test_the_equilibrium_moves_with_the_stiffness(self):
+        text = CLAMP % (self.ASKED, SLOWLY)
+        said = said_of(text)
+        self.assertEqual(said["verdict"], "inconclusive")
+        for gpa in (158.4, 161.6):
+            other = said_of(text, modulus(gpa))
+            for was, now in zip(said["requirements"], other["requirements"]):
+                self.assertTrue(was["band"][0] < now["value"] < was["band"][1], (was["probe"], gpa, was["band"], now["value"]))
+
+    def test_far_from_pull_in_bands_are_narrow(self):
+        low, high = said_of(CLAMP % (self.ASKED, SLOWLY), "volts=10 V")["requirements"][0]["band"]
+        self.assertLess(high - low, 0.02 * high)
+
+    def test_without_a_softer_equilibrium_it_is_undecided(self):
+        said = said_of(CLAMP % (self.ASKED.replace("580 Hz", "10 Hz"), SLOWLY), "volts=41.2 V")
+        first = said["requirements"][0]
+        self.assertEqual(first["verdict"], "inconclusive")
+        self.assertTrue(any("no stable equilibrium was found" in r["text"] for r in said["reasons"]), said["reasons"])
+
+
+GUIDED = """<device xmlns="urn:flexwright:device:1" name="guided"><parameter name="volts" value="60 V"/><parameter name="force" value="0 uN"/>
+<material ref="silicon-100" youngs-modulus="160 GPa" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>
+<flexure id="la" kind="leaf" length="900 um" width="5 um" fillet="5 um"/><flexure id="lb" kind="leaf" length="780 um" width="5 um" fillet="5 um"/>
+<mechanism><body id="stage" x="0 mm" y="1.2 mm"><plate width="3400 um" height="300 um" y="0.1 mm"/></body>
+<revolute id="A" a="ground" a-x="-1.1 mm" a-y="0.4 mm" b="stage" b-x="-1.1 mm" b-y="-0.8 mm" hinge="la" axis="0 deg"/>
+<revolute id="B" a="ground" a-x="1.1 mm" a-y="0.46 mm" b="stage" b-x="1.1 mm" b-y="-0.74 mm" hinge="lb" axis="0 deg"/></mechanism>
+<probe id="stroke" kind="displacement" on="stage" direction="0 deg"/><require probe="stroke" measure="final" min="0.1 um"/>
+<scene name="slow" duration="60 ms"><comb-drive id="main" kind="comb" on="stage" x="1.75 mm" y="0.1 mm" direction="0 deg" fingers="12" gap="10 um"
+overlap="40 um" length="120 um" width="8 um" voltage="volts" law="ramp" rise="58 ms"/><force on="stage" fx="force" law="ramp" rise="58 ms"/>
+<air kind="slide" on="stage" gap="20 um"/></scene></device>"""
+
+
+class PullIn(unittest.TestCase):
+    """What pull-in voltages may be off by for the stiffness of flexures: no more than that stiffness is, where nothing else acts."""
+
+    def pull_in(self, *settings):
+        return said_of(GUIDED, *settings, command="statics")["pull_in"][0]
+
+    def test_a_leaf_that_is_far_displaced_is_hardly_stretched(self):
+        pull = self.pull_in()
+        self.assertTrue(0.005 < pull["stiffness_error"] < 0.03, pull)  # it was 4.05: of energies along leaves that become shorter
+        softer = self.pull_in(modulus(160 * (1 - pull["stiffness_error"])))
+        self.assertAlmostEqual((softer["voltage_V"] / pull["voltage_V"]) ** 2, 1 - pull["stiffness_error"], places=3)
+        said = said_of(GUIDED)
+        self.assertEqual(said["verdict"], "accept", said["reasons"])
+
+    def test_other_loads_are_followed_again(self):
+        pull = self.pull_in("force=100 uN")
+        softer = self.pull_in("force=100 uN", modulus(160 * (1 - 0.005)))
+        self.assertGreaterEqual(pull["stiffness_error"], 1 - (softer["voltage_V"] / pull["voltage_V"]) ** 2)
+
+    def test_so_it_is_with_modes(self):
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            device.write_text(GUIDED)
+            said = json.loads(run("modes", device, "--at", "equilibrium", "--set", "volts=300 V", "--json").stdout)
+        self.assertLess(said["stiffness_error"], 0.03)  # it was 0.35
+
+
+if __name__ == "__main__":
+    unittest.main()
