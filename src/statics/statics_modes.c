@@ -507,6 +507,27 @@ static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
     return fw_statics_equilibrium_modes(w, options, found);
 }
 
+/* softer (count x count), by modes that may have been turned round to be shown; or NULL */
+static double *as_shapes_are(const fw_statics_reduced *r, const fw_statics_modes *modes,
+                             double *softer) {
+    const size_t n = (size_t)modes->count;
+    for (size_t k = 0; softer && k < n; k++) {
+        double same = 0;
+        for (size_t i = 0; i < (size_t)r->n; i++)
+            same += r->shape[k * (size_t)r->n + i] * modes->mode[k].shape[i];
+        for (size_t j = 0; same < 0 && j < n; j++)
+            softer[k * n + j] *= -1, softer[j * n + k] *= -1;
+    }
+    return softer;
+}
+
+/* Of frequencies; where those that what hinges give adds, or the root of a stiffness, may change by the accuracy or
+   more, of these */
+static double changes(const fw_statics_level_small *next, double accuracy) {
+    const double any = 0.5 * next->apart;
+    return any >= accuracy && any > next->relative ? any : next->relative;
+}
+
 fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_device_scene *scene,
                                    const fw_statics_mode_options *options, fw_diags *diags,
@@ -520,13 +541,13 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
     if (tried) choice.hinge = FW_HINGE_REVOLUTE, choice.pins_first = true;
     for (;;) {
         fw_statics_equilibrium w;
-        double relative;
-        const double *each = NULL;
+        fw_statics_level_small next = {.relative = (double)NAN};
         const fw_statics_modes *found;
         fw_diags own = fw_diags_new(arena);
         fw_status status =
             modes_at(arena, mechanism, scene, options, &choice, tried ? &own : diags, &w, &found);
-        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &relative, &each);
+        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &next);
+        const double relative = changes(&next, accuracy);
         bool pins_do = status == FW_OK && relative < stated;
         if (tried && !pins_do && (status == FW_OK || status == FW_SOLVER || status == FW_INPUT)) {
             choice = options->effects, tried = false; /* as if they had not been tried */
@@ -543,7 +564,8 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
         FW_NEED(to = fw_arena_one(arena, fw_statics_modes));
         *to = *found;
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
-        set_errors(w.mechanism, each, to);
+        to->softer = as_shapes_are(&w.reduced, found, next.softer);
+        set_errors(w.mechanism, next.each, to);
         *modes = to;
         return FW_OK;
     }
