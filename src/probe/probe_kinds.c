@@ -466,10 +466,9 @@ static double next_changes(const fw_probe *p, const fw_statics_modes *modes) {
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < n; j++) {
             const fw_statics_mode *a = &modes->mode[i], *b = &modes->mode[j];
-            const double g =
-                mode_along(p, modes, (int)i) * mode_along(p, modes, (int)j) /
-                sqrt(a->modal_mass_kg_m2 * a->stiffness_per_s2 * b->modal_mass_kg_m2 *
-                     b->stiffness_per_s2);
+            const double g = mode_along(p, modes, (int)i) * mode_along(p, modes, (int)j) /
+                             sqrt(a->modal_mass_kg_m2 * a->stiffness_per_s2 * b->modal_mass_kg_m2 *
+                                  b->stiffness_per_s2);
             if (i == j) now += g;
             next += g * modes->softer[i * n + j];
         }

@@ -354,10 +354,12 @@ fw_status fw_statics_level_of_equilibrium(struct fw_statics_equilibrium *w,
 /* What the next level's tangent at the pose of modes changes. Where that is the beam itself, `apart` is of all that the
    tangent says, which closed forms leave something out of where a flexure is not its own mirror image */
 typedef struct fw_statics_level_small {
-    double relative; /* largest change of a frequency among those of pins; NaN: not computed */
+    double relative;    /* largest change of a frequency among those of pins; NaN: not computed */
     const double *each; /* (dof) of every mode, NaN where the two do not compare; or NULL */
-    double apart; /* of any squared frequency, and of the stiffness of any point in any direction, at most; 0: not known */
-    double *softer; /* (dof x dof) d K'^-1 d is g . softer g with g_i = d . u_i / sqrt(u_i K u_i), u_i the modes; or NULL */
+    double
+        apart; /* of any squared frequency, and of the stiffness of any point in any direction, at most; 0: not known */
+    double *
+        softer; /* (dof x dof) d K'^-1 d is g . softer g with g_i = d . u_i / sqrt(u_i K u_i), u_i the modes; or NULL */
 } fw_statics_level_small;
 fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, fw_statics_level_small *out);
 
@@ -367,11 +369,13 @@ fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, fw_statics
    (3 % at the default accuracy: what stiffnesses are known to), and where less than that of their strain rings along
    what they give. Not where something acts on
    hinges that give in another way, or draws them across their strip, and not where pins hold a body
-   that flexures let move. */
+   that flexures let move, or a flexure is far from its own mirror image. */
 fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *mechanism,
                                       const fw_device_scene *scene, const fw_effect_choice *asked,
                                       bool *first);
 static const double fw_statics_level_stated = 30;
+/* c_xy/sqrt(c_xx c_yy) of a flexure from which on neither pins nor closed forms are taken to rest where the beam does */
+static const double fw_statics_coupled = 0.05;
 /* what rings may be: pins in a motion are taken to be off by 2.9 %, whatever the step says (verdict_strain.c) */
 static const double fw_statics_level_rings_most = 0.029;
 /* Exact beams change more than a first step bounds: what they do may be another motion, that has not snapped where this one

@@ -521,11 +521,27 @@ static double *as_shapes_are(const fw_statics_reduced *r, const fw_statics_modes
     return softer;
 }
 
-/* Of frequencies; where those that what hinges give adds, or the root of a stiffness, may change by the accuracy or
-   more, of these */
+/* What closed forms say along and across a flexure is within a percent of its beam where it is its own mirror image */
+static const double fw_mirrored = 0.01;
+
+/* Of frequencies; where those that what hinges give adds, or the root of a stiffness, may change by more than the
+   accuracy and than symmetric flexures do, of these */
 static double changes(const fw_statics_level_small *next, double accuracy) {
     const double any = 0.5 * next->apart;
-    return any >= accuracy && any > next->relative ? any : next->relative;
+    return any >= fmax(accuracy, fw_mirrored) && any > next->relative ? any : next->relative;
+}
+
+static const char of_any[] = "a frequency, or half of a stiffness";
+
+/* exact beams were wanted, and have no equilibrium here */
+static fw_status stay(fw_arena *arena, const fw_statics_level_step *step,
+                      const fw_statics_modes **modes) {
+    fw_statics_modes *own = fw_arena_one(arena, fw_statics_modes);
+    FW_NEED(own);
+    *own = **modes;
+    *modes = own;
+    return fw_statics_level_stays(arena, step, "small motions could not be found with it",
+                                  &own->ledger.hinge);
 }
 
 fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanism,
@@ -535,6 +551,7 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
     fw_effect_choice choice = options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     double stated = fw_statics_level_stated * accuracy;
+    fw_statics_level_step step;
     bool tried;
     FW_TRY(fw_statics_level_pins_first(arena, mechanism, scene, &choice, &tried));
     *modes = NULL;
@@ -544,8 +561,8 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
         fw_statics_level_small next = {.relative = (double)NAN};
         const fw_statics_modes *found;
         fw_diags own = fw_diags_new(arena);
-        fw_status status =
-            modes_at(arena, mechanism, scene, options, &choice, tried ? &own : diags, &w, &found);
+        fw_status status = modes_at(arena, mechanism, scene, options, &choice,
+                                    tried || *modes ? &own : diags, &w, &found);
         if (status == FW_OK) status = fw_statics_level_of_modes(&w, &next);
         const double relative = changes(&next, accuracy);
         bool pins_do = status == FW_OK && relative < stated;
@@ -553,20 +570,21 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
             choice = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }
+        if (*modes && status == FW_SOLVER) return stay(arena, &step, modes);
         FW_TRY(status);
-        if (tried) accuracy = stated, fw_diags_take(diags, &own);
-        const fw_statics_level_step step = {.used = found->ledger.hinge.used,
-                                            .next = found->ledger.hinge.used + 1,
-                                            .relative = relative,
-                                            .why_not = isnan(relative) ? "not computed" : NULL};
-        if (fw_statics_level_climb(&step, accuracy, &options->effects, &choice)) continue;
+        if (tried) accuracy = stated;
+        if (tried || *modes) fw_diags_take(diags, &own);
+        step = (fw_statics_level_step){.used = found->ledger.hinge.used,
+                                       .next = found->ledger.hinge.used + 1,
+                                       .relative = relative,
+                                       .why_not = isnan(relative) ? "not computed" : NULL};
         fw_statics_modes *to;
         FW_NEED(to = fw_arena_one(arena, fw_statics_modes));
-        *to = *found;
+        *to = *found, *modes = to;
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
         to->softer = as_shapes_are(&w.reduced, found, next.softer);
         set_errors(w.mechanism, next.each, to);
-        *modes = to;
-        return FW_OK;
+        if (!fw_statics_level_climb(&step, accuracy, &options->effects, &choice)) return FW_OK;
+        choice.below_of = of_any;
     }
 }

@@ -463,8 +463,8 @@ static bool in_modes_of(const fw_statics_equilibrium *low, const fw_statics_equi
     const fw_statics_reduced *r = &low->reduced;
     const fw_multibody_scale *a = &low->model->scale, *b = &high->model->scale;
     const size_t n = (size_t)r->n, dof = (size_t)r->dof;
-    const double energy = b->mass_kg / a->mass_kg * pow(b->length_m / b->time_s, 2) /
-                          pow(a->length_m / a->time_s, 2);
+    const double energy =
+        b->mass_kg / a->mass_kg * pow(b->length_m / b->time_s, 2) / pow(a->length_m / a->time_s, 2);
     for (size_t k = 0; k < dof; k++) {
         if (!(r->value[k] > r->zero[k])) return false;
         for (size_t i = 0; i < n; i++)
@@ -474,15 +474,14 @@ static bool in_modes_of(const fw_statics_equilibrium *low, const fw_statics_equi
         for (size_t i = 0; i < n; i++) {
             force[i] = 0;
             for (size_t j = 0; j < n; j++)
-                force[i] += 0.5 * (high->stiffness[i * n + j] + high->stiffness[j * n + i]) *
-                            u[k * n + j];
+                force[i] +=
+                    0.5 * (high->stiffness[i * n + j] + high->stiffness[j * n + i]) * u[k * n + j];
         }
         for (size_t l = 0; l <= k; l++) {
             double sum = 0;
             for (size_t i = 0; i < n; i++)
                 sum += u[l * n + i] * force[i];
-            s[k * dof + l] = s[l * dof + k] =
-                sum * energy / sqrt(r->value[k]) / sqrt(r->value[l]);
+            s[k * dof + l] = s[l * dof + k] = sum * energy / sqrt(r->value[k]) / sqrt(r->value[l]);
         }
     }
     return true;
@@ -564,7 +563,9 @@ fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *m,
         (scene->ncontact > 0 || scene->ntemperature > 0 || scene->nstress > 0 || scene->ncomb > 0))
         return FW_OK;
     for (int k = 0; k < m->nhinge; k++)
-        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad)) return FW_OK;
+        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad) ||
+            m->hinge[k].coupling > fw_statics_coupled)
+            return FW_OK;
     FW_TRY(pins_hold(arena, m, &hold));
     *first = !hold;
     return FW_OK;
