@@ -9,7 +9,7 @@ import random
 import tempfile
 import unittest
 
-from common import ALL, only_all, run
+from common import ALL, run
 
 E, DEPTH, WIDTH, FILLET = 160e9, 50e-6, 8e-6, 5e-6
 MASS, INERTIA = 2e-8, 2e-15  # of the arm, at W
@@ -92,7 +92,7 @@ class Askew(unittest.TestCase):
         path = self.here / "device.xml"
         path.write_text(xml)
         done = run(command, path, "--json", *more)
-        self.assertIn(done.returncode, (0, 4), done.stderr)
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)  # 1: flows may not make it
         return json.loads(done.stdout)
 
     def holds(self, pieces, axis, probed, *more):
@@ -146,22 +146,24 @@ class Askew(unittest.TestCase):
             low, high = self.asked("check", xml, *QUICK, "--hinge-model", model)["requirements"][0]["band"]
             self.assertTrue(low <= exact <= high, (model, low, exact, high))
 
-    @only_all
-    def test_drawn_between_bodies(self):
-        """two links on S-paths: closed forms hold what beams say, and auto has the beams"""
-        flexure = f'<flexure id="p" kind="path" width="8 um" fillet="5 um" gap="10 um">{drawn(S_PATH)}</flexure>'
+    def test_drawn_stage(self):
+        """on two S-paths: the band of closed forms holds what beams say, and auto has the beams"""
+        pieces = [(100e-6, 0), *[(120e-6 * math.radians(30), k / 120e-6) for k in (1, -1)], (100e-6, 0)]
         xml = f"""<device xmlns="urn:flexwright:device:1" name="drawn"><material ref="silicon-100" youngs-modulus="160 GPa"
- strength="1.2 GPa" thickness="50 um"/><flow ref="soi-deep-rie"/><die clearance="400 um"/>{flexure}<mechanism>
-<body id="a" x="0 mm" y="0.75 mm" width="150 um"/><body id="b" x="0 mm" y="2.25 mm" width="150 um"/>
-<revolute id="A" a="ground" b="a" b-y="-0.75 mm" hinge="p" axis="0 deg"/>
-<revolute id="B" a="a" a-y="0.75 mm" b="b" b-y="-0.75 mm" hinge="p" axis="0 deg"/></mechanism>
-<probe id="k" kind="stiffness" on="b" direction="80 deg"/><require probe="k" min="1 N/m"/>
+ strength="1.2 GPa" thickness="50 um"/><flow ref="soi-deep-rie"/><die clearance="400 um"/>
+<flexure id="p" kind="path" width="8 um" fillet="5 um" gap="10 um">{drawn(pieces)}</flexure><mechanism>
+<body id="b" x="0 mm" y="0.5 mm" plate-width="1.4 mm" plate-height="0.5 mm"/>
+<revolute id="A" a="ground" a-x="-0.5 mm" b="b" b-x="-0.5 mm" b-y="-0.5 mm" hinge="p" axis="0 deg"/>
+<revolute id="B" a="ground" a-x="0.5 mm" b="b" b-x="0.5 mm" b-y="-0.5 mm" hinge="p" axis="0 deg"/></mechanism>
+<probe id="k" kind="stiffness" on="b" y="-0.5 mm" direction="75 deg"/><require probe="k" min="1 N/m"/>
 <scene name="s" duration="10 ms"><force on="b" fy="0.001 uN"/></scene></device>"""
-        exact = self.asked("check", xml, *QUICK, "--hinge-model", "elastica")["requirements"][0]
-        low, high = self.asked("check", xml, *QUICK, "--hinge-model", "compliance")["requirements"][0]["band"]
-        self.assertTrue(low <= exact["value"] <= high, (low, exact, high))
-        auto = self.asked("check", xml, *QUICK)["requirements"][0]
-        self.assertTrue(auto["band"][0] <= exact["value"] <= auto["band"][1], (auto, exact))
+        said = {m: self.asked("check", xml, *QUICK, "--hinge-model", m)["requirements"][0]
+                for m in ("elastica", "compliance", "auto")}
+        exact = said["elastica"]["value"]
+        self.assertGreater(abs(said["compliance"]["value"] / exact - 1), 0.1)
+        for q in said.values():
+            self.assertTrue(q["band"][0] <= exact <= q["band"][1], said)
+        self.assertEqual(said["auto"]["value"], exact)
 
 
 if __name__ == "__main__":
