@@ -60,6 +60,7 @@ fw_script_test(cli.out_of_plane COMMAND ${Python3_EXECUTABLE} tests/cli/test_out
 fw_script_test(cli.stiction COMMAND ${Python3_EXECUTABLE} tests/cli/test_stiction.py ${FW_PROGRAM})
 fw_script_test(cli.large COMMAND ${Python3_EXECUTABLE} tests/cli/test_large.py ${FW_PROGRAM})
 fw_script_test(cli.apart COMMAND ${Python3_EXECUTABLE} tests/cli/test_apart.py ${FW_PROGRAM})
+fw_script_test(cli.unsymmetric COMMAND ${Python3_EXECUTABLE} tests/cli/test_unsymmetric.py ${FW_PROGRAM})
 fw_script_test(cli.probe COMMAND ${Python3_EXECUTABLE} tests/cli/test_probe.py ${FW_PROGRAM})
 fw_script_test(cli.friction_range COMMAND ${Python3_EXECUTABLE} tests/cli/test_friction_range.py ${FW_PROGRAM} TIMEOUT 900)
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM})

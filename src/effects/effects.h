@@ -151,11 +151,12 @@ typedef struct fw_effect_choice {
     fw_effect_mode mode;
     const char *list;             /* comma separated ids, for FW_EFFECTS_LIST */
     fw_effects_hinge_model hinge; /* other than AUTO: whatever the mode says of nonlinear-hinge */
-    double below;    /* > 0: auto came to this level because the one below was off by so much */
-    bool pins_first; /* hinge is REVOLUTE because pins are tried before anything else */
-    bool ended;      /* hinge is ELASTICA because the closed form does not hold where this leads */
-    bool elsewhere;  /* likewise, because exact beams may rest elsewhere */
-    bool untold;     /* nobody reads bounds: those that decide nothing are not found */
+    double below; /* > 0: auto came to this level because the one below was off by so much */
+    const char *below_of; /* of what; NULL: of the largest hinge angle */
+    bool pins_first;      /* hinge is REVOLUTE because pins are tried before anything else */
+    bool ended;     /* hinge is ELASTICA because the closed form does not hold where this leads */
+    bool elsewhere; /* likewise, because exact beams may rest elsewhere */
+    bool untold;    /* nobody reads bounds: those that decide nothing are not found */
     double
         stiffer; /* all flexures have 1 + this times their stiffness, as if their modulus had; 0: as described */
     const struct fw_effect_ledger *like; /* of a device much like this one, or NULL: what acts there

@@ -463,10 +463,9 @@ static fw_status why_climbed(const fw_effect_case *c, const fw_effect_choice *ch
     char by[32];
     fw_percent_text(by, sizeof by, choice->below);
     FW_NEED(*why = fw_arena_printf(
-                c->arena,
-                "%s was computed to be off by %s %% of the largest hinge angle, not "
-                "below the accuracy wanted",
-                models[models[choice->hinge].below].name, by));
+                c->arena, "%s was computed to be off by %s %% of %s, not below the accuracy wanted",
+                models[models[choice->hinge].below].name, by,
+                choice->below_of ? choice->below_of : "the largest hinge angle"));
     return FW_OK;
 }
 

@@ -494,10 +494,30 @@ double fw_probe_small(const fw_probe *p, const fw_statics_modes *modes) {
     return p->row->small ? p->row->small(p, modes) : (double)NAN;
 }
 
+/* What the next model of the hinges changes of a compliance along the probe, over it, or of its stiffness: g . softer g
+   over g . g with g_i = u_i . d / sqrt(K_i). NaN: not known. Test: tests/cli/test_unsymmetric.py */
+static double next_changes(const fw_probe *p, const fw_statics_modes *modes) {
+    double now = 0, next = 0;
+    const size_t n = (size_t)modes->count;
+    if (!modes->softer) return (double)NAN;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) {
+            const fw_statics_mode *a = &modes->mode[i], *b = &modes->mode[j];
+            const double g = mode_along(p, modes, (int)i) * mode_along(p, modes, (int)j) /
+                             sqrt(a->modal_mass_kg_m2 * a->stiffness_per_s2 * b->modal_mass_kg_m2 *
+                                  b->stiffness_per_s2);
+            if (i == j) now += g;
+            next += g * modes->softer[i * n + j];
+        }
+    return p->row == &fw_probe_compliance ? fabs(next / now - 1) : fabs(now / next - 1);
+}
+
 double fw_probe_small_error(const fw_probe *p, const fw_statics_modes *modes) {
     int n = p->asked->mode;
     bool one = p->kind->takes == FW_PROBE_MODE && n >= 1 && n <= modes->count;
     double error = one ? fw_statics_mode_error(&modes->mode[n - 1]) : modes->frequency_error;
     if (isnan(error)) return (double)INFINITY;
-    return p->kind->takes == FW_PROBE_MODE ? error : 2 * error;
+    if (p->kind->takes == FW_PROBE_MODE) return error;
+    const double next = next_changes(p, modes);
+    return isfinite(next) ? 2 * (error - modes->ledger.hinge.error) + next : 2 * error;
 }

@@ -311,11 +311,10 @@ static fw_status equilibrium(fw_arena *arena, const fw_mechanism *mechanism,
 /* Exact beams may rest elsewhere: they have no equilibrium here, or the flexures' forces along and across are coupled, which
    closed forms leave out, so that both may have one beyond a snap that only these have gone through. */
 static bool may_rest_elsewhere(const fw_mechanism *m, const fw_statics_level_step *step) {
-    const double matters = 0.05;
     bool may = step && step->unknown;
     if (!step || step->used != FW_HINGE_COMPLIANCE || step->next != FW_HINGE_ELASTICA) return false;
     for (int k = 0; k < m->nhinge; k++)
-        may = may || m->hinge[k].coupling > matters;
+        may = may || m->hinge[k].coupling > fw_statics_coupled;
     return may;
 }
 

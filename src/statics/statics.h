@@ -241,6 +241,8 @@ typedef struct fw_statics_modes {
        the frequency where loads leave less of the stiffness than may be wrong of it): the larger of the first oscillation's and of any K that is not stated. Faster ones have their own.
        Masses are taken as exact. NaN: not known, infinite never; 0: no flexures */
     double frequency_error, stiffness_error;
+    /* (count x count) what the next model of the hinges makes of compliances, as fw_statics_level_small has it; NULL: not known */
+    const double *softer;
     fw_statics_row_rank rank;
     fw_effect_ledger ledger;
 } fw_statics_modes;
@@ -350,10 +352,17 @@ struct fw_statics_equilibrium;
 /* of an equilibrium that was solved for at s = 1 with these effects */
 fw_status fw_statics_level_of_equilibrium(struct fw_statics_equilibrium *w,
                                           const fw_statics_level_step **step);
-/* the next level's tangent at the pose of modes: largest relative change of a frequency among those
-   that both have; NaN: not computed. each: of every mode, NaN where the two do not compare; or NULL */
-fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, double *relative,
-                                    const double **each);
+/* What the next level's tangent at the pose of modes changes. Where that is the beam itself, `apart` is of all that the
+   tangent says, which closed forms leave something out of where a flexure is not its own mirror image */
+typedef struct fw_statics_level_small {
+    double relative;    /* largest change of a frequency among those of pins; NaN: not computed */
+    const double *each; /* (dof) of every mode, NaN where the two do not compare; or NULL */
+    double
+        apart; /* of any squared frequency, and of the stiffness of any point in any direction, at most; 0: not known */
+    double *
+        softer; /* (dof x dof) d K'^-1 d is g . softer g with g_i = d . u_i / sqrt(u_i K u_i), u_i the modes; or NULL */
+} fw_statics_level_small;
+fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, fw_statics_level_small *out);
 
 /* Where every flexure's stiffness is stated and its axis known, auto tries pins before anything
    else: the statement is of the rotation, the pin is its model, and it costs a tenth. They stay
@@ -361,11 +370,13 @@ fw_status fw_statics_level_of_modes(struct fw_statics_equilibrium *w, double *re
    (3 % at the default accuracy: what stiffnesses are known to), and where less than that of their strain rings along
    what they give. Not where something acts on
    hinges that give in another way, or draws them across their strip, and not where pins hold a body
-   that flexures let move. */
+   that flexures let move, or a flexure is far from its own mirror image. */
 fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *mechanism,
                                       const fw_device_scene *scene, const fw_effect_choice *asked,
                                       bool *first);
 static const double fw_statics_level_stated = 30;
+/* c_xy/sqrt(c_xx c_yy) of a flexure from which on neither pins nor closed forms are taken to rest where the beam does */
+static const double fw_statics_coupled = 0.05;
 /* what rings may be: pins in a motion are taken to be off by 2.9 %, whatever the step says (verdict_strain.c) */
 static const double fw_statics_level_rings_most = 0.029;
 /* Exact beams change more than a first step bounds: what they do may be another motion, that has not snapped where this one

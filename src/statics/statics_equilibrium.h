@@ -189,6 +189,10 @@ fw_status fw_statics_taken_along(fw_statics_equilibrium *w, int driver, double *
 /* gravity, as w has it, by the dead forces of the acceleration a along a field (nq), SI */
 void fw_statics_push(const fw_statics_equilibrium *w, double a, const double *field,
                      double *gravity);
+/* of two evaluated levels at one pose (tangent.c): out->apart and out->softer */
+fw_status fw_statics_tangents_apart(const fw_statics_equilibrium *low,
+                                    const fw_statics_equilibrium *high,
+                                    fw_statics_level_small *out);
 /* rad/s: nothing rings along flexures below it */
 double fw_statics_slowest_along(const fw_mechanism *m);
 /* kg or kg m^2 of a coordinate */

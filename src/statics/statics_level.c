@@ -562,10 +562,9 @@ fw_status fw_statics_level_of_equilibrium(fw_statics_equilibrium *w,
     return step->why_not ? FW_OK : climb(w, &high, none, step);
 }
 
-fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative,
-                                    const double **each) {
+fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, fw_statics_level_small *out) {
     fw_statics_equilibrium high;
-    *relative = (double)NAN, *each = NULL;
+    *out = (fw_statics_level_small){.relative = (double)NAN};
     if (!w->loads || w->mechanism->nhinge == 0) return FW_OK;
     fw_statics_level_step *step = begin(w->arena, w->mechanism, &w->ledger, (double)NAN);
     FW_NEED(step);
@@ -594,6 +593,6 @@ fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, double *relative,
         if (k < own && isnan(change[k])) return FW_OK;
         if (k < own) worst = fmax(worst, change[k]);
     }
-    *relative = worst, *each = change;
-    return FW_OK;
+    out->relative = worst, out->each = change;
+    return step->next == FW_HINGE_ELASTICA ? fw_statics_tangents_apart(w, &high, out) : FW_OK;
 }

@@ -513,6 +513,43 @@ static fw_status modes_at(fw_arena *arena, const fw_mechanism *mechanism,
     return fw_statics_equilibrium_modes(w, options, found);
 }
 
+/* softer (count x count), by modes that may have been turned round to be shown; or NULL */
+static double *as_shapes_are(const fw_statics_reduced *r, const fw_statics_modes *modes,
+                             double *softer) {
+    const size_t n = (size_t)modes->count;
+    for (size_t k = 0; softer && k < n; k++) {
+        double same = 0;
+        for (size_t i = 0; i < (size_t)r->n; i++)
+            same += r->shape[k * (size_t)r->n + i] * modes->mode[k].shape[i];
+        for (size_t j = 0; same < 0 && j < n; j++)
+            softer[k * n + j] *= -1, softer[j * n + k] *= -1;
+    }
+    return softer;
+}
+
+/* What closed forms say along and across a flexure is within a percent of its beam where it is its own mirror image */
+static const double fw_mirrored = 0.01;
+
+/* Of frequencies; where those that what hinges give adds, or the root of a stiffness, may change by more than the
+   accuracy and than symmetric flexures do, of these */
+static double changes(const fw_statics_level_small *next, double accuracy) {
+    const double any = 0.5 * next->apart;
+    return any >= fmax(accuracy, fw_mirrored) && any > next->relative ? any : next->relative;
+}
+
+static const char of_any[] = "a frequency, or half of a stiffness";
+
+/* exact beams were wanted, and have no equilibrium here */
+static fw_status stay(fw_arena *arena, const fw_statics_level_step *step,
+                      const fw_statics_modes **modes) {
+    fw_statics_modes *own = fw_arena_one(arena, fw_statics_modes);
+    FW_NEED(own);
+    *own = **modes;
+    *modes = own;
+    return fw_statics_level_stays(arena, step, "small motions could not be found with it",
+                                  &own->ledger.hinge);
+}
+
 fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_device_scene *scene,
                                    const fw_statics_mode_options *options, fw_diags *diags,
@@ -520,37 +557,40 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
     fw_effect_choice choice = options->effects;
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     double stated = fw_statics_level_stated * accuracy;
+    fw_statics_level_step step;
     bool tried;
     FW_TRY(fw_statics_level_pins_first(arena, mechanism, scene, &choice, &tried));
     *modes = NULL;
     if (tried) choice.hinge = FW_HINGE_REVOLUTE, choice.pins_first = true;
     for (;;) {
         fw_statics_equilibrium w;
-        double relative;
-        const double *each = NULL;
+        fw_statics_level_small next = {.relative = (double)NAN};
         const fw_statics_modes *found;
         fw_diags own = fw_diags_new(arena);
-        fw_status status =
-            modes_at(arena, mechanism, scene, options, &choice, tried ? &own : diags, &w, &found);
-        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &relative, &each);
+        fw_status status = modes_at(arena, mechanism, scene, options, &choice,
+                                    tried || *modes ? &own : diags, &w, &found);
+        if (status == FW_OK) status = fw_statics_level_of_modes(&w, &next);
+        const double relative = changes(&next, accuracy);
         bool pins_do = status == FW_OK && relative < stated;
         if (tried && !pins_do && (status == FW_OK || status == FW_SOLVER || status == FW_INPUT)) {
             choice = options->effects, tried = false; /* as if they had not been tried */
             continue;
         }
+        if (*modes && status == FW_SOLVER) return stay(arena, &step, modes);
         FW_TRY(status);
-        if (tried) accuracy = stated, fw_diags_take(diags, &own);
-        const fw_statics_level_step step = {.used = found->ledger.hinge.used,
-                                            .next = found->ledger.hinge.used + 1,
-                                            .relative = relative,
-                                            .why_not = isnan(relative) ? "not computed" : NULL};
-        if (fw_statics_level_climb(&step, accuracy, &options->effects, &choice)) continue;
+        if (tried) accuracy = stated;
+        if (tried || *modes) fw_diags_take(diags, &own);
+        step = (fw_statics_level_step){.used = found->ledger.hinge.used,
+                                       .next = found->ledger.hinge.used + 1,
+                                       .relative = relative,
+                                       .why_not = isnan(relative) ? "not computed" : NULL};
         fw_statics_modes *to;
         FW_NEED(to = fw_arena_one(arena, fw_statics_modes));
-        *to = *found;
+        *to = *found, *modes = to;
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
-        FW_TRY(set_errors(&w, each, to));
-        *modes = to;
-        return FW_OK;
+        to->softer = as_shapes_are(&w.reduced, found, next.softer);
+        FW_TRY(set_errors(&w, next.each, to));
+        if (!fw_statics_level_climb(&step, accuracy, &options->effects, &choice)) return FW_OK;
+        choice.below_of = of_any;
     }
 }

@@ -454,6 +454,69 @@ double fw_statics_slowest_along(const fw_mechanism *m) {
     return sqrt(k / (m->nbody * mass));
 }
 
+/* ---- two tangents at one pose ---- */
+
+/* K' of the next level in the modes u_i of this one, over their own stiffnesses: S_ij = u_i K' u_j / sqrt(u_i K u_i u_j K u_j).
+   false: a mode has no stiffness, or less than none */
+static bool in_modes_of(const fw_statics_equilibrium *low, const fw_statics_equilibrium *high,
+                        double *u, double *force, double *s) {
+    const fw_statics_reduced *r = &low->reduced;
+    const fw_multibody_scale *a = &low->model->scale, *b = &high->model->scale;
+    const size_t n = (size_t)r->n, dof = (size_t)r->dof;
+    const double energy =
+        b->mass_kg / a->mass_kg * pow(b->length_m / b->time_s, 2) / pow(a->length_m / a->time_s, 2);
+    for (size_t k = 0; k < dof; k++) {
+        if (!(r->value[k] > r->zero[k])) return false;
+        for (size_t i = 0; i < n; i++)
+            u[k * n + i] = r->shape[k * n + i] * (i % 3 == 2 ? 1 : a->length_m / b->length_m);
+    }
+    for (size_t k = 0; k < dof; k++) {
+        for (size_t i = 0; i < n; i++) {
+            force[i] = 0;
+            for (size_t j = 0; j < n; j++)
+                force[i] +=
+                    0.5 * (high->stiffness[i * n + j] + high->stiffness[j * n + i]) * u[k * n + j];
+        }
+        for (size_t l = 0; l <= k; l++) {
+            double sum = 0;
+            for (size_t i = 0; i < n; i++)
+                sum += u[l * n + i] * force[i];
+            s[k * dof + l] = s[l * dof + k] = sum * energy / sqrt(r->value[k]) / sqrt(r->value[l]);
+        }
+    }
+    return true;
+}
+
+/* By what two levels differ at most in what a tangent says. With mu_l the eigenvalues of S above, in [a, b], any squared
+   frequency and any stiffness 1/(d K^-1 d) is from a to b times what it was: at most max(b, 1/a) - 1 apart, either over
+   the other. softer = S^-1. In: scaled, both evaluated; out: relative. Exact but for round-off where joints stand alike;
+   where settling has moved them, to first order of the way. Cost n^2 dof + 10 dof^3. Source: Courant, Fischer (R. Horn,
+   C. Johnson, Matrix Analysis, 4.2 and 7.7). Test: tests/cli/test_unsymmetric.py */
+fw_status fw_statics_tangents_apart(const fw_statics_equilibrium *low,
+                                    const fw_statics_equilibrium *high,
+                                    fw_statics_level_small *out) {
+    const fw_statics_reduced *r = &low->reduced;
+    const size_t n = (size_t)r->n, dof = (size_t)r->dof;
+    double *s, *u, *value, *softer;
+    fw_maths_lapack_space space;
+    if (low->sparse || high->sparse || r->dof < 1) return FW_OK;
+    FW_NEED(s = fw_arena_array(low->arena, double, dof *dof));
+    FW_NEED(u = fw_arena_array(low->arena, double, (dof + 1) * n));
+    FW_NEED(value = fw_arena_array(low->arena, double, dof));
+    FW_NEED(softer = fw_arena_array(low->arena, double, dof *dof));
+    if (!in_modes_of(low, high, u, u + dof * n, s)) return FW_OK;
+    FW_TRY(fw_maths_eigen_space(low->arena, r->dof, &space));
+    if (!fw_maths_eigen(r->dof, s, value, &space)) return FW_OK;
+    out->apart = value[0] > 0 ? fmax(value[dof - 1], 1 / value[0]) - 1 : (double)INFINITY;
+    if (!(value[0] > 0)) return FW_OK;
+    for (size_t i = 0; i < dof; i++) /* row l of s is the vector of value l */
+        for (size_t j = 0; j < dof; j++)
+            for (size_t l = 0; l < dof; l++)
+                softer[i * dof + j] += s[l * dof + i] * s[l * dof + j] / value[l];
+    out->softer = softer;
+    return FW_OK;
+}
+
 void fw_statics_push(const fw_statics_equilibrium *w, double a, const double *field,
                      double *gravity) {
     const double time = w->model->scale.time_s, length = w->model->scale.length_m;
@@ -500,7 +563,9 @@ fw_status fw_statics_level_pins_first(fw_arena *arena, const fw_mechanism *m,
         (scene->ncontact > 0 || scene->ntemperature > 0 || scene->nstress > 0 || scene->ncomb > 0))
         return FW_OK;
     for (int k = 0; k < m->nhinge; k++)
-        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad)) return FW_OK;
+        if (!m->hinge[k].stated || !isfinite(m->hinge[k].axis_rad) ||
+            m->hinge[k].coupling > fw_statics_coupled)
+            return FW_OK;
     FW_TRY(pins_hold(arena, m, &hold));
     *first = !hold;
     return FW_OK;

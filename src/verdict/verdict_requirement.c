@@ -182,9 +182,8 @@ static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, 
                                                                     : computed;
 }
 
-/* What the model is off by scales the departure from the final value, and where that is as large
-   as the band it is off by that part of it. Frequencies, and so all times, go with the root of a
-   stiffness */
+/* What the model is off by scales the departure from the final value, and where that is as large as the band it is off by
+   that part of it. Frequencies, and so all times, go with the root of a stiffness */
 static void put_settling(fw_verdict_requirement *r, const fw_probe_course *course, double band,
                          double numeric, double model, double lasting, double end_s) {
     double off = numeric + model * band;
@@ -231,8 +230,9 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
     const double model = model_of(m, motion, p->level) +
                          fw_verdict_places_error(motion, &m->device->probe[q->probe]),
                  lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
-    const bool size = r->size = !isnan(p->moved); /* a gap is not below 0 */
-    r->swing = size ? p->moved : fmax(fabs(p->maximum - p->origin), fabs(p->minimum - p->origin));
+    const bool gap = !isnan(p->moved), /* neither is below 0 */
+        size = r->size = gap || m->device->probe[q->probe].row == FW_PROBE_IS_distance;
+    r->swing = gap ? p->moved : fmax(fabs(p->maximum - p->origin), fabs(p->minimum - p->origin));
     if (q->measure == FW_MEASURE_PARASITIC) r->swing = fabs(p->across);
     if (q->measure == FW_MEASURE_PEAK_TO_PEAK) r->swing *= 2; /* either end may */
     switch (q->measure) {
@@ -257,7 +257,7 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
         return;
     case FW_MEASURE_PEAK_TO_PEAK:
         put(r, p->maximum - p->minimum, 2 * p->numeric, model, lasting,
-            size ? 2 * p->moved : p->maximum - p->minimum, true);
+            gap ? 2 * p->moved : p->maximum - p->minimum, true);
         return;
     case FW_MEASURE_SETTLING:
         put_settling(r, &monitor->course[q->probe], q->band, p->final_numeric, model, lasting,

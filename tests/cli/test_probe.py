@@ -13,7 +13,7 @@ import resource
 import tempfile
 import unittest
 
-from common import ALL, ROOT, run
+from common import ALL, ROOT, TURNED_LEAF, run
 
 PADDLE = """<device xmlns="urn:flexwright:device:1" name="paddle">
 <mechanism>
@@ -399,6 +399,19 @@ class Probe(unittest.TestCase):
                     "--advice", "none").stdout
         self.assertRegex(shown, "684.3 Hz at 15 ms .*at least 700 Hz is required in go")
         self.assertRegex(shown, "reject +go at 15 ms")
+
+    def test_a_distance_is_not_below_0(self):
+        """the arm passes within 0.1 um of a place 8 um from where it stands: the band once began at -70 nm"""
+        here = tempfile.TemporaryDirectory()
+        self.addCleanup(here.cleanup)
+        path = pathlib.Path(here.name) / "passes.xml"
+        path.write_text(TURNED_LEAF.replace(
+            "<scene", '<probe id="d" kind="distance" a="arm" b="ground" b-x="-8 um" b-y="0.75 mm"/>'
+            '<require probe="d" measure="minimum" max="1 um"/><scene', 1))
+        done = run("check", path, "--json", "--corners", "none", "--advice", "none", "--measurements", "none")
+        (q,) = json.loads(done.stdout)["requirements"]
+        self.assertEqual(q["band"][0], 0)
+        self.assertLess(q["value"], q["band"][1])
 
     def test_a_gap_is_the_distance_of_what_is_drawn(self):
         text = self.with_gap()
