@@ -77,6 +77,7 @@ typedef struct fw_clearance_span {
     double from, to; /* 0..1 of the only piece; of several: 0, 1 */
 } fw_clearance_span;
 /* coefficients of a coordinate over a part of a piece */
+const double *fw_clearance_path_coefficients(const fw_clearance_path *path, int piece, int q);
 void fw_clearance_path_part(const fw_clearance_path *path, int piece, int q, double from, double to,
                             double out[FW_CLEARANCE_NODES]);
 double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, double theta);

@@ -113,36 +113,6 @@ void fw_clearance_path_add(fw_clearance_path *path, const fw_dynamics_piece *pie
     path->npiece++;
 }
 
-static const double *path_coefficients(const fw_clearance_path *path, int piece, int q) {
-    return path->bern + ((size_t)piece * (size_t)path->nq + (size_t)q) * NODES;
-}
-
-double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, double theta) {
-    double b[NODES];
-    int n = path->nodes[piece];
-    memcpy(b, path_coefficients(path, piece, q), (size_t)n * sizeof *b);
-    for (int k = n - 1; k > 0; k--)
-        for (int i = 0; i < k; i++)
-            b[i] += theta * (b[i + 1] - b[i]);
-    return b[0];
-}
-
-/* de Casteljau at `to`, which leaves the part before it, then at from/to, which leaves the one behind
-   that. Cost 2 n^2/2 products. Source: G. Farin, Curves and Surfaces for CAGD, 5th ed., 5.4.
-   Test: test_clearance.c coefficients_hold_the_polynomial */
-void fw_clearance_path_part(const fw_clearance_path *path, int piece, int q, double from, double to,
-                            double out[NODES]) {
-    int n = path->nodes[piece];
-    memcpy(out, path_coefficients(path, piece, q), (size_t)n * sizeof *out);
-    for (int k = 1; to < 1 && k < n; k++)
-        for (int i = n - 1; i >= k; i--)
-            out[i] = out[i - 1] + to * (out[i] - out[i - 1]);
-    double at = to > 0 ? from / to : 0;
-    for (int k = n - 1; at > 0 && k > 0; k--)
-        for (int i = 0; i < k; i++)
-            out[i] += at * (out[i + 1] - out[i]);
-}
-
 /* ---- the least clearance over it ---- */
 
 /* The least clearance over a motion: the domain is time, halved by pieces first, then within one. */
@@ -412,7 +382,7 @@ static fw_status ranges(fw_arena *arena, const fw_clearance_path *path, fw_maths
     for (int q = 0; q < path->nq; q++) {
         fw_maths_interval r = {HUGE_VAL, -HUGE_VAL};
         for (int piece = 0; piece < path->npiece; piece++) {
-            const double *c = path_coefficients(path, piece, q);
+            const double *c = fw_clearance_path_coefficients(path, piece, q);
             for (int i = 0; i < path->nodes[piece]; i++) {
                 r.lo = c[i] < r.lo ? c[i] : r.lo;
                 r.hi = c[i] > r.hi ? c[i] : r.hi;
@@ -465,7 +435,8 @@ static void apart_at(const motion *s, const fw_clearance_pair *pair, int piece, 
         for (int side = 0; side < 2; side++) {
             const int solid = side ? pair->b : pair->a, q = 3 * solid + k;
             if (solid == s->things->nbody) continue;
-            const double to = path_coefficients(s->path, piece, q)[s->path->nodes[piece] - 1];
+            const double to =
+                fw_clearance_path_coefficients(s->path, piece, q)[s->path->nodes[piece] - 1];
             out[k] += (side ? 1 : -1) * (to - s->path->start[q]);
         }
     }
@@ -499,7 +470,7 @@ static void line_to(const fw_clearance_path *path, int piece, double times,
                     fw_clearance_path *line) {
     for (int q = 0; q < path->nq; q++) {
         double *c = line->bern + (size_t)q * NODES;
-        const double to = path_coefficients(path, piece, q)[path->nodes[piece] - 1];
+        const double to = fw_clearance_path_coefficients(path, piece, q)[path->nodes[piece] - 1];
         c[0] = path->start[q];
         c[1] = c[0] + times * (to - c[0]);
     }

@@ -3,6 +3,39 @@
 #include "clearance/clearance_pair.h"
 #include "geometry/segment.h"
 #include <math.h>
+#include <string.h>
+
+/* ---- a coordinate of a path ---- */
+
+const double *fw_clearance_path_coefficients(const fw_clearance_path *path, int piece, int q) {
+    return path->bern + ((size_t)piece * (size_t)path->nq + (size_t)q) * FW_CLEARANCE_NODES;
+}
+
+double fw_clearance_path_value(const fw_clearance_path *path, int piece, int q, double theta) {
+    double b[FW_CLEARANCE_NODES];
+    int n = path->nodes[piece];
+    memcpy(b, fw_clearance_path_coefficients(path, piece, q), (size_t)n * sizeof *b);
+    for (int k = n - 1; k > 0; k--)
+        for (int i = 0; i < k; i++)
+            b[i] += theta * (b[i + 1] - b[i]);
+    return b[0];
+}
+
+/* de Casteljau at `to`, which leaves the part before it, then at from/to, which leaves the one behind
+   that. Cost 2 n^2/2 products. Source: G. Farin, Curves and Surfaces for CAGD, 5th ed., 5.4.
+   Test: test_clearance.c coefficients_hold_the_polynomial */
+void fw_clearance_path_part(const fw_clearance_path *path, int piece, int q, double from, double to,
+                            double out[FW_CLEARANCE_NODES]) {
+    int n = path->nodes[piece];
+    memcpy(out, fw_clearance_path_coefficients(path, piece, q), (size_t)n * sizeof *out);
+    for (int k = 1; to < 1 && k < n; k++)
+        for (int i = n - 1; i >= k; i--)
+            out[i] = out[i - 1] + to * (out[i] - out[i - 1]);
+    double at = to > 0 ? from / to : 0;
+    for (int k = n - 1; at > 0 && k > 0; k--)
+        for (int i = 0; i < k; i++)
+            out[i] += at * (out[i + 1] - out[i]);
+}
 
 /* ---- the nearest places of two solids at a pose of each ---- */
 

@@ -491,16 +491,3 @@ void fw_plan_check_thickness(fw_plan *plan, const fw_plan_flow *pf) {
                     q->id, was, is, own ? "flow[" : "material", own ? pf->use->ref : "",
                     own ? "]" : "", was);
 }
-
-/* which expansions its scenes leave to the pack */
-void fw_plan_find_heated(const fw_device *d, const char *flow, fw_mechanism_variant *v) {
-    for (int i = 0; i < d->nscene; i++)
-        for (int k = 0; k < d->scene[i].ntemperature && fw_device_in_flow(d->scene[i].flow, flow);
-             k++) {
-            const fw_device_temperature *t = &d->scene[i].temperature[k];
-            const bool warm = t->change_K != 0;
-            v->heated_layer = v->heated_layer || (warm && isnan(t->expansion_per_K));
-            v->heated_substrate =
-                v->heated_substrate || (warm && isnan(t->substrate_expansion_per_K));
-        }
-}

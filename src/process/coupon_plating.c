@@ -39,8 +39,12 @@ static fw_status too_much(fw_process_coupon_work *w, const fw_process_plating *o
 }
 
 bool fw_process_coupon_is_metered(const fw_process_measurement *r, const fw_process_coupon *of) {
-    const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
-    return kind && kind->metered && (!of || kind == of) && r->at > 0.0 && r->at_uncertainty > 0.0;
+    static const fw_process_coupon *const own[] = {&fw_process_coupon_mass,
+                                                   &fw_process_coupon_pads};
+    bool known = false;
+    for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
+        known = known || ((!of || of == own[i]) && strcmp(r->coupon, own[i]->name) == 0);
+    return known && r->at > 0.0 && r->at_uncertainty > 0.0;
 }
 
 double fw_process_coupon_meter(const fw_process_measurement *row, int n,

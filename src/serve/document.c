@@ -5,7 +5,7 @@
 #include "base/output.h"
 #include "base/text.h"
 #include "recipe/asrun.h"
-#include "serve/document.h"
+#include "serve/jobs.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>

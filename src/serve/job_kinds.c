@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which commands a page may start, and with which options: what is not in these tables cannot be
    said. No option here names a file but one that came with the request, and a log beside the description. */
-#include "serve/document.h"
 #include "serve/jobs.h"
 #include <jansson.h>
 #include <string.h>

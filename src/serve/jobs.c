@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The life of a job: queued, running in its process, finished; its files; and the process that packs
    them. What is asked by HTTP is in routes.c. */
-#include "serve/document.h"
 #include "serve/jobs.h"
 #include "serve/serve.h"
 #include <dirent.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can be asked for: a function for each and its row in the table at the end.
    docs/reference/serve.md says what goes in and out. */
-#include "serve/document.h"
+#include "serve/jobs.h"
 #include "serve/server.h"
 #include <jansson.h>
 #include <stdlib.h>

@@ -244,6 +244,7 @@ static const fw_device_scene without_loads = {.name = "(none)", .duration_s = 1}
 
 fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
                                         const fw_dynamics_motion_options *options, int scene,
+                                        fw_verdict_judge_small *judge,
                                         fw_verdict_variant_verdict *v) {
     const size_t size = (size_t)v->nrequirement;
     fw_verdict_requirement *fresh = fw_arena_array(arena, fw_verdict_requirement, 2 * size);
@@ -259,7 +260,7 @@ fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
         memcpy(best, v->requirement, size * sizeof *best);
         for (int k = 0; k < v->nrequirement; k++)
             if (!fresh[k].measure && fresh[k].scene_index == scene) v->requirement[k] = fresh[k];
-        FW_TRY(fw_verdict_requirements_at(arena, m, options, &s, scene, v));
+        FW_TRY(judge(arena, m, options, &s, scene, v));
         for (int k = 0; k < v->nrequirement; k++) {
             fw_verdict_requirement *r = &v->requirement[k];
             if (r->measure || r->scene_index != scene) continue;

@@ -263,9 +263,15 @@ bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why);
 enum { FW_VERDICT_INSTANTS = 24 };
 int fw_verdict_instants(const fw_mechanism *mechanism, const fw_device_scene *scene, bool between,
                         double at_s[FW_VERDICT_INSTANTS]);
+/* judges what is required about one equilibrium, that of `s` where it ends */
+typedef fw_status fw_verdict_judge_small(fw_arena *arena, const fw_mechanism *mechanism,
+                                         const fw_dynamics_motion_options *options,
+                                         const fw_device_scene *s, int scene,
+                                         fw_verdict_variant_verdict *v);
 /* what is required of equilibria of a scene (FW_NONE: of none, at rest), at the worst of these */
 fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *mechanism,
                                         const fw_dynamics_motion_options *options, int scene,
+                                        fw_verdict_judge_small *judge,
                                         fw_verdict_variant_verdict *v);
 
 /* ---- verdict_requirement.c: what the device is for ---- */
@@ -279,11 +285,6 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *mec
                                         const fw_verdict_variant_verdict *v, bool required,
                                         fw_probe_monitor *monitor[2]);
 /* "stroke (final) is 47.9 um (46.7 um to 49 um), and at least 40 um is required" */
-/* the same about one equilibrium, that of `at` where it ends */
-fw_status fw_verdict_requirements_at(fw_arena *arena, const fw_mechanism *mechanism,
-                                     const fw_dynamics_motion_options *options,
-                                     const fw_device_scene *at, int scene,
-                                     fw_verdict_variant_verdict *v);
 const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r);
 /* of a motion that was made and seen by these: v->probed and its requirements */
 fw_status fw_verdict_requirements_of_scene(const fw_mechanism *mechanism, int scene,

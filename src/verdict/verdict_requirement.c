@@ -375,10 +375,9 @@ static void put_soft(const fw_probe *p, double left, double value, fw_verdict_re
 
 static const double hardly_soft = 0.98; /* what bodies leave, where no solid is worth its mesh */
 
-fw_status fw_verdict_requirements_at(fw_arena *arena, const fw_mechanism *m,
-                                     const fw_dynamics_motion_options *options,
-                                     const fw_device_scene *s, int scene,
-                                     fw_verdict_variant_verdict *v) {
+static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
+                             const fw_dynamics_motion_options *options, const fw_device_scene *s,
+                             int scene, fw_verdict_variant_verdict *v) {
     double accuracy = options->accuracy > 0 ? options->accuracy : 1e-3;
     const fw_statics_mode_options o = {
         .effects = options->effects,
@@ -555,8 +554,8 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
             first = v->requirement[i].measure ||
                     v->requirement[i].scene_index != v->requirement[k].scene_index;
         if (first)
-            FW_TRY(
-                fw_verdict_requirements_along(arena, m, options, v->requirement[k].scene_index, v));
+            FW_TRY(fw_verdict_requirements_along(arena, m, options, v->requirement[k].scene_index,
+                                                 judge_small, v));
     }
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].measure && !v->requirement[k].why)

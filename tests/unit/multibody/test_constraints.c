@@ -99,7 +99,7 @@ static void add_terms(fw_arena *arena, zoo *z, int n) {
     }
     t->slide[0] = (fw_effects_slide){0, 2, 1e-4};
     if (z->stretches)
-        t->stretch = (fw_effects_stretch){0.3, {about(z, 1e-3), about(z, 1e-3)}, &z->law[0]};
+        t->stretch = (fw_effects_stretch){0.3, {about(z, 1e-3), about(z, 1e-3)}, &z->law[0], 0.3};
 }
 
 static zoo zoo_new(fw_arena *arena, uint64_t seed, bool stretches) {
