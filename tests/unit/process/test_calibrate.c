@@ -214,7 +214,8 @@ static void coverage(void **state) {
             double share = (double)inside[j] / (cases - refused);
             if (!(fabs(share - 0.95) <= scatter))
                 fail_msg("kind %d, value %d: %g", (int)k, j, share);
-            assert_true(fabs(sum[j]) / (cases - refused) < 0.1); /* 3 standard errors of the mean */
+            /* 3 standard errors of the mean, and a twentieth of one uncertainty of what is not linear: 0.1 of 3000 cases */
+            assert_true(fabs(sum[j]) / (cases - refused) < 0.045 + 3 / sqrt(cases));
         }
     }
 }
