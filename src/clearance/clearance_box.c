@@ -191,7 +191,9 @@ static void poses_of(const boxes *b, const fw_workspace_loop_box *known,
     leg_poses(b, known, half, 0, &platform, moved, &pose[0], &pose[1], 0, 1);
     leg_poses(b, known, half, 1, &platform, moved, &pose[4], &pose[3], 4, 3);
     const fw_clearance_solid *cd = &b->things->solid[2];
-    pose[2] = (linear){.middle = {cd->centre.x + m[0], cd->centre.y + m[1], cd->turned_rad + m[2]}};
+    pose[2] = (linear){.middle = {.x_m = cd->centre.x + m[0],
+                                  .y_m = cd->centre.y + m[1],
+                                  .phi_rad = cd->turned_rad + m[2]}};
     for (int i = 0; i < 3; i++)
         pose[2].grad[i][i] = 1;
 }
@@ -204,7 +206,9 @@ static int goes_with(const boxes *b, int solid) {
 static linear linear_of(const boxes *b, const part *known, int solid) {
     const fw_clearance_solid *s = &b->things->solid[solid];
     int with = goes_with(b, solid);
-    if (with == FW_GROUND) return (linear){.middle = {s->centre.x, s->centre.y, s->turned_rad}};
+    if (with == FW_GROUND)
+        return (linear){
+            .middle = {.x_m = s->centre.x, .y_m = s->centre.y, .phi_rad = s->turned_rad}};
     linear out = known->pose[with];
     if (with == solid) return out;
     const fw_clearance_solid *on = &b->things->solid[with];

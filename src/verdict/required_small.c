@@ -3,12 +3,45 @@
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
+#include "geometry/segment.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
+
+/* ---- what a probed stiffness may be off by for its flexures ----
+   By the energies that they have of what its unit load displaces, u = sum over modes of phi (phi . f)/(M omega^2): along and
+   across, a flexure is known less well than it turns, and a stiffness that goes by that is, too. In: small motions at rest; about an
+   equilibrium a leaf that stands aside is stretched by what its law at rest does not know. Out: relative; 0 there, and of a
+   mode, which has its own. Source: fw_statics_shape_error. Test: test_probe.py, test_a_stiffness_across_its_leaves */
+fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,
+                               const fw_statics_modes *modes, const fw_probe *p, double *off) {
+    const size_t n = 3 * (size_t)m->nbody;
+    const fw_effects_port *at = &p->point[0];
+    *off = 0;
+    if (p->kind->takes != FW_PROBE_TANGENT || at->body == FW_GROUND || modes->at_equilibrium)
+        return FW_OK;
+    double *u = fw_arena_array(arena, double, n), whole = 0;
+    FW_NEED(u);
+    const double c = cos(p->asked->direction_rad), s = sin(p->asked->direction_rad);
+    const fw_geometry_vec2 r =
+        fw_geometry_vec_rotate((fw_geometry_vec2){at->x_m, at->y_m}, modes->q[3 * at->body + 2]);
+    for (int k = 0; k < modes->count; k++) {
+        const fw_statics_mode *mode = &modes->mode[k];
+        const double *of = mode->shape + 3 * at->body,
+                     f = c * (of[0] - of[2] * r.y) + s * (of[1] + of[2] * r.x),
+                     by = f / (mode->modal_mass_kg_m2 * mode->stiffness_per_s2);
+        if (!(mode->stiffness_per_s2 > 0)) return FW_OK;
+        whole += f * by;
+        for (size_t i = 0; i < n; i++)
+            u[i] += by * mode->shape[i];
+    }
+    const bool pins = modes->ledger.hinge.used == FW_HINGE_REVOLUTE;
+    if (whole > 0) *off = fw_statics_shape_error(m, modes->q, u, pins, whole, NULL);
+    return FW_OK;
+}
 
 /* ---- equilibria of what is required without a measure ----
    A frequency or a stiffness about an equilibrium is off by what the flexures' errors take of it there, and by what they do to

@@ -502,10 +502,10 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
 
 /* ---- scenes in which nothing moves ---- */
 
-/* Nothing goes by more than 1e-9 of the longest arm, or turns by more than 1e-9, and no hinge uses 1e-6 of what it bears:
+/* Nothing goes by more than 1e-8 of the longest arm, or turns by more than 1e-8, and no hinge uses 1e-5 of what it bears:
    what integrators leave of a start at rest. Of small devices that is below an atom. */
 bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene) {
-    const double hardly = 1e-9, unused = 1e-6;
+    const double hardly = 1e-8, unused = 1e-5;
     const fw_mechanism *m = v->mechanism;
     const fw_dynamics_motion *motion = v->motion[scene];
     const size_t n = 3 * (size_t)m->nbody, columns = (size_t)m->device->nscene + 1;

@@ -561,7 +561,9 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
                                 "%s%s acts across the plane, and what the device does out of "
                                 "its plane is not known: %s",
                                 FW_NAMED("scene", s->name), out->why)));
-        if (tips && is->rigid.n > 0)
+        if (tips && is->rigid.n > 0 && fw_verdict_stands_still(v, i))
+            to->tips = HUGE_VAL; /* what forces are left are round-off */
+        else if (tips && is->rigid.n > 0)
             FW_TRY(fw_verdict_across_tipping(arena, is->soft.why ? &is->rigid : &is->soft, s,
                                              is->rigid.error, v, to));
         if (out->why) continue;

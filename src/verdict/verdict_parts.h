@@ -222,6 +222,9 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *mechanism,
    what the place of the probe gives */
 void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
                             double times, double *low, double *high);
+/* required_small.c: relative, by the energies that flexures have of what the probe's unit load displaces */
+fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_statics_modes *modes, const fw_probe *probe, double *off);
 /* why a band has no ends, and what would give it some */
 const char *fw_verdict_small_open(fw_arena *arena, const fw_mechanism *mechanism,
                                   const fw_statics_modes *modes,
@@ -258,7 +261,7 @@ void fw_verdict_bent_leaves_open(fw_verdict_variant_verdict *v, int first);
 /* verdict_run.c: the masks contradict the motion: no value of a number, of a load or of a flexure mends that. *why: what does */
 bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why);
 
-/* moved_again.c: instants whose equilibria stand for all along the laws of a scene, its end first; 1: nothing of it goes with
+/* required_small.c: instants whose equilibria stand for all along the laws of a scene, its end first; 1: nothing of it goes with
    time, 0: there are more than these. between: in the middle of any two neighbours, too */
 enum { FW_VERDICT_INSTANTS = 24 };
 int fw_verdict_instants(const fw_mechanism *mechanism, const fw_device_scene *scene, bool between,

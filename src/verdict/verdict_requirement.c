@@ -205,8 +205,8 @@ static double departure(const fw_probe_result *p, double value) {
 }
 
 /* Where a motion still rings at its end, its phase there goes by frequencies that are known to some per cent alone: the final
-   value may be anywhere within the ring. What laws shake is known by them, and by modes that lie elsewhere
-   (resonance.c) */
+   value may be anywhere within the ring, however little that is, and no tolerance changes it; of a fiftieth of the way on it is
+   told. What laws shake is known by them, and by modes that lie elsewhere (resonance.c) */
 static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motion,
                           const fw_probe_monitor *monitor, const fw_probe_result *p,
                           fw_verdict_requirement *r) {
@@ -216,19 +216,22 @@ static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motio
     bool shaken;
     FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
     if (ring.amplitude > 0.02 * fabs(p->final - p->origin)) r->rings = ring.amplitude;
-    if (shaken || r->rings == 0) return FW_OK;
-    r->low = fmin(r->low, ring.low - off), r->high = fmax(r->high, ring.high + off);
-    if (r->size) r->low = fmax(0, r->low);
+    if (shaken || !(ring.amplitude > 0)) return FW_OK;
+    const double low = fmin(r->low, ring.low - off), high = fmax(r->high, ring.high + off);
+    if (r->value != 0) r->lasting += fmax(r->low - low, high - r->high) / fabs(r->value);
+    r->low = r->size ? fmax(0, low) : low, r->high = high;
     decide(r);
     return FW_OK;
 }
 
+/* still: nothing moves, and shares of that are round-off over round-off */
 static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
-                  const fw_probe_monitor *monitor, const fw_probe_result *p,
+                  const fw_probe_monitor *monitor, const fw_probe_result *p, bool still,
                   fw_verdict_requirement *r) {
     const fw_device_requirement *q = &m->device->requirement[r->asked];
-    const double model = model_of(m, motion, p->level) +
-                         fw_verdict_places_error(motion, &m->device->probe[q->probe]),
+    const double model = still ? 0
+                               : model_of(m, motion, p->level) +
+                                     fw_verdict_places_error(motion, &m->device->probe[q->probe]),
                  lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
     const bool gap = !isnan(p->moved), /* neither is below 0 */
         size = r->size = gap || m->device->probe[q->probe].row == FW_PROBE_IS_distance;
@@ -304,6 +307,7 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
                                            fw_verdict_variant_verdict *v) {
     const int n = m->device->nprobe;
     if (monitor->no_memory || (looser && looser->no_memory)) return FW_NOMEM;
+    const bool still = fw_verdict_stands_still(v, scene);
     for (int i = 0; i < n; i++)
         fw_probe_result_of(monitor, looser, v->motion[scene], i, &v->probed[scene * n + i]);
     for (int k = 0; k < v->nrequirement; k++) {
@@ -312,7 +316,7 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         const fw_device_requirement *q = &m->device->requirement[r->asked];
         const fw_probe_result *p = &v->probed[scene * n + q->probe];
         const char *of = m->device->probe[q->probe].of;
-        if (p->known) judge(m, v->motion[scene], monitor, p, r);
+        if (p->known) judge(m, v->motion[scene], monitor, p, still, r);
         if (fw_verdict_places_lower(v->motion[scene], of, &r->low, &r->high)) decide(r);
         if (p->known && q->measure == FW_MEASURE_FINAL)
             FW_TRY(put_ring(m, v->motion[scene], monitor, p, r));
@@ -406,7 +410,9 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         }
         r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
         if (!isfinite(value)) continue;
-        const double model = fw_probe_small_error(p, modes);
+        double off;
+        FW_TRY(fw_verdict_small_off(arena, m, modes, p, &off));
+        const double model = fmax(fw_probe_small_error(p, modes), off);
         const bool yields = p->asked->row == FW_PROBE_IS_compliance;
         if (!soft.looked)
             FW_TRY(fw_verdict_soft_new(arena, &options->effects, fw_verdict_bending_of_any(v), v,

@@ -490,7 +490,7 @@ class Probe(unittest.TestCase):
 
     def test_a_scene_in_which_nothing_moves_is_told(self):
         """a most of a displacement, and the limit of every hinge, are met by a device that nobody drives"""
-        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8").replace('min="40 um"', 'max="60 um"')
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8").replace('min="40 um"', 'max="70 um"')
         asked = text[text.index("<probe"):text.index("<require frequency")]
         told = {"115 uN": None,
                 "0 uN": "nothing moves in scene draw: what is required there of stroke (final), stroke (parasitic)"}
@@ -610,8 +610,25 @@ class Probe(unittest.TestCase):
         self.assertGreater(near["hard"], 10e-6)
         self.assertGreater(band["bars"], band["block"] + 0.05)
 
+    def test_what_rings_a_little_is_in_the_band(self):
+        """the final value is anywhere in its ring, however little that is: accepted with 1.101 to 1.153 um, and 1.093 with another modulus"""
+        path = ROOT / "tests/data/rings-a-little.xml"
+        found = []
+        for modulus in ("160 GPa", "162.8 GPa"):
+            done = run("check", path, "--corners", "none", "--advice", "none", "--json", "--set", f"material/@youngs-modulus={modulus}")
+            found.append(json.loads(done.stdout)["requirements"][0])
+        self.assertTrue(found[0]["band"][0] < found[1]["value"] < 1.094e-6 < found[0]["value"], found)
+        self.assertEqual(found[0]["verdict"], "inconclusive")
+
+    def test_a_stiffness_across_its_leaves(self):
+        """along leaves a flexure is known less well than it turns, and so is a stiffness that goes by that"""
+        device = ROOT / "tests/data/legs-that-bend.xml"
+        found = json.loads(run("check", device, "--corners", "none", "--advice", "none", "--json").stdout)["requirements"][0]
+        self.assertGreater(found["band"][1] / found["value"], 1.05)  # 1.022, by the turn alone
+
     def test_bodies_that_give_only_soften(self):
-        """a carrier that shrinks by cold presses four leaves, so that bodies store much beside the hinges: a mode at rest is not higher by that"""
+        """a carrier that shrinks by cold presses four leaves, so that bodies store much beside the hinges: of a mode at rest, and of a
+        compliance, that says nothing, and bodies soften both"""
         hinges = "".join(f'<revolute id="{name}" a="ground" a-x="{x} mm" a-y="{y} mm" b="mass" b-x="{x} mm" b-y="{y} mm" hinge="leaf" axis="{turn} deg"/>'
                          for name, x, y, turn in (("A", -0.45, -0.83, 0), ("B", 0.45, -0.83, 0), ("C", -0.45, 0.83, 180), ("D", 0.45, 0.83, 180)))
         bands = []
@@ -626,9 +643,9 @@ class Probe(unittest.TestCase):
             bands += [(mode["value"], *mode["band"]), (soft["value"], *soft["band"])]
         for (value, low, high), (other, lower, higher) in ((bands[0], bands[2]), (bands[1][:1] + bands[1][:0:-1], bands[3][:1] + bands[3][:0:-1])):
             self.assertAlmostEqual(value / other, 1, 9)
-            self.assertGreater(abs(lower / low - 1), 0.05)          # softer by what the cold scene says of bodies
-            self.assertLess(abs(higher / high - 1), 0.011)         # and no stiffer than by a hundredth
-            self.assertGreater(lower / low, 0)
+            self.assertAlmostEqual(lower / low, 1, 9)
+            self.assertAlmostEqual(higher / high, 1, 9)
+            self.assertGreater(abs(low / value - 1), 0.9 * abs(high / value - 1))  # no stiffer than softer
 
     def test_rims_of_release_holes_are_part_of_the_verdict(self):
         """no holes: nothing to say; with holes less than what is allowed, also where a strip between two holes that bore
