@@ -220,7 +220,8 @@ fw_status fw_statics_hinge_energies(const fw_statics_equilibrium *w, const doubl
     for (int j = 0; j < w->model->nelement; j++) {
         const fw_effects_force_element *e = w->model->element[j].own;
         double p[6], d[6], stiff[36], damp[36], sum = 0;
-        if (!(e->class_->closed_form || e->class_->beam) || e->ports != 2) continue;
+        if (!(e->class_->closed_form || e->class_->beam) || e->ports != 2 || e->pin == FW_NONE)
+            continue; /* what acts on slender arms yields, and is no flexure */
         fw_effects_element_place_ports(e, q, shape, p, d);
         const fw_effects_port_state seen = {.load = 1, .p = p, .w = d, .still = true};
         e->class_->tangent(e, &seen, stiff, damp);
