@@ -372,7 +372,7 @@ static void places_on_strained_ground(void **state) {
     const fw_effects_loads grows = {
         .nbody = m->nbody,
         .strain = none,
-        .stretch = {strain[m->nbody] / law[0], fw_mechanism_ground_centre(m), &swings}};
+        .stretch = {strain[m->nbody] / law[0], fw_mechanism_ground_centre(m), &swings, 0}};
     fw_dynamics_instant now = {.t_s = 1e-4,
                                .piece_s = 1e-4,
                                .q = x->q,
