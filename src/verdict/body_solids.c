@@ -277,12 +277,12 @@ fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout,
      u = sum over modes of phi (phi . f)/(M omega^2)
 
    and flexures put on their bodies by it what is in balance with f. With what bodies store by that, U_b(f), the theorem of
-   least complementary energy bounds what the whole device gives, and Weyl's inequality every frequency, c_h and omega_h those of rigid bodies:
+   least complementary energy bounds what the whole device gives, c_h of rigid bodies:
 
      c(f) <= c_h(f) + 2 U_b(f)
 
    So C_h + B, B the form of 2 U_b for forces and couples in the middles of bodies, is at least what the device gives, and its
-   eigenvalues with the masses, each in its order, are at least 1/omega^2. A body that swings by itself between its hinges
+   eigenvalues with the masses, each in its order, are at least 1/omega^2 (Weyl). A body that swings by itself between its hinges
    is among them.
 
    In: the mechanism at rest, arms (body_arms.c), solids where they are known. Out: 2 U_b(f) of a place, m/N, with the way from there to the
@@ -338,17 +338,17 @@ static fw_status modes_at_rest(fw_arena *arena, const fw_mechanism *m, const fw_
     return FW_OK;
 }
 
-static void displace(const small *x) {
-    const size_t n = 3 * (size_t)x->modes->nbody;
-    memset(x->u, 0, n * sizeof *x->u);
-    for (int k = 0; k < x->modes->count; k++) {
-        const fw_statics_mode *mode = &x->modes->mode[k];
+void fw_verdict_displaced(const fw_statics_modes *modes, const double *f, double *u) {
+    const size_t n = 3 * (size_t)modes->nbody;
+    memset(u, 0, n * sizeof *u);
+    for (int k = 0; k < modes->count; k++) {
+        const fw_statics_mode *mode = &modes->mode[k];
         double by = 0;
         for (size_t i = 0; i < n; i++)
-            by += mode->shape[i] * x->f[i];
+            by += mode->shape[i] * f[i];
         by /= mode->modal_mass_kg_m2 * mode->stiffness_per_s2;
         for (size_t i = 0; i < n; i++)
-            x->u[i] += by * mode->shape[i];
+            u[i] += by * mode->shape[i];
     }
 }
 
@@ -382,7 +382,7 @@ static void hinge_puts(const small *x, int hinge, double on[3]) {
 static void load_stores(small *x, double *beams, double *found) {
     const fw_mechanism *m = x->s.m;
     double sum[3] = {0};
-    displace(x);
+    fw_verdict_displaced(x->modes, x->f, x->u);
     for (int k = 0; k < m->nhinge; k++)
         hinge_puts(x, k, x->instant + 3 * k);
     for (int i = 0; i < m->nbody; i++)

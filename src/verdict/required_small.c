@@ -23,21 +23,18 @@ fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,
     *off = 0;
     if (p->kind->takes != FW_PROBE_TANGENT || at->body == FW_GROUND || modes->at_equilibrium)
         return FW_OK;
-    double *u = fw_arena_array(arena, double, n), whole = 0;
+    for (int k = 0; k < modes->count; k++)
+        if (!(modes->mode[k].stiffness_per_s2 > 0)) return FW_OK;
+    double *u = fw_arena_array(arena, double, 2 * n), whole = 0;
     FW_NEED(u);
+    double *f = u + n;
     const double c = cos(p->asked->direction_rad), s = sin(p->asked->direction_rad);
     const fw_geometry_vec2 r =
         fw_geometry_vec_rotate((fw_geometry_vec2){at->x_m, at->y_m}, modes->q[3 * at->body + 2]);
-    for (int k = 0; k < modes->count; k++) {
-        const fw_statics_mode *mode = &modes->mode[k];
-        const double *of = mode->shape + 3 * at->body,
-                     f = c * (of[0] - of[2] * r.y) + s * (of[1] + of[2] * r.x),
-                     by = f / (mode->modal_mass_kg_m2 * mode->stiffness_per_s2);
-        if (!(mode->stiffness_per_s2 > 0)) return FW_OK;
-        whole += f * by;
-        for (size_t i = 0; i < n; i++)
-            u[i] += by * mode->shape[i];
-    }
+    f[3 * at->body] = c, f[3 * at->body + 1] = s, f[3 * at->body + 2] = r.x * s - r.y * c;
+    fw_verdict_displaced(modes, f, u);
+    for (size_t i = 0; i < n; i++)
+        whole += f[i] * u[i];
     const bool pins = modes->ledger.hinge.used == FW_HINGE_REVOLUTE;
     if (whole > 0) *off = fw_statics_shape_error(m, modes->q, u, pins, whole, NULL);
     return FW_OK;
@@ -48,8 +45,8 @@ fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,
    the equilibrium: a pull that softens closes its gap further, without end towards pull-in. So both are found again with all
    flexures 1/(1 + e) and 1 + e times as stiff, e: their own error, twice what the next level changes of a frequency, and what
    bodies give; and, where electrodes act, each of these with the pull as it is and with all that may be missing of it. Bands hold
-   all of these. Error: one e for all that gives. Cost: two small motions, four with electrodes. Test: test_effects.py,
-   NearPullIn */
+   all of these. Error: one e for all that gives. Cost: two small motions, four with electrodes. Test:
+   test_near_pull_in.py */
 
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
     const fw_dynamics_motion *x = v->motion ? v->motion[scene] : NULL;

@@ -508,6 +508,8 @@ fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
 /* of any scene the most of fw_verdict_bending_share, for small motions of which no forces are known */
 double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v);
 
+/* body_solids.c: u (3 nbody) by which a load f (3 nbody) displaces, by modes that are all there and stable */
+void fw_verdict_displaced(const fw_statics_modes *modes, const double *f, double *u);
 /* body_solids.c: what bodies leave at least of a stiffness, of the inverse of a compliance, or of a frequency that is asked for.
    closely: as solids, which stay in v; mode: its number in the plane */
 typedef struct fw_verdict_soft {
