@@ -4,10 +4,13 @@
    A hinge whose peak is at the last instant and that still turns on, by more than a few per cent of it in the lowest mode:
    v/omega. The same scene then lasts a period of that mode longer, in which every single mode comes to its next peak, and
    its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
-   comes behind it. Test: test_program.py, EndsEarly */
+   comes behind it. Test: test_program.py, EndsEarly
+
+   The last part of the file are scenes in which nothing moves (FW-D655). */
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
+#include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
@@ -367,5 +370,82 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
         FW_NAMED("scene", s->name), (x->stats.events + 1) / 2,
         fw_number_text(off, sizeof off, 100 * e, 2), fw_number_text(fewest, sizeof fewest, down, 3),
         fw_number_text(most, sizeof most, up, 3));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- scenes in which nothing moves ---- */
+
+/* Nothing goes by more than 1e-8 of the longest arm, or turns by more than 1e-8, from its first pose, which is the drawn one
+   but for what closing the loops moved; and no hinge uses 1e-5 of what it bears, where that is known already: what integrators
+   leave of a start at rest. Of small devices that is below an atom. Equilibria under one load do not move, either, but away
+   from the drawn pose they stand. Test: test_probe.py, test_equilibria_under_one_load_have_bands */
+static bool goes(const fw_mechanism *m, const fw_dynamics_motion *motion, double arm_m) {
+    const size_t n = 3 * (size_t)m->nbody;
+    const double share = 1e-8, closed_m = 2 * motion->stats.assembly_moved_m;
+    for (size_t i = 0; i < n; i++) {
+        const fw_mechanism_mass *body = &m->body[i / 3];
+        const double drawn[3] = {body->x_m, body->y_m, body->phi_rad}, turn = i % 3 == 2;
+        const double little = share * (turn ? 1 : arm_m),
+                     closed = turn && arm_m > 0 ? closed_m / arm_m : closed_m;
+        if (fabs(motion->q[i] - drawn[i % 3]) > little + closed) return true;
+        for (int r = 1; r < motion->nsample; r++)
+            if (fabs(motion->q[(size_t)r * n + i] - motion->q[i]) > little) return true;
+    }
+    return false;
+}
+
+bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene) {
+    const double unused = 1e-5;
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *motion = v->motion[scene];
+    const size_t columns = (size_t)m->device->nscene + 1;
+    double arm_m = 0;
+    const fw_device_scene *s = &m->device->scene[scene];
+    if (!motion || motion->ended) return false;
+    if (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)) return false; /* across the plane */
+    for (int i = 0; i < m->npin; i++)
+        arm_m = fmax(arm_m, fmax(hypot(m->pin[i].ax_m, m->pin[i].ay_m),
+                                 hypot(m->pin[i].bx_m, m->pin[i].by_m)));
+    for (int k = 0; k < v->nhinge; k++)
+        if (v->used[(size_t)k * columns + (size_t)scene] > unused) return false;
+    return !goes(m, motion, arm_m);
+}
+
+/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
+static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
+    for (int k = 0; k < v->nrequirement; k++) {
+        const fw_verdict_requirement *r = &v->requirement[k];
+        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
+        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
+    }
+    return fw_text_end(list);
+}
+
+fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
+                                const fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    int ran = 0, still = 0, first = FW_NONE;
+    bool told = false;
+    for (int i = 0; i < d->nscene; i++) {
+        fw_text met = fw_text_new(arena);
+        ran += v->motion[i] != NULL;
+        if (!fw_verdict_stands_still(v, i)) continue;
+        if (still++ == 0) first = i;
+        FW_TRY(met_there(v, i, &met));
+        if (met.length) told = true;
+        if (met.length)
+            fw_diag_warning(
+                diags, 655, d->scene[i].place,
+                "nothing moves in %s%s: what is required there of %s is met by a device that "
+                "does nothing; give the scene what drives the device",
+                FW_NAMED("scene", d->scene[i].name), met.data);
+    }
+    if (ran > 0 && still == ran && !told && !v->workspace.required)
+        fw_diag_warning(
+            diags, 655, d->scene[first].place,
+            "nothing moves in %s: that no hinge is strained says nothing of what the device "
+            "bears (a study's governing.utilisation likewise); give a scene what drives it",
+            ran > 1 ? "any scene"
+                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
     return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -22,7 +22,6 @@
 #include "geometry/segment.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
-#include "mechanism/mechanism_plates.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -497,71 +496,6 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
                         fw_number_text(down, sizeof down, least, 2),
                         fw_number_text(up, sizeof up, most, 2));
     }
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-/* ---- scenes in which nothing moves ---- */
-
-/* Nothing goes by more than 1e-8 of the longest arm, or turns by more than 1e-8, and no hinge uses 1e-5 of what it bears:
-   what integrators leave of a start at rest. Of small devices that is below an atom. */
-bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene) {
-    const double hardly = 1e-8, unused = 1e-5;
-    const fw_mechanism *m = v->mechanism;
-    const fw_dynamics_motion *motion = v->motion[scene];
-    const size_t n = 3 * (size_t)m->nbody, columns = (size_t)m->device->nscene + 1;
-    double arm_m = 0;
-    const fw_device_scene *s = &m->device->scene[scene];
-    if (!motion || motion->ended) return false;
-    if (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)) return false; /* across the plane */
-    for (int i = 0; i < m->npin; i++)
-        arm_m = fmax(arm_m, fmax(hypot(m->pin[i].ax_m, m->pin[i].ay_m),
-                                 hypot(m->pin[i].bx_m, m->pin[i].by_m)));
-    for (int k = 0; k < v->nhinge; k++)
-        if (v->used[(size_t)k * columns + (size_t)scene] > unused) return false;
-    for (int r = 1; r < motion->nsample; r++)
-        for (size_t i = 0; i < n; i++)
-            if (fabs(motion->q[(size_t)r * n + i] - motion->q[i]) >
-                hardly * (i % 3 == 2 ? 1 : arm_m))
-                return false;
-    return true;
-}
-
-/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
-static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
-    for (int k = 0; k < v->nrequirement; k++) {
-        const fw_verdict_requirement *r = &v->requirement[k];
-        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
-        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
-    }
-    return fw_text_end(list);
-}
-
-fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
-                                const fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    int ran = 0, still = 0, first = FW_NONE;
-    bool told = false;
-    for (int i = 0; i < d->nscene; i++) {
-        fw_text met = fw_text_new(arena);
-        ran += v->motion[i] != NULL;
-        if (!fw_verdict_stands_still(v, i)) continue;
-        if (still++ == 0) first = i;
-        FW_TRY(met_there(v, i, &met));
-        if (met.length) told = true;
-        if (met.length)
-            fw_diag_warning(
-                diags, 655, d->scene[i].place,
-                "nothing moves in %s%s: what is required there of %s is met by a device that "
-                "does nothing; give the scene what drives the device",
-                FW_NAMED("scene", d->scene[i].name), met.data);
-    }
-    if (ran > 0 && still == ran && !told && !v->workspace.required)
-        fw_diag_warning(
-            diags, 655, d->scene[first].place,
-            "nothing moves in %s: that no hinge is strained says nothing of what the device "
-            "bears (a study's governing.utilisation likewise); give a scene what drives it",
-            ran > 1 ? "any scene"
-                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 

@@ -142,9 +142,9 @@ fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechani
 
 /* ---- decision.c: what speaks against a scene; resonance.c: where a mode may lie elsewhere ---- */
 
-/* verdict_run.c: nothing moves in a scene; of v->used what is filled so far */
+/* moved_again.c: nothing moves in a scene; of v->used what is filled so far */
 bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene);
-/* warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
+/* moved_again.c: warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
 fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
                                 const fw_verdict_variant_verdict *v);
 /* text NULL: FW_NOMEM. keep: share of the scene's loads that would do, held between 0.001 and 0.99 */

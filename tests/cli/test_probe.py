@@ -506,6 +506,18 @@ class Probe(unittest.TestCase):
                 elif words:
                     self.assertIn("that no hinge is strained says nothing of what the device bears", " ".join(done.stderr.split()))
 
+    def test_equilibria_under_one_load_have_bands(self):
+        """a load that is there at once, and no inertia: samples do not differ, and what is displaced from the drawing has a band"""
+        text = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text(encoding="utf-8")
+        text = re.sub(r"<(workspace|require|probe).*?/>", "", re.sub(r' (law|rise|frequency)="[^"]*"', "", text), flags=re.S)
+        at = text.index("<scene")
+        asked = '<probe id="x" kind="displacement" on="coupler" direction="0 deg"/><require probe="x" measure="final" min="1 um"/>'
+        made = run("check", self.file(text[:at] + asked + text[at:]), "--corners", "none", "--advice", "none", "--effects",
+                   "joint-elasticity,nonlinear-hinge,applied-load", "--json")
+        row = json.loads(made.stdout)["requirements"][0]
+        self.assertGreater(row["band"][1] - row["band"][0], 0.01 * row["value"], row)
+        self.assertNotIn("FW-D655", made.stderr)
+
     def test_what_is_left_of_no_force_tips_nothing(self):
         """round-off over round-off: it was told as 6e8 times its forces, which may be off by 5341 %"""
         text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8")
