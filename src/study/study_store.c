@@ -48,10 +48,11 @@ static int reason_of(const fw_study_store *store) {
 static fw_status failed(const fw_study_store *store, const char *doing) {
     if (!store->db || sqlite3_errcode(store->db) == SQLITE_NOMEM) return FW_NOMEM;
     const int number = reason_of(store);
+    const char *kept = "; what was kept before is whole, and --resume goes on from it";
+    if (access(store->path, F_OK) != 0) kept = "";
     const fw_status status = fw_diag_error(
-        &store->study->diags, 496, (fw_place){.file = store->path},
-        "%s: %s%s%s; what was kept before is whole, and --resume goes on from it", doing,
-        sqlite3_errmsg(store->db), number ? ": " : "", number ? strerror(number) : "");
+        &store->study->diags, 496, (fw_place){.file = store->path}, "%s: %s%s%s%s", doing,
+        sqlite3_errmsg(store->db), number ? ": " : "", number ? strerror(number) : "", kept);
     return status == FW_NOMEM ? FW_NOMEM : FW_IO;
 }
 

@@ -251,6 +251,21 @@ int fw_verdict_instants(const fw_mechanism *m, const fw_device_scene *scene, boo
     return n;
 }
 
+double fw_verdict_laws_go_on_s(const fw_mechanism *m, const fw_device_scene *scene) {
+    laws l;
+    double longest = 0;
+    laws_of(m, scene, &l);
+    for (int i = 0; i < l.n; i++) {
+        const double f_Hz = fw_quantity_law_wave_of(l.of[i]).fastest_Hz;
+        bool alike = true;
+        for (int k = 1; k <= 8; k++) /* no period of a sine has all of these */
+            alike = alike && are_alike(&(laws){.of = {l.of[i]}, .n = 1, .end_s = l.end_s}, l.end_s,
+                                       l.end_s * (1 - 1e-3 * k * (1 + 0.07 * k)));
+        if (!alike) longest = fmax(longest, fmax(0.25 * l.end_s, f_Hz > 0 ? 1 / f_Hz : 0));
+    }
+    return l.more ? l.end_s : fmin(longest, l.end_s);
+}
+
 /* by how much of its value a bound is missed; what is not known there is not known */
 static double worst_share(const fw_verdict_requirement *r) {
     if (r->why || isnan(r->value)) return HUGE_VAL;
