@@ -39,9 +39,8 @@ static int reason_of(const fw_study_store *store) {
     const int code = sqlite3_errcode(store->db);
     if (code != SQLITE_CANTOPEN && code != SQLITE_READONLY) return sqlite3_system_errno(store->db);
     const int at = open(store->path, O_RDWR | O_CLOEXEC);
-    if (at >= 0) close(at);
-    if (at >= 0 || (errno == ENOENT && access(store->study->options.output, W_OK) == 0)) return 0;
-    return errno;
+    if (at >= 0) return close(at), 0;
+    return errno == ENOENT && access(store->study->options.output, W_OK) == 0 ? 0 : errno;
 }
 
 /* what SQLite has to say, and the system's reason where it knows one: a full disk, no permission */

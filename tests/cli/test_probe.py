@@ -779,6 +779,17 @@ class Probe(unittest.TestCase):
             told = "has not come to rest (where it ends it still goes to and fro by 15.06 um to either side" in done.stdout
             self.assertEqual(told, verdict == "inconclusive", (damped, bound))
 
+    def test_a_law_that_a_scene_cuts_short_is_told(self):
+        """a load of 400 uN that rises within 200 ms was accepted at 40 uN, without a word, in a scene of 20 ms"""
+        told = {'law="ramp" rise="200 ms"': "come to 10 % of what it comes to, at 200 ms", 'law="ramp" rise="20 ms"': None,
+                'law="table" table="0 ms: 0; 5 ms: 0.2; 100 ms: 1"': "come to 32.6 %", 'law="table" table="0 ms: 0; 5 ms: 1; 100 ms: 0"': None,
+                'law="half-sine" rise="100 ms"': "of what it comes to", 'law="sine" frequency="40 Hz"': None, "": None}
+        for law, words in told.items():
+            text = (self.SETTLES % (180, 20, '<air kind="slide" on="J" gap="3 um"/>')).replace('fx="20 uN"', f'fx="20 uN" {law}')
+            said = " ".join(run("statics", self.file(text)).stderr.split())
+            self.assertEqual("FW-D701" in said, words is not None, (law, said))
+            self.assertIn(words or "", said)
+
     def test_a_fast_mode_of_little_does_not_hide_a_ring(self):
         """the last three turns were those of a ripple of 0.3 um: at 42 ms 48.96 um had a band of 0.7 um, in a swing of 57"""
         text = (self.SETTLES % (180, 40, "")).replace('mass="50 ug" inertia="0.01 mg mm^2"/>', '''mass="500 ug" inertia="0.1 mg mm^2"/>
