@@ -222,7 +222,7 @@ static double departure(const fw_probe_result *p, double value) {
 
 /* Where a motion still rings at its end, its phase there goes by frequencies that are known to some per cent alone: the final
    value may be anywhere within the ring, however little that is, and no tolerance changes it; of a fiftieth of the way on it is
-   told. What laws shake is known by them, and by modes that lie elsewhere (resonance.c) */
+   told. What laws still shake there is known by them, and by modes that lie elsewhere (resonance.c) */
 static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motion,
                           const fw_probe_monitor *monitor, const fw_probe_result *p,
                           fw_verdict_requirement *r) {
@@ -235,6 +235,7 @@ static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motio
     FW_TRY(fw_verdict_slowest_s(monitor->arena, m, r->scene_index, &slowest_s));
     FW_TRY(fw_probe_rings(monitor->arena, of, motion, slowest_s, &ring));
     FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
+    shaken = shaken && fw_verdict_laws_go_on_s(m, &m->device->scene[r->scene_index]) > 0;
     if (ring.amplitude > 0.02 * fabs(p->final - p->origin)) r->rings = ring.amplitude;
     if (shaken || !(ring.amplitude > 0)) return FW_OK;
     const double low = fmin(r->low, ring.low - off), high = fmax(r->high, ring.high + off);
