@@ -48,6 +48,8 @@ typedef enum fw_recipe_fate {
 typedef struct fw_recipe_asrun_entry {
     const fw_process_step *step; /* that was run; NULL: none was (fate) */
     const fw_process_step *at;   /* that one, or the one at which the fate was seen */
+    /* step as its law times it at what was set in this run; `step` where that is as planned, or the plan is not known */
+    const fw_process_step *as_set;
     fw_recipe_fate fate;
     const char *why;       /* of a fate, as written */
     double start_s, end_s; /* local time of the laboratory, seconds since 1970-01-01T00:00 there */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One entry of an as-run log, checked against the plan that the log is bound to. */
 #include "base/text.h"
+#include "process/process_law.h"
 #include "recipe/asrun_parts.h"
 #include "recipe/recipe_words.h"
 #include "schedule/schedule.h"
@@ -397,6 +398,47 @@ static char *equal_of(const fw_recipe_asrun_reader *r, const fw_process_step *st
     return first;
 }
 
+/* ---- a step as it was set ---- */
+
+/* what an entry sets, SI; of what was not known as exactly as it is written, else as what was planned */
+static bool read_set(const fw_recipe_set *set, fw_process_set *as) {
+    fw_quantity_unit unit;
+    if (!set->q || isnan(set->value) ||
+        !fw_quantity_unit_parse(set->q->unit, strlen(set->q->unit), &unit, NULL, NULL))
+        return false;
+    *as = (fw_process_set){.planned = set->q,
+                           .value = fw_quantity_unit_to_si(&unit, set->value),
+                           .uncertainty = set->q->uncertainty};
+    unit.offset = 0.0;
+    if (set->q->unknown)
+        as->uncertainty = fw_quantity_unit_to_si(&unit, fw_process_written_uncertainty(set->text));
+    return true;
+}
+
+/* an entry of the same run, which says what was read of it afterwards, or puts it right */
+static bool same_run(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return a->step == b->step && fw_text_same(a->wafer, b->wafer) && a->start_s == b->start_s;
+}
+
+/* the step as it was set in this run, of which earlier entries may be */
+static fw_status take_settings(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun *run = r->run;
+    int n = 0, most = e->nset;
+    e->as_set = e->step;
+    if (!r->bound || !e->step) return FW_OK;
+    for (int i = 0; i < run->nentry; i++)
+        if (same_run(&run->entry[i], e)) most += run->entry[i].nset;
+    if (most == 0) return FW_OK;
+    fw_process_set *set = fw_arena_array(r->arena, fw_process_set, (size_t)most);
+    FW_NEED(set);
+    for (int i = 0; i <= run->nentry; i++) { /* the last one says how it was */
+        const fw_recipe_asrun_entry *of = i < run->nentry ? &run->entry[i] : e;
+        for (int k = 0; k < of->nset && (of == e || same_run(of, e)); k++)
+            n += read_set(&of->set[k], &set[n]);
+    }
+    return fw_process_step_as_set(r->arena, e->step, set, n, &e->as_set);
+}
+
 fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,
                                      char separator, fw_recipe_asrun_entry *e) {
     char *copy = fw_arena_strndup(r->arena, words, n);
@@ -443,6 +485,7 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
                    : (there + e->step->batch - 1) / e->step->batch;
     if (e->loads < 1) e->loads = 1; /* a log of before there were wafers */
     FW_TRY(check_entry(r, e));
+    FW_TRY(take_settings(r, e));
     if (e->fate != FW_FATE_RUN)
         e->step = NULL;
     else if (r->fresh)
@@ -516,48 +559,4 @@ void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out) {
         fw_json_end(out);
     }
     fw_json_end(out);
-}
-
-/* ---- what a coupon was etched at ---- */
-
-static bool of_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
-    return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
-}
-
-static void condition_of_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                             const char *rate, fw_process_condition which,
-                             fw_process_measurement *row) {
-    const fw_recipe_asrun_entry *of =
-        NULL; /* the run; what is read later of it has its start, too */
-    fw_quantity_unit unit;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[i];
-        if (o->step && fw_process_step_corrects(o->step, which, rate) && of_wafer(o, e) &&
-            o->start_s <= e->start_s && (!of || o->start_s > of->start_s))
-            of = o;
-    }
-    for (int i = 0; of && i < run->nentry && !(row->condition[which] > 0.0); i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
-        if (o->step != of->step || !of_wafer(o, of) || o->start_s != of->start_s) continue;
-        for (int k = 0; k < o->nset; k++) {
-            const fw_recipe_set *s = &o->set[k];
-            if (!s->q || isnan(s->value) ||
-                s->q != fw_process_step_corrects(o->step, which, rate) ||
-                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
-                continue;
-            row->condition[which] = fw_quantity_unit_to_si(&unit, s->value);
-            unit.offset = 0.0;
-            row->condition_uncertainty[which] =
-                s->q->unknown
-                    ? fw_quantity_unit_to_si(&unit, fw_process_written_uncertainty(s->text))
-                    : s->q->uncertainty;
-        }
-    }
-}
-
-void fw_recipe_asrun_etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                               fw_process_measurement *row) {
-    const char *rate = fw_process_coupon_rate(run->flow, row);
-    for (int k = 0; rate && k < FW_CONDITIONS; k++)
-        condition_of_run(run, e, rate, (fw_process_condition)k, row);
 }

@@ -43,10 +43,6 @@ char *fw_recipe_asrun_word(char **at, char separator);
 /* FW-D282 with the names (n) that there are, and the one that was probably meant */
 fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *what,
                                   const char *name, const char *const *known, int n);
-/* asrun_entry.c: the temperature and the open area of a rate that was read in this entry and does not say them: what was set
-   of the run that it is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else they stay not said */
-void fw_recipe_asrun_etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                               fw_process_measurement *row);
 /* the value of a word coupon= */
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
@@ -61,6 +57,16 @@ bool fw_recipe_asrun_inside(const char *low, const char *high, double value);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
 
+/* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set */
+typedef struct fw_recipe_amount_in_time {
+    bool fits;                          /* or there is nothing to hold against each other */
+    const fw_recipe_measured *measured; /* in the unit of what is accepted */
+    double
+        took_s; /* by the log, the runs that it goes on from included, at what is set in this one */
+    double time_s, law_m, off; /* what the law makes of that time, and relatively how surely */
+    const char *formula;
+} fw_recipe_amount_in_time;
+
 /* ---- runs of one step on one wafer, one after the other: asrun_values.c ---- */
 
 /* the run of e's step and wafer before that of e, which a later entry did not take the place of; NULL: e is the first */
@@ -74,12 +80,30 @@ const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun 
 bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 typedef struct fw_recipe_runs { /* that come to one longer run */
     int n;
-    double time_s; /* of all; of one load where there are several */
+    double took_s; /* of all; of one load where there are several */
+    double
+        time_s; /* the same, each as long as it would have been at what was set in the last one */
 } fw_recipe_runs;
 fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 
 /* "short", "in window", "long" or "no plan": an entry's duration, with the runs that it goes on from */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+/* as a member "as_set" */
+void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 fw_json *out);
+/* Runs that add up are to stop when one run is, with handling once more for each; *surely NULL, or where handling may be in
+   every run: so much is too long in any case. One run: its loads together */
+double fw_recipe_asrun_stop_by(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                               const fw_recipe_runs *runs, double *surely);
+/* "45 min", "31 min in 2 runs" */
+void fw_recipe_asrun_put_took(fw_text *out, const fw_recipe_asrun_entry *e,
+                              const fw_recipe_runs *runs);
+/* is it in its window, but would not be were what is finished at the bench no part of its time, because of what was set? */
+bool fw_recipe_asrun_is_late_as_set(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+/* FW-D654: "19.1 um (17.9 to 20.2), by t = d/R in 45 min"; a->fits: what was measured goes with it, or nothing was */
+fw_status fw_recipe_asrun_amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
+                                        const fw_recipe_asrun_entry *e, fw_recipe_amount_in_time *a,
+                                        fw_text *planned, fw_text *actual);
 /* loads one after the other that share the time of the entry, and how many entries do (*together) */
 double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                              int *together);
@@ -120,19 +144,6 @@ void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);
 fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                     fw_place place, fw_diags *diags);
 
-/* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set:
-   asrun_measured.c. loads: that may share its time, one after the other; read_s: how far a clock may be off */
-typedef struct fw_recipe_amount_in_time {
-    bool fits;                          /* or there is nothing to hold against each other */
-    const fw_recipe_measured *measured; /* in the unit of what is accepted */
-    double
-        took_s; /* by the log, the runs that it goes on from included, at what is set in this one */
-    double time_s, law_m, off; /* what the law makes of that time, and relatively how surely */
-    const char *formula;
-} fw_recipe_amount_in_time;
-fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
-                                         const fw_recipe_asrun_entry *e, double loads,
-                                         double read_s, fw_recipe_amount_in_time *out);
 typedef struct fw_recipe_asrun_total {
     int logged, out, repeated;
     /* of the steps in the log that have a planned time; what several wafers share counts once. earlier_s: what of actual_s

@@ -260,10 +260,11 @@ static void put_values(const fw_recipe_asrun_entry *e, fw_text *out) {
 }
 
 static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
-    fw_text_add(out, "<h2>Entries</h2>\n<table><thead><tr><th>Step</th><th>Wafer</th><th>Start</th>"
-                     "<th>At the machine, planned</th><th>Actual</th><th>By; tool; "
-                     "instrument</th><th>Values and "
-                     "settings</th></tr></thead><tbody>\n");
+    fw_text_add(out,
+                "<h2>Entries</h2>\n<table><thead><tr><th>Step</th><th>Wafer</th><th>Start</th>"
+                "<th>At the machine, planned for what was set</th><th>Actual</th><th>By; tool; "
+                "instrument</th><th>Values and "
+                "settings</th></tr></thead><tbody>\n");
     for (int s = 0; s < flow->nstep; s++)
         for (int i = 0; i < run->nentry; i++) {
             const fw_recipe_asrun_entry *e = &run->entry[i];
@@ -274,7 +275,7 @@ static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
                                                                 : " (repeated later)");
             cell(out, e->wafer ? e->wafer : "lot");
             cell(out, e->start);
-            duration(out, e->step->booked_s, e->step->time.computable);
+            duration(out, e->as_set->booked_s, e->as_set->time.computable);
             duration(out, e->end_s - e->start_s, true);
             fw_text_add(out, "<td>");
             fw_text_escaped(out, e->by);
@@ -399,8 +400,9 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_number(out, "actual_s", e->end_s - e->start_s);
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     if (runs.n > 1) fw_json_whole(out, "runs", runs.n);
-    if (runs.n > 1) put_number(out, "runs_s", runs.time_s);
+    if (runs.n > 1) put_number(out, "runs_s", runs.took_s);
     put_text(out, "judged", fw_recipe_asrun_in_time(run, e));
+    fw_recipe_asrun_as_set_json(run, e, out);
     put_text(out, "by", e->by);
     put_text(out, "second", e->second);
     put_text(out, "tool", e->tool);

@@ -493,11 +493,16 @@ const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun 
 }
 
 fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const fw_process_time *last = &e->as_set->time;
     fw_recipe_runs all = {0};
     for (; e; e = fw_recipe_asrun_goes_on_from(run, e)) {
+        const fw_process_time *of = &e->as_set->time;
+        const bool known = last->computable && of->computable && of->nominal_s > 0.0;
         int together;
+        const double took = (e->end_s - e->start_s) / fw_recipe_asrun_loads(run, e, &together);
         all.n++;
-        all.time_s += (e->end_s - e->start_s) / fw_recipe_asrun_loads(run, e, &together);
+        all.took_s += took;
+        all.time_s += known ? took * last->nominal_s / of->nominal_s : took;
     }
     return all;
 }
@@ -522,7 +527,8 @@ static double at_once_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry
     const double loads = fw_recipe_asrun_loads(run, e, &together),
                  took_s = e->end_s - e->start_s + fw_recipe_asrun_clock_s(e);
     const double wafers = e->wafer ? 1.0 : fmin(loads * e->step->batch, fmax(run->nwafer, 1.0));
-    const bool enough = !e->step->time.computable || took_s >= loads * e->step->time.first_look_s;
+    const fw_process_time *time = &e->as_set->time;
+    const bool enough = !time->computable || took_s >= loads * time->first_look_s;
     return enough ? wafers / loads : wafers;
 }
 

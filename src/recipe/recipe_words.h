@@ -76,7 +76,7 @@ void fw_recipe_wafer_rows(const fw_process_flow *flow, const fw_recipe_header *h
 void fw_recipe_html_deviations(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *out);
 
-/* recipe_bill.c: what the lot uses up */
+/* recipe_tables.c: what the lot uses up */
 struct fw_json;
 fw_status fw_recipe_html_bill(const fw_process_flow *flow, const fw_recipe_header *header,
                               fw_text *out);

@@ -394,6 +394,58 @@ static void planned_against_actual(void **state) {
     assert_true(holds(&text, "waited 21 min since C20: OUT of 0 s to 15 min"));
 }
 
+/* What was set reaches the law of the step: a time that is right as planned is wrong at half the current, or in a bath that
+   etches faster, and the other way round. What is asked of the step is not replaced; a later entry of the same run goes by
+   what an earlier one says; a run before counts as long as it would have been at what was set in the last one. */
+static void what_was_set_counts(void **state) {
+    (void)state;
+#define AT(step, from, to) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; "
+    static const struct {
+        bool silicon;
+        const char *before, *words, *judged;
+        double nominal_min; /* at what was set */
+        int told;           /* FW-D684 */
+    } of[] = {
+        {false, NULL, AT("C22", "10:00", "10:21") "note=-", "in window", 21.038, 0},
+        {false, NULL, AT("C22", "10:00", "10:21") "set current density=10 mA/cm2", "short", 42.076, 0},
+        {false, NULL, AT("C22", "10:00", "10:41") "set current density=10 mA/cm2", "in window", 42.076, 0},
+        {false, NULL, AT("C22", "10:00", "10:41") "note=-", "long", 21.038, 0},
+        {false, NULL, AT("C22", "10:00", "10:21") "set copper thickness=18 um", "in window", 21.038, 0},
+        {false, AT("C22", "10:00", "10:21") "set current density=10 mA/cm2", AT("C22", "10:00", "10:21") "thickness=4.6 um", "short", 42.076, 0},
+        {false, AT("C22", "09:30", "09:52") "set current density=10 mA/cm2", AT("C22", "10:00", "10:10") "note=-", "in window", 21.038, 0},
+        {false, AT("C22", "09:30", "09:52") "note=-", AT("C22", "10:00", "10:10") "note=-", "long", 21.038, 0},
+        {true, NULL, AT("S14", "10:00", "10:17") "note=-", "in window", 16.667, 0},
+        {true, NULL, AT("S14", "10:00", "10:17") "set etch rate=20 Ao/s", "long", 8.333, 0},
+        {true, NULL, AT("S14", "10:00", "10:15") "set etch rate=20 Ao/s", "in window", 8.333, 1},
+        {true, NULL, AT("S14", "10:00", "10:08") "set etch rate=20 Ao/s", "in window", 8.333, 0},
+        {true, NULL, AT("S14", "10:00", "10:08") "note=-", "short", 16.667, 0},
+        {true, NULL, AT("S14", "10:00", "10:15") "set temperature=35 Cel", "in window", 7.4, 1},
+        {true, NULL, AT("S14", "10:00", "10:40") "set temperature=35 Cel", "long", 7.4, 0},
+    };
+    fw_process_flow *both[2] = {flow, read_pack(arena, SILICON, NULL, NULL, &diags)};
+    assert_int_equal(fw_process_flow_compute(arena, both[1], &plain_facts, &diags), FW_OK);
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_recipe_asrun run;
+        fw_text json = fw_text_new(arena);
+        int told = 0;
+        flow = both[of[i].silicon];
+        const char *log = of[i].before ? with(begun(), of[i].before, 0) : begun();
+        log = with(log, of[i].words, 0);
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        const fw_recipe_asrun_entry *e = &run.entry[run.nentry - 1];
+        if (strcmp(fw_recipe_asrun_in_time(&run, e), of[i].judged) != 0) fail_msg("%zu: %s", i, fw_recipe_asrun_in_time(&run, e));
+        assert_near(e->as_set->time.nominal_s / 60.0, of[i].nominal_min, 0.03 * of[i].nominal_min);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            told += diags.item[k].number == 684;
+        assert_int_equal(told, of[i].told);
+        assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+        assert_int_equal(holds(&json, "\"as_set\":{\"planned_s\":"), e->as_set != e->step);
+        assert_int_equal(holds(&json, "\"longer_unless_finished\":true"), of[i].told);
+    }
+#undef AT
+}
+
 /* ---- wafers, sites, settings, coupons ---- */
 
 static const char of_C22[] =
@@ -1244,6 +1296,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(another_plan, setup, teardown),
         cmocka_unit_test_setup_teardown(clocks_are_read_to_the_minute, setup, teardown),
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
+        cmocka_unit_test_setup_teardown(what_was_set_counts, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
         cmocka_unit_test_setup_teardown(no_room, setup, teardown),
         cmocka_unit_test_setup_teardown(sites_and_settings, setup, teardown),
