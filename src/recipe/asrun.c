@@ -490,10 +490,18 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
     const fw_recipe_asrun_entry *last = run->nentry > 0 ? &run->entry[run->nentry - 1] : NULL;
-    bool before = index == 0;
-    for (int i = 0; i < run->nentry && !before; i++)
-        before = run->entry[i].step == e->step - 1 && same_wafer(&run->entry[i], e);
-    if (!before)
+    const fw_recipe_asrun_entry *before = NULL;
+    for (int i = 0; i < run->nentry; i++)
+        if (run->entry[i].step == e->step - 1 && same_wafer(&run->entry[i], e))
+            before = &run->entry[i];
+    const fw_recipe_asrun_entry *by =
+        before ? fw_recipe_asrun_overtaken(run, before, e->wafer) : NULL;
+    if (by)
+        fw_diag_warning(r->diags, 687, r->place,
+                        "step %s, which comes before it, is in the log from before step %s was run "
+                        "again (lines %d and %d): run it again, or log it where it was",
+                        before->step->id, by->step->id, before->line, by->line);
+    if (!before && index > 0)
         fw_diag_warning(r->diags, 283, r->place,
                         "step %s, which comes before it, is not in the log",
                         r->flow->step[index - 1].id);

@@ -164,6 +164,25 @@ static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recip
     return FW_OK;
 }
 
+/* what was gone on without, though an earlier step was run again: is a later one in the log? */
+static fw_status overtaken_of(builder *b, const fw_recipe_asrun *run,
+                              const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
+    bool gone_on = false;
+    for (int i = 0; by && i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[i];
+        gone_on = gone_on || (o->step && o->step > e->step && o->start_s >= by->end_s &&
+                              !fw_process_step_is_of_lot(o->step) &&
+                              (!o->wafer || !e->wafer || fw_text_same(o->wafer, e->wafer)));
+    }
+    if (!gone_on) return FW_OK;
+    fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+    fw_text_printf(&planned, "once more after %s at %s (line %d)", by->step->id, by->start,
+                   by->line);
+    fw_text_printf(&is, "last at %s (line %d)", e->start, e->line);
+    return add(b, e, "not run again", &planned, &is);
+}
+
 /* is a later entry of the same run, with what was read afterwards? Then that one has its times */
 static bool goes_on(const fw_recipe_asrun *run, int i) {
     const fw_recipe_asrun_entry *e = &run->entry[i];
@@ -192,6 +211,7 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
             FW_TRY(amount_of(&b, run, e));
             FW_TRY(settings_of(&b, e));
             if (!added) FW_TRY(waits_of(&b, run, e));
+            if (last) FW_TRY(overtaken_of(&b, run, e));
         }
     *list = b.item;
     *n = b.n;
@@ -211,6 +231,18 @@ static void put_cell(fw_text *out, double seconds, int width) {
         return;
     }
     fw_text_printf(out, "%*s", width, cell.data);
+}
+
+/* what was accepted of a wafer that was worked on again since */
+static void put_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          fw_text *out) {
+    const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
+    if (by)
+        fw_text_printf(out,
+                       "      overtaken: %s%s%s was run again at %s (line %d); run and log this "
+                       "step again\n",
+                       by->step->id, by->wafer ? " of wafer " : "", by->wafer ? by->wafer : "",
+                       by->start, by->line);
 }
 
 static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e,
@@ -292,6 +324,7 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
         fw_text_printf(out, "      coupon %s\n", e->coupon[i].text);
     put_waits(run, e, out);
     put_times_as_set(run, e, out);
+    put_overtaken(run, e, out);
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     if (runs.n > 1) {
         const double stop = fw_recipe_asrun_stop_by(run, e, &runs, NULL);
@@ -367,7 +400,12 @@ static void put_step(const fw_recipe_asrun *run, const fw_process_step *s,
     fw_text_printf(out, "%-5s", s->id);
     for (int k = 0; k < 5; k++)
         put_cell(out, cell[k], 15);
-    fw_text_printf(out, "  %-9s %s", e ? fw_recipe_asrun_in_time(run, e) : "open", s->title);
+    const bool overtaken = e && fw_recipe_asrun_overtaken(run, e, e->wafer);
+    fw_text_printf(out, "  %-9s %s",
+                   !e          ? "open"
+                   : overtaken ? "overtaken"
+                               : fw_recipe_asrun_in_time(run, e),
+                   s->title);
     if (e && e->wafer) fw_text_printf(out, ", wafer %s", e->wafer);
     if (e && times_of(run, e) > 1) fw_text_printf(out, " (run %d times)", times_of(run, e));
     fw_text_add(out, "\n");

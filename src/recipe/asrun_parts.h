@@ -67,7 +67,7 @@ typedef struct fw_recipe_amount_in_time {
     const char *formula;
 } fw_recipe_amount_in_time;
 
-/* ---- runs of one step on one wafer, one after the other: asrun_values.c ---- */
+/* ---- runs of one step on one wafer, one after the other: asrun_runs.c ---- */
 
 /* the run of e's step and wafer before that of e, which a later entry did not take the place of; NULL: e is the first */
 const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *run,
@@ -78,6 +78,13 @@ const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun 
                                                           const fw_recipe_asrun_entry *e);
 /* asrun_compare.c: does a later run go on from this one? Then it is neither short nor repeated: both come to one */
 bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+/* The run of an earlier step that was done again after e, of the wafer (NULL: of any): what e found, or did, is no longer so.
+   NULL: it stands. FW-D687 says it of the entry that overtakes others */
+const fw_recipe_asrun_entry *fw_recipe_asrun_overtaken(const fw_recipe_asrun *run,
+                                                       const fw_recipe_asrun_entry *e,
+                                                       const char *wafer);
+fw_status fw_recipe_asrun_ask_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                        fw_place place, fw_diags *diags);
 typedef struct fw_recipe_runs { /* that come to one longer run */
     int n;
     double took_s; /* of all; of one load where there are several */
@@ -88,7 +95,7 @@ fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_
 
 /* "short", "in window", "long" or "no plan": an entry's duration, with the runs that it goes on from */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
-/* as a member "as_set" */
+/* as members "overtaken_by" and "as_set", where it was */
 void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                  fw_json *out);
 /* Runs that add up are to stop when one run is, with handling once more for each; *surely NULL, or where handling may be in
@@ -108,7 +115,7 @@ fw_status fw_recipe_asrun_amount_by_law(fw_arena *arena, const fw_recipe_asrun *
 double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                              int *together);
 
-/* asrun_values.c: were more wafers in the machine of the entry at one time than its step, or the machine, takes? *is NULL:
+/* asrun_runs.c: were more wafers in the machine of the entry at one time than its step, or the machine, takes? *is NULL:
    no, or no machine is known; else "3 wafers", and "1 in hotplate" are allowed. FW-D659 says it of an entry */
 fw_status fw_recipe_asrun_too_many(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, const char **is,
@@ -160,7 +167,7 @@ void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out);
 
-/* ---- what became of wafers: asrun_values.c ---- */
+/* ---- what became of wafers: asrun_runs.c ---- */
 
 /* "scrapped", "held", "resumed" */
 const char *fw_recipe_fate_word(fw_recipe_fate fate);

@@ -269,8 +269,11 @@ static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
         for (int i = 0; i < run->nentry; i++) {
             const fw_recipe_asrun_entry *e = &run->entry[i];
             if (e->step != &flow->step[s]) continue;
+            const bool last = fw_recipe_asrun_is_last(run, e);
             fw_text_printf(out, "<tr><td>%s%s</td>", e->step->id,
-                           fw_recipe_asrun_is_last(run, e)      ? ""
+                           last && fw_recipe_asrun_overtaken(run, e, e->wafer)
+                               ? " (overtaken, to be run again)"
+                           : last                               ? ""
                            : fw_recipe_asrun_is_gone_on(run, e) ? " (gone on with later)"
                                                                 : " (repeated later)");
             cell(out, e->wafer ? e->wafer : "lot");
@@ -326,7 +329,8 @@ static void sites_json(const fw_recipe_measured *m, fw_json *out) {
     fw_json_end(out);
 }
 
-static void measured_json(const fw_recipe_asrun_entry *e, fw_json *out) {
+/* what an inspection found that was overtaken is accepted no more, and not refused */
+static void measured_json(const fw_recipe_asrun_entry *e, bool overtaken, fw_json *out) {
     fw_json_list(out, "measured");
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_recipe_measured *m = &e->measured[i];
@@ -338,7 +342,10 @@ static void measured_json(const fw_recipe_asrun_entry *e, fw_json *out) {
             put_number(out, "value", m->number);
         const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
         put_text(out, "unit", a->unit);
-        fw_json_truth(out, "accepted", fw_recipe_asrun_accepted(a, m));
+        if (overtaken)
+            fw_json_null(out, "accepted");
+        else
+            fw_json_truth(out, "accepted", fw_recipe_asrun_accepted(a, m));
         sites_json(m, out);
         fw_json_end(out);
     }
@@ -410,7 +417,7 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_text(out, "bath", e->bath);
     put_text(out, "note", e->note);
     put_text(out, "deviation", e->deviation);
-    measured_json(e, out);
+    measured_json(e, fw_recipe_asrun_overtaken(run, e, e->wafer), out);
     settings_json(e, out);
     waited_json(run, e, out);
 }

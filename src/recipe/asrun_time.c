@@ -16,7 +16,7 @@ static void put_settings(fw_text *out, const fw_recipe_asrun_entry *e) {
             continue;
         fw_text_printf(out, "%s%s = ", between, s->name);
         fw_recipe_put_value(out, s->value);
-        fw_text_printf(out, strcmp(s->q->unit, "1") != 0 ? " %s" : "", s->q->unit);
+        if (strcmp(s->q->unit, "1") != 0) fw_text_printf(out, " %s", s->q->unit);
         between = ", ";
     }
 }
@@ -362,6 +362,7 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     FW_TRY(ask_runs(arena, run, e, place, diags));
     FW_TRY(ask_as_set(arena, run, e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_at_once(arena, run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_overtaken(run, e, place, diags));
     FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;
     fw_diag_warning(diags, 283, place,
@@ -371,10 +372,22 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* the times that it is judged by, where what was set makes others of them */
+static void overtaken_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                           fw_json *out) {
+    const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
+    if (!by) return;
+    fw_json_object(out, "overtaken_by");
+    fw_json_text(out, "step", by->step->id);
+    fw_json_text(out, "start", by->start);
+    fw_json_whole(out, "line", by->line);
+    fw_json_end(out);
+}
+
+/* what it was overtaken by, and the times that it is judged by, where what was set makes others of them */
 void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                  fw_json *out) {
     const fw_process_step *s = e->as_set;
+    overtaken_json(run, e, out);
     if (s == e->step) return;
     const bool known = s->time.computable;
     fw_json_object(out, "as_set");

@@ -1127,6 +1127,60 @@ static void runs_add_up(void **state) {
 #undef E
 }
 
+/* What was found before an earlier step was run again is not passed: it is asked for with the entry of the rework, expected in the
+   table, told once more where the next step follows, and a deviation where somebody went on. A resist that was coated again has
+   its bakes to see again. Times that are put right, a first run that was entered late, and another wafer overtake nothing. */
+static void inspections_are_overtaken(void **state) {
+    (void)state;
+#define E(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
+    static const struct {
+        const char *entry[5];
+        int n, told; /* FW-D687 of the last one */
+        const char *expected, *step, *deviation;
+    } log[] = {
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1")}, 3, 1, "not yet: wafer 1", "S15", NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1"), E("S16", "13:00", "13:15", "1")}, 4, 1, "not yet: wafer 1", "S15", "not run again"},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1"), E("S15", "12:30", "12:37", "1"), E("S16", "13:00", "13:15", "1")}, 5, 0, NULL, NULL, NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "09:59", "10:16", "1")}, 3, 0, NULL, NULL, NULL},
+        {{E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:17", "1")}, 2, 0, NULL, NULL, NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:17", "2")}, 3, 0, NULL, NULL, NULL},
+        {{E("S07", "10:00", "10:03", "1"), E("S08", "10:05", "10:07", "1"), E("S07", "12:00", "12:03", "1")}, 3, 1, "not yet: wafer 1", "S08", NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S15", "12:00", "12:07", "1")}, 3, 0, NULL, NULL, NULL},
+    };
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
+        fw_recipe_asrun run;
+        fw_recipe_deviation *list;
+        fw_text table = fw_text_new(arena), json = fw_text_new(arena);
+        const char *text = begun();
+        int told = 0, n, without = 0;
+        for (int k = 0; k < log[i].n; k++)
+            text = with(text, log[i].entry[k], 0);
+        for (size_t k = 0; k < diags.count; k++)
+            told += diags.item[k].number == 687;
+        assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            told += diags.item[k].number == 687;
+        if (told != log[i].told) fail_msg("%zu: told %d times", i, told);
+        assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
+        assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+        assert_int_equal(holds(&table, "overtaken: "), log[i].step != NULL);
+        assert_int_equal(holds(&json, "\"overtaken_by\":{\"step\":"), log[i].step != NULL);
+        if (log[i].step) {
+            assert_true(holds(&table, log[i].expected));
+            assert_true(fw_recipe_asrun_expects(&run, step_of(flow, log[i].step), "1"));
+        }
+        assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+        for (int k = 0; k < n; k++)
+            without += strcmp(list[k].what, "not run again") == 0;
+        assert_int_equal(without, log[i].deviation != NULL);
+    }
+#undef E
+}
+
 /* what calibrate could make nothing of is not written */
 static void coupons_of_other_flows(void **state) {
     (void)state;
@@ -1297,6 +1351,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(clocks_are_read_to_the_minute, setup, teardown),
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
         cmocka_unit_test_setup_teardown(what_was_set_counts, setup, teardown),
+        cmocka_unit_test_setup_teardown(inspections_are_overtaken, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
         cmocka_unit_test_setup_teardown(no_room, setup, teardown),
         cmocka_unit_test_setup_teardown(sites_and_settings, setup, teardown),

@@ -1,0 +1,267 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which entries of a log belong together: what became of wafers, runs of one step on one wafer, what a later run took the
+   place of or overtook, wafers in one machine at one time. */
+#include "base/text.h"
+#include "recipe/asrun_parts.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- what became of wafers ---- */
+
+const char *fw_recipe_fate_word(fw_recipe_fate fate) {
+    static const char *const word[] = {NULL, "held", "resumed", "scrapped"};
+    return word[fate];
+}
+
+const fw_recipe_asrun_entry *fw_recipe_asrun_out(const fw_recipe_asrun *run, const char *wafer,
+                                                 double time_s) {
+    const fw_recipe_asrun_entry *last = NULL;
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++)
+        if (e->fate != FW_FATE_RUN && strcmp(e->wafer, wafer) == 0 && e->start_s < time_s) last = e;
+    return last && last->fate != FW_FATE_RESUMED ? last : NULL;
+}
+
+bool fw_recipe_asrun_expects(const fw_recipe_asrun *run, const fw_process_step *step,
+                             const char *wafer) {
+    const fw_recipe_asrun_entry *last = NULL;
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++)
+        if (e->step == step && (!e->wafer || strcmp(e->wafer, wafer) == 0)) last = e;
+    if (last && !fw_recipe_asrun_overtaken(run, last, wafer)) return false;
+    return !fw_recipe_asrun_out(run, wafer, (double)INFINITY);
+}
+
+int fw_recipe_asrun_count(const fw_process_flow *flow, const fw_recipe_asrun *run, int steps,
+                          fw_recipe_fate fate) {
+    int n = 0;
+    for (int i = 0; i < run->nwafer; i++) {
+        const fw_recipe_asrun_entry *out =
+            fw_recipe_asrun_out(run, run->wafer[i], (double)INFINITY);
+        const bool before = out && out->at < flow->step + steps;
+        n += before ? out->fate == fate : fate == FW_FATE_RUN;
+    }
+    return n;
+}
+
+/* ---- runs of one step on one wafer ---- */
+
+/* by an entry of the same run, or by one that was made later and begins earlier, which takes its place (decision 159) */
+static bool is_replaced(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o) {
+    for (const fw_recipe_asrun_entry *by = o + 1; by < run->entry + run->nentry; by++)
+        if (by->step == o->step && fw_text_same(by->wafer, o->wafer) &&
+            (by->start_s <= o->start_s || by->start_s < o->end_s))
+            return true;
+    return false;
+}
+
+bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && fw_text_same(later->wafer, e->wafer)) return false;
+    return true;
+}
+
+/* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
+   for them, and (*together) how many share it. */
+double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             int *together) {
+    *together = 1;
+    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
+                     o->start_s == e->start_s && o->end_s == e->end_s && !is_replaced(run, o);
+    return (*together + e->step->batch - 1) / e->step->batch;
+}
+
+/* what e's wafer has been through, too: an entry of the same wafer, or one of the whole lot */
+static bool of_its_wafer(const fw_recipe_asrun_entry *o, const fw_recipe_asrun_entry *e) {
+    return !o->wafer || (e->wafer && strcmp(o->wafer, e->wafer) == 0);
+}
+
+const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *run,
+                                                        const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *before = NULL;
+    for (const fw_recipe_asrun_entry *o = e; e->step && o-- > run->entry;) /* the last ones first */
+        if (o->step == e->step && of_its_wafer(o, e) && o->end_s <= e->start_s &&
+            (!before || o->start_s > before->start_s) && !is_replaced(run, o))
+            before = o;
+    return before;
+}
+
+/* Does step x make or take away what step s works on, so that s begins anew? What s removes or prints is put there, or what
+   it adds is removed. What changes nothing itself, as a bake, begins anew after whatever changes the wafer. */
+static bool renews(const fw_process_step *x, const fw_process_step *s) {
+    bool anew = s->nchange == 0 && x->nchange > 0 && x < s;
+    for (int i = 0; i < s->nchange; i++)
+        for (int k = 0; k < x->nchange; k++) {
+            const bool adds = strcmp(s->change[i].kind, "add") == 0,
+                       takes = strcmp(x->change[k].kind, "remove") == 0,
+                       puts = strcmp(x->change[k].kind, "add") == 0;
+            anew = anew || (strcmp(s->change[i].material, x->change[k].material) == 0 &&
+                            (adds ? takes : puts));
+        }
+    return anew;
+}
+
+const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun *run,
+                                                          const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *from =
+        e->step && fw_process_step_adds_up(e->step) ? fw_recipe_asrun_run_before(run, e) : NULL;
+    for (int i = 0; from && i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *x = &run->entry[i];
+        if (x->step && x->step != e->step && of_its_wafer(x, e) && x->start_s >= from->start_s &&
+            x->start_s < e->start_s && renews(x->step, e->step))
+            return NULL;
+    }
+    return from;
+}
+
+static bool inspects(const fw_process_step *s) {
+    return strcmp(s->op, "inspect") == 0;
+}
+
+static bool is_of(const fw_recipe_asrun_entry *e, const char *wafer) {
+    return !e->wafer || !wafer || strcmp(e->wafer, wafer) == 0;
+}
+
+/* was the step of o run on the wafer before e ended? Then o repeats it, and is not only late in the log */
+static bool was_run_before(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o,
+                           const fw_recipe_asrun_entry *e, const char *wafer) {
+    for (const fw_recipe_asrun_entry *b = run->entry; b < run->entry + run->nentry; b++)
+        if (b != o && b->step == o->step && is_of(b, wafer) && b->start_s < e->end_s) return true;
+    return false;
+}
+
+/* An inspection tells of the wafer as it was: whatever was done again before it has it look again. So has what works on a film
+   that was made anew. The first such run in the log. */
+const fw_recipe_asrun_entry *fw_recipe_asrun_overtaken(const fw_recipe_asrun *run,
+                                                       const fw_recipe_asrun_entry *e,
+                                                       const char *wafer) {
+    if (!e->step || fw_process_step_is_of_lot(e->step)) return NULL;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        if (o->step && o->step < e->step && !inspects(o->step) &&
+            !fw_process_step_is_of_lot(o->step) && is_of(o, wafer) && o->start_s >= e->end_s &&
+            (inspects(e->step) || renews(o->step, e->step)) && !is_replaced(run, o) &&
+            was_run_before(run, o, e, wafer))
+            return o;
+    return NULL;
+}
+
+/* the last entry of the step and of the wafer that stands in the log */
+static bool is_last_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                       const char *wafer) {
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && is_of(later, wafer)) return false;
+    return true;
+}
+
+fw_status fw_recipe_asrun_ask_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                        fw_place place, fw_diags *diags) {
+    fw_text list = fw_text_new(diags->arena);
+    int n = 0;
+    for (const fw_recipe_asrun_entry *x = run->entry; x < run->entry + run->nentry; x++)
+        if (x->step && is_of(x, e->wafer) && is_last_of(run, x, e->wafer) &&
+            fw_recipe_asrun_overtaken(run, x, e->wafer) == e)
+            fw_text_printf(&list, "%s%s (line %d)", n++ ? ", " : "", x->step->id, x->line);
+    if (n == 0) return FW_OK;
+    FW_TRY(fw_text_end(&list));
+    fw_diag_warning(diags, 687, place,
+                    "step %s%s%s was run again, after %s: what was done or found there is no "
+                    "longer so, and counts no more; log %s again",
+                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", list.data,
+                    n > 1 ? "these steps" : "that step");
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const fw_process_time *last = &e->as_set->time;
+    fw_recipe_runs all = {0};
+    for (; e; e = fw_recipe_asrun_goes_on_from(run, e)) {
+        const fw_process_time *of = &e->as_set->time;
+        const bool known = last->computable && of->computable && of->nominal_s > 0.0;
+        int together;
+        const double took = (e->end_s - e->start_s) / fw_recipe_asrun_loads(run, e, &together);
+        all.n++;
+        all.took_s += took;
+        all.time_s += known ? took * last->nominal_s / of->nominal_s : took;
+    }
+    return all;
+}
+
+/* ---- wafers in one machine at one time ---- */
+
+double fw_recipe_asrun_clock_s(const fw_recipe_asrun_entry *e) {
+    const bool to_the_second = strlen(e->start) > 16 && strlen(e->end) > 16;
+    return to_the_second ? 0.0 : 60.0;
+}
+
+/* Machines of one name are one, and so are those that no entry names */
+static bool same_machine(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return a->step->equipment && a->step->equipment == b->step->equipment &&
+           fw_text_same(a->tool, b->tool);
+}
+
+/* Of the wafers that an entry is of, those that are in the machine at one time: all of them, unless its time is enough for
+   their loads one after the other. Of entries that share their time each has its part. */
+static double at_once_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    int together;
+    const double loads = fw_recipe_asrun_loads(run, e, &together),
+                 took_s = e->end_s - e->start_s + fw_recipe_asrun_clock_s(e);
+    const double wafers = e->wafer ? 1.0 : fmin(loads * e->step->batch, fmax(run->nwafer, 1.0));
+    const fw_process_time *time = &e->as_set->time;
+    const bool enough = !time->computable || took_s >= loads * time->first_look_s;
+    return enough ? wafers / loads : wafers;
+}
+
+/* is the wafer of o surely in the machine when `at` begins, or in one load with it? */
+static bool is_in(const fw_recipe_asrun_entry *o, const fw_recipe_asrun_entry *at) {
+    const bool alike = o->step == at->step && o->start_s == at->start_s && o->end_s == at->end_s;
+    return alike ||
+           (o->start_s <= at->start_s && o->end_s - at->start_s > fw_recipe_asrun_clock_s(o));
+}
+
+/* How many wafers are in the machine of the entry with it at one time, by all entries of the machine or by those of its step
+   alone; 0: no machine is known, or the step is once for a lot */
+static int at_once(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, bool of_its_step) {
+    const fw_recipe_asrun_entry *const end = run->entry + run->nentry;
+    double most = 0.0;
+    if (!e->step || fw_process_step_is_of_lot(e->step) || is_replaced(run, e)) return 0;
+    for (const fw_recipe_asrun_entry *at = run->entry; at < end; at++) {
+        double n = 0.0; /* when that entry begins */
+        for (const fw_recipe_asrun_entry *o = run->entry; o < end && is_in(e, at); o++)
+            if (o->step && same_machine(o, e) && !fw_process_step_is_of_lot(o->step) &&
+                (!of_its_step || o->step == e->step) && !is_replaced(run, o) && is_in(o, at))
+                n += at_once_of(run, o);
+        most = fmax(most, n);
+    }
+    return (int)lround(ceil(most - 1e-6));
+}
+
+fw_status fw_recipe_asrun_too_many(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, const char **is,
+                                   const char **allowed) {
+    const int batch = e->step->batch,
+              capacity = e->step->equipment ? e->step->equipment->capacity : 0,
+              of_step = at_once(run, e, true), of_all = at_once(run, e, false);
+    *is = NULL;
+    if (of_step <= batch && of_all <= capacity) return FW_OK;
+    const bool step = of_step > batch;
+    *is = fw_arena_printf(arena, "%d wafers", step ? of_step : of_all);
+    *allowed = fw_arena_printf(arena, "%d in %s", step ? batch : capacity, e->step->equipment->id);
+    FW_NEED(*is);
+    FW_NEED(*allowed);
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_ask_at_once(fw_arena *arena, const fw_recipe_asrun *run,
+                                      const fw_recipe_asrun_entry *e, fw_place place,
+                                      fw_diags *diags) {
+    const char *is, *allowed;
+    FW_TRY(fw_recipe_asrun_too_many(arena, run, e, &is, &allowed));
+    if (!is) return FW_OK;
+    fw_diag_warning(
+        diags, 659, place,
+        "step %s: by their times %s were in one machine at once, and the step is planned "
+        "for %s; give every wafer or load its own start and end, or the name of the "
+        "machine that each was in (tool=), where there are several",
+        e->step->id, is, allowed);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
