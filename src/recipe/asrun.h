@@ -141,8 +141,14 @@ fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recip
                                      fw_text *out);
 
 /* asrun_measured.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers. FW-D610: a reading that a later
-   one took the place of; FW-D611: readings of one run under something else; FW-D604: of a wafer that was scrapped or held by then, left out */
-fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
+   one took the place of; FW-D611: readings of one run under something else; FW-D604: of a wafer that was scrapped or held by then, left out; FW-D693: of a run that was not as
+   planned, left out where nothing else says under what it was read */
+typedef struct fw_recipe_counted { /* which readings of a log count */
+    bool all_runs;       /* those of runs out of their window, too, and those that were overtaken */
+    const char *without; /* ids of wafers with commas between; NULL: of all */
+} fw_recipe_counted;
+fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_counted *counted, fw_diags *diags,
                                    fw_process_readings *readings);
 typedef struct fw_recipe_read_again {
     const fw_recipe_asrun_entry *entry, *by;

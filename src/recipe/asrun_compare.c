@@ -506,3 +506,55 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
     put_read_again(run, out);
     return fw_text_end(out);
 }
+
+/* ---- what somebody wrote down as a deviation, of every entry, in the order of the log ---- */
+
+void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        fw_text_printf(out, "%s%s, %s%s, by %s: %s\n", n++ ? "" : "\ndeviations written down:\n",
+                       e->at->id, e->wafer ? "wafer " : "lot", e->wafer ? e->wafer : "", e->by,
+                       e->deviation);
+    }
+}
+
+void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        if (n++ == 0)
+            fw_text_add(out, "<h3>Written down</h3>\n<table><thead><tr><th>Step</th><th>Wafer</th>"
+                             "<th>When</th><th>What was done otherwise, and why</th><th>Who</th>"
+                             "</tr></thead><tbody>\n");
+        const char *cell[] = {e->at->id, e->wafer ? e->wafer : "lot", e->start, e->deviation,
+                              e->by};
+        fw_text_add(out, "<tr>");
+        for (size_t k = 0; k < sizeof cell / sizeof cell[0]; k++) {
+            fw_text_add(out, "<td>");
+            fw_text_escaped(out, cell[k]);
+            fw_text_add(out, "</td>");
+        }
+        fw_text_add(out, "</tr>\n");
+    }
+    if (n) fw_text_add(out, "</tbody></table>\n");
+}
+
+void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out) {
+    fw_json_list(out, "written_down");
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        fw_json_object(out, NULL);
+        fw_json_text(out, "step", e->at->id);
+        if (e->wafer) fw_json_text(out, "wafer", e->wafer);
+        fw_json_text(out, "at", e->start);
+        fw_json_text(out, "by", e->by);
+        fw_json_text(out, "deviation", e->deviation);
+        fw_json_whole(out, "line", e->line);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}

@@ -58,6 +58,7 @@ static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const cha
 static const char *const own_words[] = {"start", "end",     "by",       "second",     "tool",
                                         "bath",  "note",    "wafer",    "instrument", "scrapped",
                                         "held",  "resumed", "deviation"};
+static const char planned_word[] = "planned";
 enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
 
 /* how many times yes or no stands there; 0: something else stands there, too */
@@ -302,6 +303,53 @@ static fw_status check_there(const fw_recipe_asrun_reader *r, const fw_recipe_as
                          out->fate == FW_FATE_HELD ? "; where it goes on, log resumed= first" : "");
 }
 
+/* ---- the times that the entry is judged by ----
+   They stand in its line, in seconds: whoever reads the log without its device and packs, as calibrate does, judges by them,
+   too. planned=TIME FIRST-LOOK STOP MACHINE MACHINE-AT-STOP THE-SAME-WITHOUT-HANDLING FINISHES, at what was set. */
+enum { PLANNED = 7 };
+
+void fw_recipe_asrun_put_planned(const fw_recipe_asrun_entry *e, fw_text *out) {
+    const fw_process_step *s = e->as_set;
+    if (e->fate != FW_FATE_RUN || !s->time.computable) return;
+    const double value[PLANNED] = {s->time.nominal_s, s->time.first_look_s, s->time.stop_s,
+                                   s->booked_s,       s->booked_stop_s,     s->booked_stop_own_s,
+                                   s->finish_s};
+    fw_text_printf(out, "\t%s=", planned_word);
+    for (int i = 0; i < PLANNED; i++) {
+        fw_text_add(out, i ? " " : "");
+        fw_text_number(out, value[i], 6);
+    }
+}
+
+static fw_status read_planned(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
+                              const char *text) {
+    double value[PLANNED];
+    int n = 0;
+    if (r->fresh)
+        return fw_diag_error(r->diags, 282, r->place,
+                             "planned= is written by the program, from the plan and what was set");
+    fw_word word;
+    for (const char *at = text; fw_word_next(&at, " ", &word); n++)
+        if (n == PLANNED || !fw_number_parse(word.at, word.length, &value[n]))
+            return fw_diag_error(r->diags, 282, r->place, "planned=%s is not %d numbers", text,
+                                 PLANNED);
+    if (n != PLANNED)
+        return fw_diag_error(r->diags, 282, r->place, "planned=%s is not %d numbers", text,
+                             PLANNED);
+    fw_process_step *s = fw_arena_array(r->arena, fw_process_step, 1);
+    FW_NEED(s);
+    *s = *e->step;
+    s->time = (fw_process_time){.computable = true,
+                                .nominal_s = value[0],
+                                .first_look_s = value[1],
+                                .stop_s = value[2],
+                                .slowed = 1.0};
+    s->booked_s = value[3], s->booked_stop_s = value[4];
+    s->booked_stop_own_s = value[5], s->finish_s = value[6];
+    e->as_set = s;
+    return FW_OK;
+}
+
 static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                            const char *name, const char *value) {
     const struct {
@@ -332,6 +380,8 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
     }
     for (fw_recipe_fate fate = FW_FATE_HELD; fate <= FW_FATE_SCRAPPED; fate++)
         if (strcmp(name, fw_recipe_fate_word(fate)) == 0) return read_fate(r, e, fate, value);
+    if (strcmp(name, planned_word) == 0 && !fw_recipe_asrun_accept(e->step, name))
+        return read_planned(r, e, value);
     if (strncmp(name, "set ", 4) == 0) return read_setting(r, e, name + 4, value);
     if (strcmp(name, "coupon") == 0) return read_coupon(r, e, value);
     return read_measure(r, e, name, value);
@@ -424,6 +474,7 @@ static bool same_run(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry
 static fw_status take_settings(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e) {
     const fw_recipe_asrun *run = r->run;
     int n = 0, most = e->nset;
+    if (!r->bound && e->as_set) return FW_OK; /* of its line */
     e->as_set = e->step;
     if (!r->bound || !e->step) return FW_OK;
     for (int i = 0; i < run->nentry; i++)
@@ -507,56 +558,4 @@ void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait) {
     fw_schedule_put_duration(out, fabs(wait->waited_s));
     fw_text_printf(out, early ? " before %s ended" : " since %s", wait->since);
     if (wait->is && !early) fw_text_printf(out, ", %s", wait->is);
-}
-
-/* ---- what somebody wrote down as a deviation, of every entry, in the order of the log ---- */
-
-void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        fw_text_printf(out, "%s%s, %s%s, by %s: %s\n", n++ ? "" : "\ndeviations written down:\n",
-                       e->at->id, e->wafer ? "wafer " : "lot", e->wafer ? e->wafer : "", e->by,
-                       e->deviation);
-    }
-}
-
-void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        if (n++ == 0)
-            fw_text_add(out, "<h3>Written down</h3>\n<table><thead><tr><th>Step</th><th>Wafer</th>"
-                             "<th>When</th><th>What was done otherwise, and why</th><th>Who</th>"
-                             "</tr></thead><tbody>\n");
-        const char *cell[] = {e->at->id, e->wafer ? e->wafer : "lot", e->start, e->deviation,
-                              e->by};
-        fw_text_add(out, "<tr>");
-        for (size_t k = 0; k < sizeof cell / sizeof cell[0]; k++) {
-            fw_text_add(out, "<td>");
-            fw_text_escaped(out, cell[k]);
-            fw_text_add(out, "</td>");
-        }
-        fw_text_add(out, "</tr>\n");
-    }
-    if (n) fw_text_add(out, "</tbody></table>\n");
-}
-
-void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out) {
-    fw_json_list(out, "written_down");
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        fw_json_object(out, NULL);
-        fw_json_text(out, "step", e->at->id);
-        if (e->wafer) fw_json_text(out, "wafer", e->wafer);
-        fw_json_text(out, "at", e->start);
-        fw_json_text(out, "by", e->by);
-        fw_json_text(out, "deviation", e->deviation);
-        fw_json_whole(out, "line", e->line);
-        fw_json_end(out);
-    }
-    fw_json_end(out);
 }

@@ -450,16 +450,96 @@ static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
+/* ---- readings of runs that were not as planned ----
+   What says under what it was read (at=: a time, a depth, a charge) goes with that, however long it took. A line or a space
+   is taken to be of a wafer that went through its steps as planned: by a wet etch of twice the time it would tell of that
+   run alone, and of no next wafer. */
+
+/* the run of the reading's wafer, up to the step of the reading, that was out of its window in the end, and what it is made
+   of; NULL: none is known to be. A log of before its lines had their times tells nothing */
+static const fw_recipe_asrun_entry *out_of_window(const fw_recipe_asrun *run,
+                                                  const fw_recipe_asrun_entry *of) {
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++) {
+        if (!e->step || e->step > of->step || fw_process_step_is_of_lot(e->step) ||
+            e->start_s > of->start_s || e->step->nchange == 0 ||
+            !fw_process_step_adds_up(e->step) || !of_wafer(e, of) ||
+            !fw_recipe_asrun_is_last(run, e) || fw_recipe_asrun_overtaken(run, e, of->wafer))
+            continue;
+        const char *judged = fw_recipe_asrun_in_time(run, e);
+        if (strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0) return e;
+    }
+    return NULL;
+}
+
+/* FW-D693, once for the entry; true: its readings that say nothing of what they were read under do not count */
+static bool is_of_bad_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          const fw_recipe_counted *counted, fw_diags *diags) {
+    const fw_recipe_asrun_entry *by = e->step ? fw_recipe_asrun_overtaken(run, e, e->wafer) : NULL,
+                                *bad = by || !e->step ? NULL : out_of_window(run, e);
+    const fw_recipe_coupon *first = NULL;
+    int n = 0;
+    for (int i = 0; i < e->ncoupon; i++) {
+        fw_recipe_read_again again;
+        if (!isnan(e->coupon[i].row.at) || read_again(run, (int)(e - run->entry), i, &again))
+            continue;
+        if (n++ == 0) first = &e->coupon[i];
+    }
+    if (n == 0 || (!by && !bad)) return false;
+    const fw_recipe_asrun_entry *of = by ? by : bad;
+    fw_text why = fw_text_new(diags->arena);
+    fw_text_printf(&why, "%s%s (line %d, %s)", of->step->id, by ? ", run again after it" : "",
+                   of->line, of->start);
+    if (!by) fw_text_printf(&why, " was %s", fw_recipe_asrun_in_time(run, of));
+    if (fw_text_end(&why) != FW_OK) return false;
+    fw_diag_warning(
+        diags, 693, first->row.place, "%d reading%s of %s at step %s%s%s %s: %s%s", n,
+        n > 1 ? "s" : "", first->row.coupon, e->step->id, e->wafer ? " of wafer " : "",
+        e->wafer ? e->wafer : "",
+        counted->all_runs ? (n > 1 ? "count" : "counts")
+                          : (n > 1 ? "do not count" : "does not count"),
+        why.data, counted->all_runs ? ", and --all-runs asks for all" : "; --all-runs counts all");
+    return !counted->all_runs;
+}
+
+/* is the wafer in the list? */
+static bool is_among(const char *list, const char *wafer) {
+    fw_word word;
+    while (list && wafer && fw_word_next(&list, ", ", &word))
+        if (fw_word_is(word, wafer)) return true;
+    return false;
+}
+
+/* every wafer that is to be left out is one of the lot */
+static fw_status check_without(const fw_recipe_asrun *run, const fw_recipe_counted *counted,
+                               fw_diags *diags) {
+    const char *list = counted->without;
+    fw_word word;
+    while (list && fw_word_next(&list, ", ", &word)) {
+        bool known = false;
+        for (int i = 0; i < run->nwafer; i++)
+            known = known || fw_word_is(word, run->wafer[i]);
+        if (!known)
+            return fw_diag_error(diags, 282, (fw_place){0},
+                                 "--without %s: the log has no wafer '%.*s'", counted->without,
+                                 (int)word.length, word.at);
+    }
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_counted *counted, fw_diags *diags,
                                    fw_process_readings *readings) {
     int most = 0;
     for (int i = 0; i < run->nentry; i++)
         most += run->entry[i].ncoupon;
     *readings = (fw_process_readings){.lot = run->lot};
+    FW_TRY(check_without(run, counted, diags));
     FW_NEED(readings->item = fw_arena_array(arena, fw_process_reading, (size_t)most + 1));
     for (int i = 0; i < run->nentry; i++) {
         const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (is_among(counted->without, e->wafer)) continue;
         FW_TRY(tell_otherwise(arena, e, diags));
+        const bool bad = is_of_bad_run(run, e, counted, diags);
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
             fw_recipe_read_again again;
@@ -468,6 +548,7 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, 
                 warn_again(&again, diags);
                 continue;
             }
+            if (bad && isnan(c->row.at)) continue;
             fw_process_reading *r = &readings->item[readings->n++];
             *r = (fw_process_reading){.row = c->row,
                                       .wafer = e->wafer ? e->wafer : "",

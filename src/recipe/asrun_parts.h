@@ -22,6 +22,9 @@ typedef struct fw_recipe_asrun_reader {
 fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,
                                      char separator, fw_recipe_asrun_entry *e);
 
+/* the times that it is judged by, as a word of its line; nothing where it has none */
+void fw_recipe_asrun_put_planned(const fw_recipe_asrun_entry *e, fw_text *out);
+
 /* asrun_values.c: "50.1 50.0 49.9 50.2 50.1 um", "centre:50.1 left:49.9 um" or "0.4" */
 typedef struct fw_recipe_asrun_values {
     double site[FW_RECIPE_SITES]; /* as written; NaN: none */
@@ -162,7 +165,7 @@ typedef struct fw_recipe_asrun_total {
 fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                  fw_arena *arena, fw_recipe_asrun_total *total);
 
-/* what somebody wrote down as a deviation, of every entry: asrun_entry.c */
+/* what somebody wrote down as a deviation, of every entry: asrun_compare.c */
 void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out);

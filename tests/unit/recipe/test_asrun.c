@@ -17,6 +17,7 @@ static fw_process_flow *flow;
 static const char plan[] = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
 
 static double now = (double)NAN;      /* of the clock; NaN: there is none */
+static const fw_recipe_counted all_count = {0};
 static const char *lot_wafers = NULL; /* of logs that begin */
 static int setup(void **state) {
     (void)state;
@@ -527,7 +528,7 @@ static void readings(void **state) {
     diags = fw_diags_new(arena);
     assert_int_equal(
         fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     assert_int_equal(r.n, 5); /* of eight, three are read again */
     assert_near(r.item[3].row.at, 49e-6, 1e-12);
     assert_near(r.item[3].row.drawn_m, 8e-6, 1e-12);
@@ -582,7 +583,7 @@ static void readings_of_warm_baths(void **state) {
             log = with(log, fw_arena_printf(arena, "S14; start=2026-11-20T10:30; end=2026-11-20T10:32; by=AB; second=CD; wafer=1%s", of[i].again), 0);
         log = with(log, fw_arena_printf(arena, later, of[i].wafer, rate, of[i].more), 0);
         assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
         assert_int_equal(r.n, 1);
         assert_near(r.item[0].row.condition[FW_CONDITION_TEMPERATURE], of[i].T, 1e-9);
         assert_near(r.item[0].row.condition_uncertainty[FW_CONDITION_TEMPERATURE], of[i].u, 1e-6);
@@ -591,7 +592,7 @@ static void readings_of_warm_baths(void **state) {
     fw_process_readings open;
     const char *log = with(begun(), fw_arena_printf(arena, "%s; %s, open-area=176.7 cm2, u-open-area=2 cm2", etch, rate), 0);
     assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &open), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &open), FW_OK);
     assert_near(open.item[0].row.condition[FW_CONDITION_OPEN_AREA], 176.7e-4, 1e-12);
     assert_near(open.item[0].row.condition_uncertainty[FW_CONDITION_OPEN_AREA], 2e-4, 1e-12);
     with(begun(), fw_arena_printf(arena, "%s; %s, open-area=35 um", etch, rate), 282);
@@ -897,13 +898,73 @@ static void readings_of_what_is_out(void **state) {
     log = fate(log, "1", "11:30", "scrapped", 0);
     diags = fw_diags_new(arena);
     assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     assert_int_equal(r.n, 2);
     run.entry[2].start_s -= 3600.0; /* as if it had been scrapped at 10:30 */
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     assert_int_equal(r.n, 1);
     assert_near(r.item[0].row.drawn_m, 10e-6, 1e-12);
     assert_int_equal(diags.item[diags.count - 1].number, 604);
+}
+
+/* Lines and spaces of a wafer whose wet etch was too long, or was gone on with after they were read, do not count, and that is
+   told once; the log is judged without its plan, by the times that stand in its lines. What says under what it was read
+   counts; --all-runs counts all, --without leaves a wafer out. */
+static void readings_of_bad_runs(void **state) {
+    (void)state;
+#define AT(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
+    static const char lines[] = "; coupon=cd-lines, line, drawn=6 um, value=3.64 3.65 3.63 um, u=0.02 um; coupon=cd-lines, space, drawn=6 um, value=8.34 8.35 8.36 um, u=0.02 um";
+    static const char step[] = "; coupon=al-step, value=0.6 um, u=0.01 um, at=50 um";
+    static const struct {
+        const char *entry[4];
+        int n;
+        fw_recipe_counted counted;
+        int read, told;
+    } log[] = {
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 2, 0},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.all_runs = true}, 2, 1},
+        {{AT("S14", "10:00", "10:40", "2"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 2, 0},
+        {{AT("S14", "10:00", "10:05", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:05", "1"), AT("S14", "10:30", "10:42", "1"), AT("S15", "11:00", "11:07", "1")}, 3, {0}, 2, 0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:02", "1")}, 3, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S18", "11:00", "12:50", "1")}, 2, {0}, 1, 0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.without = "1"}, 0, 0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.without = "2"}, 2, 0},
+    };
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
+        fw_recipe_asrun run;
+        fw_process_readings r;
+        int told = 0;
+        const char *text = begun();
+        for (int k = 0; k < log[i].n; k++) {
+            const char *e = log[i].entry[k];
+            const char *more = strncmp(e, "S15", 3) == 0 ? lines : strncmp(e, "S18", 3) == 0 ? step : "";
+            text = with(text, fw_arena_printf(arena, "%s%s", e, more), 0);
+        }
+        assert_non_null(strstr(text, "\tplanned=1000 "));
+        /* as calibrate has it: the flow as the pack gives it, without a device */
+        fw_process_flow *computed = flow;
+        flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+        diags = fw_diags_new(arena);
+        assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", text, strlen(text), &diags, &run), FW_OK);
+        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &log[i].counted, &diags, &r), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            told += diags.item[k].number == 693;
+        if (r.n != log[i].read || told != log[i].told) fail_msg("%zu: %d readings, told %d times", i, r.n, told);
+        flow = computed;
+    }
+    fw_recipe_asrun run;
+    fw_process_readings r;
+    const fw_recipe_counted without = {.without = "1, 9"};
+    const char *text = with(begun(), log[0].entry[0], 0);
+    assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &without, &diags, &r), FW_INPUT);
+    with(begun(), AT("S14", "10:00", "10:17", "1") "; planned=1 2 3 4 5 6 7", 282);
+#undef AT
 }
 
 /* a load that was typed with one start and end took that long for all of its wafers, one after the other where the machine takes
@@ -1351,6 +1412,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(clocks_are_read_to_the_minute, setup, teardown),
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
         cmocka_unit_test_setup_teardown(what_was_set_counts, setup, teardown),
+        cmocka_unit_test_setup_teardown(readings_of_bad_runs, setup, teardown),
         cmocka_unit_test_setup_teardown(inspections_are_overtaken, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
         cmocka_unit_test_setup_teardown(no_room, setup, teardown),
