@@ -60,17 +60,26 @@ typedef struct fw_recipe_asrun_entry {
     fw_recipe_set *set;
     fw_recipe_coupon *coupon;
     int nmeasured, nset, ncoupon, line;
+    bool former; /* of a plan before that of the last lines, and judged by the times of its line */
     int loads; /* of the step that the entry is of: of the whole lot several, one after the other */
     char chain[65]; /* of its line */
 } fw_recipe_asrun_entry;
 
+typedef struct fw_recipe_replan {         /* from here on the lot follows another plan */
+    const char *plan, *start, *by, *note; /* note NULL: none */
+    int line;
+} fw_recipe_replan;
+
 typedef struct fw_recipe_asrun {
     const fw_process_flow *flow; /* whose steps the entries are of */
-    const char *plan, *lot;
-    const char **wafer; /* (nwafer) ids of the lot; 0: the log was begun without */
+    const char *plan, *lot;      /* plan: that of its last lines */
+    const char **wafer;          /* (nwafer) ids of the lot; 0: the log was begun without */
     int nwafer;
     fw_recipe_asrun_entry *entry; /* (nentry) in the order of the log */
     int nentry;
+    fw_recipe_replan *replan; /* (nreplan) in the order of the log */
+    char (*link)[65];         /* (nline) chains of the lines behind the first one */
+    int nreplan, nline;
     char chain[65];             /* of the last line */
     char begun[65];             /* of the first one */
     const fw_mask_table *table; /* of the test die that coupons are on; NULL: not looked at */
@@ -85,6 +94,12 @@ bool fw_recipe_asrun_is_log(const char *text, size_t n);
 fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
                                const char *plan_sha256, const char *file, const char *text,
                                size_t n, fw_diags *diags, fw_recipe_asrun *run);
+
+/* the same without asking whether its last lines are of that plan, for an entry that says that they are from now on. Lines of
+   a former plan are judged by the times that stand in them */
+fw_status fw_recipe_asrun_read_former(fw_arena *arena, const fw_process_flow *flow,
+                                      const char *plan_sha256, const char *file, const char *text,
+                                      size_t n, fw_diags *diags, fw_recipe_asrun *run);
 
 /* one line more behind what was read, of the same plan; run->entry has room for it */
 fw_status fw_recipe_asrun_read_next(fw_arena *arena, const fw_process_flow *flow, const char *file,
@@ -108,6 +123,13 @@ fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
                               const fw_recipe_asrun *run, const char *words, fw_place place,
                               double now_s, fw_diags *diags, const char **line);
+
+/* "plan; start=2026-11-20T13:00; by=AB; note=with the pack of wafer 1": from then on the log is of this plan. is_plan: are the
+   words such an entry? FW-D282 */
+bool fw_recipe_asrun_is_plan(const char *words);
+fw_status fw_recipe_asrun_add_plan(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const char *plan_sha256, const char *words, fw_place place,
+                                   fw_diags *diags, const char **line);
 
 /* asrun.c: the line of the file beside the log that says how many entries it has; FW-D280 where the log has fewer, or
    others. A log that says of itself that a head is kept (`headed`) is not whole without one. */

@@ -72,7 +72,8 @@ static fw_status durations_of(builder *b, const fw_recipe_asrun *run,
     fw_schedule_put_duration(&planned, surely);
     fw_text_add(&planned, ", with the stop time");
     if (runs.n > 1) fw_text_add(&planned, " and the handling of each run");
-    if (e->as_set != e->step) fw_text_add(&planned, ", at what was set");
+    if (e->as_set != e->step)
+        fw_text_add(&planned, e->former ? ", by the plan of its line" : ", at what was set");
     fw_recipe_asrun_put_took(&is, e, &runs);
     return add(b, e, "duration", &planned, &is);
 }
@@ -298,7 +299,7 @@ static void put_times_as_set(const fw_recipe_asrun *run, const fw_recipe_asrun_e
                              fw_text *out) {
     const fw_process_step *s = e->as_set;
     if (s == e->step) return;
-    fw_text_add(out, "      at what was set: ");
+    fw_text_add(out, e->former ? "      by the plan of its line: " : "      at what was set: ");
     if (!s->time.computable) {
         fw_text_add(out, "the law has no time\n");
         return;
@@ -464,8 +465,17 @@ static void put_read_again(const fw_recipe_asrun *run, fw_text *out) {
 
 fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out) {
-    fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n\n", flow->id, run->lot ? ", lot " : "",
+    fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n", flow->id, run->lot ? ", lot " : "",
                    run->lot ? run->lot : "", run->plan);
+    for (int i = 0; i < run->nreplan; i++)
+        fw_text_printf(out, "from line %d on plan %.12s: %s, by %s%s%s\n", run->replan[i].line,
+                       run->replan[i].plan, run->replan[i].start, run->replan[i].by,
+                       run->replan[i].note ? ": " : "",
+                       run->replan[i].note ? run->replan[i].note : "");
+    if (run->nreplan > 0)
+        fw_text_add(out, "lines before are judged by the times that stand in them, and values by "
+                         "the limits of the last plan\n");
+    fw_text_add(out, "\n");
     fw_text_printf(out, "%-5s %14s %14s %14s %14s %14s  %-9s %s\n", "step", "planned", "first look",
                    "stop", "at the machine", "actual", "judged", "title");
     for (int i = 0; i < flow->nstep; i++) {

@@ -17,8 +17,7 @@ static bool digits(const char *s, int n, int *value) {
     return true;
 }
 
-/* YYYY-MM-DDTHH:MM or with :SS behind, of the years 1 to 9999 */
-static bool read_time(const char *s, double *time_s) {
+bool fw_recipe_asrun_time_read(const char *s, double *time_s) {
     int hour, minute, second = 0;
     long day;
     size_t n = strlen(s);
@@ -89,8 +88,9 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     const fw_process_accept *a = measure_named(e->step, name);
     fw_recipe_measured m = {
         .measure = a ? a->measure : name, .value = value, .number = (double)NAN};
-    /* without its plan, whose values may stand in the name of a measure, only coupons are wanted */
-    if (!r->bound) return FW_OK;
+    /* without its plan, whose values may stand in the name of a measure, only coupons are wanted; of a former plan what has a
+       name in this one */
+    if (!r->bound && (!r->former || !a)) return FW_OK;
     if (!a) {
         const char *known[MOST_NAMES];
         int n = 0;
@@ -346,7 +346,10 @@ static fw_status read_planned(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
                                 .slowed = 1.0};
     s->booked_s = value[3], s->booked_stop_s = value[4];
     s->booked_stop_own_s = value[5], s->finish_s = value[6];
-    e->as_set = s;
+    const bool alike = e->step->time.computable &&
+                       fabs(s->time.stop_s - e->step->time.stop_s) <= 1e-5 * s->time.stop_s &&
+                       fabs(s->booked_stop_s - e->step->booked_stop_s) <= 1e-5 * s->booked_stop_s;
+    e->as_set = alike ? e->step : s;
     return FW_OK;
 }
 
@@ -371,7 +374,7 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
         if (*field[i].text)
             return fw_diag_error(r->diags, 282, r->place, "%s is given twice", name);
         *field[i].text = value;
-        if (field[i].time_s && !read_time(value, field[i].time_s))
+        if (field[i].time_s && !fw_recipe_asrun_time_read(value, field[i].time_s))
             return fw_diag_error(r->diags, 282, r->place,
                                  "%s=%s is not a time; write 2026-11-20T10:00, local time of the "
                                  "laboratory",
@@ -474,7 +477,7 @@ static bool same_run(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry
 static fw_status take_settings(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e) {
     const fw_recipe_asrun *run = r->run;
     int n = 0, most = e->nset;
-    if (!r->bound && e->as_set) return FW_OK; /* of its line */
+    if (!r->bound && e->as_set) return FW_OK; /* by its line */
     e->as_set = e->step;
     if (!r->bound || !e->step) return FW_OK;
     for (int i = 0; i < run->nentry; i++)
@@ -495,7 +498,7 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
     char *copy = fw_arena_strndup(r->arena, words, n);
     FW_NEED(copy);
     *e = (fw_recipe_asrun_entry){
-        .start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line};
+        .start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line, .former = r->former};
     size_t most = 1;
     for (const char *s = copy; *s; s++)
         most += *s == separator;
@@ -542,20 +545,4 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
     else if (r->fresh)
         return check_there(r, e, there);
     return FW_OK;
-}
-
-/* ---- waits, in words ---- */
-
-void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait) {
-    fw_schedule_put_duration(out, wait->min_s);
-    fw_text_add(out, isnan(wait->max_s) ? " or more" : " to ");
-    if (!isnan(wait->max_s)) fw_schedule_put_duration(out, wait->max_s);
-}
-
-void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait) {
-    const bool early = wait->waited_s < 0.0;
-    fw_text_add(out, early ? "began " : "waited ");
-    fw_schedule_put_duration(out, fabs(wait->waited_s));
-    fw_text_printf(out, early ? " before %s ended" : " since %s", wait->since);
-    if (wait->is && !early) fw_text_printf(out, ", %s", wait->is);
 }

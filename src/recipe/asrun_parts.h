@@ -13,7 +13,8 @@ typedef struct fw_recipe_asrun_reader {
     const fw_recipe_asrun *run; /* whose wafers there are */
     /* the flow is the computed one of the log's own plan: what a step sets is all known */
     bool bound;
-    bool fresh; /* somebody writes it now; lines of a log that stand are read as they are */
+    bool former; /* the line is of a plan before that, and the flow is that of the last one */
+    bool fresh;  /* somebody writes it now; lines of a log that stand are read as they are */
     fw_diags *diags;
     fw_place place;
 } fw_recipe_asrun_reader;
@@ -22,6 +23,8 @@ typedef struct fw_recipe_asrun_reader {
 fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,
                                      char separator, fw_recipe_asrun_entry *e);
 
+/* YYYY-MM-DDTHH:MM or with :SS behind, of the years 1 to 9999 */
+bool fw_recipe_asrun_time_read(const char *s, double *time_s);
 /* the times that it is judged by, as a word of its line; nothing where it has none */
 void fw_recipe_asrun_put_planned(const fw_recipe_asrun_entry *e, fw_text *out);
 
@@ -129,7 +132,7 @@ fw_status fw_recipe_asrun_ask_at_once(fw_arena *arena, const fw_recipe_asrun *ru
 /* how far its times may be off: a clock that was read to the minute leaves up to a minute */
 double fw_recipe_asrun_clock_s(const fw_recipe_asrun_entry *e);
 
-/* ---- what a wafer waited before an entry: asrun.c ---- */
+/* ---- what a wafer waited before an entry: asrun_runs.c ---- */
 
 typedef struct fw_recipe_wait {
     const char *since; /* id of the step from whose end on */
@@ -146,7 +149,7 @@ bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
 /* does it stand, of a run that others follow on: did the wafer come to the next one from the same? */
 bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                  const fw_recipe_wait *wait);
-/* asrun_entry.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water" or "began 5 min
+/* "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water" or "began 5 min
    before C20 ended" */
 void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait);
 void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);

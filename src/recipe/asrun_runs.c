@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which entries of a log belong together: what became of wafers, runs of one step on one wafer, what a later run took the
-   place of or overtook, wafers in one machine at one time. */
+   place of or overtook, wafers in one machine at one time, what a wafer waited. */
 #include "base/text.h"
 #include "recipe/asrun_parts.h"
+#include "schedule/schedule.h"
 #include <math.h>
 #include <string.h>
 
@@ -264,4 +265,184 @@ fw_status fw_recipe_asrun_ask_at_once(fw_arena *arena, const fw_recipe_asrun *ru
         "machine that each was in (tool=), where there are several",
         e->step->id, is, allowed);
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- what a wafer waited ---- */
+
+/* of one wafer, or one of them of the whole lot */
+static bool shares_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
+}
+
+void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait) {
+    fw_schedule_put_duration(out, wait->min_s);
+    fw_text_add(out, isnan(wait->max_s) ? " or more" : " to ");
+    if (!isnan(wait->max_s)) fw_schedule_put_duration(out, wait->max_s);
+}
+
+void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait) {
+    const bool early = wait->waited_s < 0.0;
+    fw_text_add(out, early ? "began " : "waited ");
+    fw_schedule_put_duration(out, fabs(wait->waited_s));
+    fw_text_printf(out, early ? " before %s ended" : " since %s", wait->since);
+    if (wait->is && !early) fw_text_printf(out, ", %s", wait->is);
+}
+
+/* of which entry of the step the wafer came to e: the last one, which takes the place of those before; one that was run again
+   after e is another run, where there was one for e already. NULL: it is not in the log */
+static const fw_recipe_asrun_entry *came_from(const fw_recipe_asrun *run, const char *step,
+                                              const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *from = NULL;
+    for (const fw_recipe_asrun_entry *of = run->entry; of < run->entry + run->nentry; of++) {
+        if (!of->step || strcmp(of->step->id, step) != 0) continue;
+        /* what is done without a wafer is done for each of them */
+        if (!shares_wafer(of, e) && (of->wafer || !fw_process_step_is_of_lot(of->step))) continue;
+        const bool again = from && of > e && of->start_s >= e->start_s;
+        if (!again) from = of;
+    }
+    return from;
+}
+
+/* what is looked at while what it will be a part of is made elsewhere: the second wafer of a bond, before it is there */
+static bool is_beside(const fw_process_step *step) {
+    for (int i = 0; i < step->nrequired; i++)
+        if (step->required[i].material && !step->required[i].present &&
+            strcmp(step->op, "inspect") == 0)
+            return true;
+    return fw_process_step_is_of_lot(step);
+}
+
+/* the step of the flow that the log has of this wafer before that of e; NULL: none, or e is beside the wafer */
+static const fw_process_step *step_before(const fw_recipe_asrun *run,
+                                          const fw_recipe_asrun_entry *e) {
+    const fw_process_step *before = NULL;
+    for (int i = 0; i < run->nentry && !is_beside(e->step); i++) {
+        const fw_recipe_asrun_entry *of = &run->entry[i];
+        if (of->step && of->step < e->step && shares_wafer(of, e) && !is_beside(of->step) &&
+            (!before || of->step > before))
+            before = of->step;
+    }
+    return before;
+}
+
+/* of several loads in one entry, or in entries that share their time, one wafer is through while another is not */
+static bool in_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    int together;
+    return fw_recipe_asrun_loads(run, e, &together) > 1.0;
+}
+
+static void wait_since(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                       fw_recipe_wait *wait) {
+    const fw_recipe_asrun_entry *from = came_from(run, wait->since, e);
+    wait->from = from;
+    wait->waited_s = from ? e->start_s - from->end_s : (double)NAN;
+    if (wait->waited_s < 0.0 && (in_loads(run, e) || in_loads(run, from)))
+        wait->waited_s = (double)NAN;
+    wait->fine = !(wait->waited_s < wait->min_s) && !(wait->waited_s > wait->max_s);
+}
+
+/* An earlier run of e's step ended the wait already, and is judged by it. From there on the wafer may wait as long again before
+   it goes on; true: it did not wait longer */
+static bool is_over(const fw_recipe_asrun *run, fw_recipe_wait *wait,
+                    const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *before = wait->from ? fw_recipe_asrun_run_before(run, e) : NULL;
+    if (!before || before->start_s < wait->from->end_s) return false;
+    wait->since = e->step->id;
+    wait->from = before;
+    wait->min_s = 0.0, wait->waited_s = e->start_s - before->end_s;
+    wait->fine = !(wait->waited_s > wait->max_s);
+    return wait->fine;
+}
+
+/* A chamber is seasoned for the wafer that comes first: another one was in it before e */
+static bool is_later_one(const fw_recipe_asrun *run, const fw_recipe_wait *wait,
+                         const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *of = run->entry; of < run->entry + run->nentry; of++)
+        if (of->step == e->step && !shares_wafer(of, e) && wait->from &&
+            of->start_s >= wait->from->end_s && of->start_s < e->start_s)
+            return true;
+    return false;
+}
+
+/* what the flow says of the wafer's state, which this step ends; false: nothing, or not of this wafer */
+static bool wait_in_state(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          const fw_process_wait *w, fw_recipe_wait *wait) {
+    if (&run->flow->step[w->to] != e->step) return false;
+    *wait = (fw_recipe_wait){.since = run->flow->step[w->from].id, .is = w->is, .max_s = w->max_s};
+    wait_since(run, e, wait);
+    return !is_over(run, wait, e) && (!w->first_only || !is_later_one(run, wait, e));
+}
+
+bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 const fw_recipe_wait *wait) {
+    bool again = false;
+    if (strcmp(wait->since, e->step->id) == 0) return true; /* between two of its runs */
+    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
+        if (later->step == e->step && fw_recipe_asrun_run_before(run, later) == e) {
+            if (came_from(run, wait->since, later) == wait->from) return true;
+            again = true;
+        }
+    return !again && fw_recipe_asrun_is_last(run, e);
+}
+
+bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
+                          fw_recipe_wait *wait) {
+    const int nlag = e->step->nlag, nwait = run->flow->nwait;
+    int k;
+    while ((k = (*i)++) < nlag) {
+        const fw_process_lag *lag = &e->step->lag[k];
+        *wait = (fw_recipe_wait){
+            .since = lag->from, .min_s = isnan(lag->min_s) ? 0.0 : lag->min_s, .max_s = lag->max_s};
+        wait_since(run, e, wait);
+        if (!is_over(run, wait, e)) return true;
+    }
+    for (int n = k - nlag; n < nwait; n++, (*i)++)
+        if (wait_in_state(run, e, &run->flow->wait[n], wait)) return true;
+    const fw_process_step *before = *i == nlag + nwait + 1 ? step_before(run, e) : NULL;
+    if (!before) return false;
+    *wait = (fw_recipe_wait){.since = before->id, .max_s = (double)NAN};
+    for (int n = 0; n < nlag; n++) /* it has been told */
+        if (strcmp(e->step->lag[n].from, before->id) == 0) return false;
+    for (const fw_process_wait *w = run->flow->wait; w < run->flow->wait + nwait; w++)
+        if (w->from == before - run->flow->step && w->to == e->step - run->flow->step) return false;
+    wait_since(run, e, wait);
+    return wait->waited_s < 0.0;
+}
+
+static fw_status ask_wait(const fw_recipe_asrun_entry *e, const fw_recipe_wait *wait,
+                          fw_place place, fw_diags *diags) {
+    fw_text text = fw_text_new(diags->arena);
+    /* of one wafer at two steps at once ask_place has said it */
+    if (e->start_s < wait->from->end_s && wait->from->start_s < e->end_s &&
+        !fw_process_step_is_of_lot(e->step) && !fw_process_step_is_of_lot(wait->from->step))
+        return FW_OK;
+    fw_text_printf(&text, "step %s%s%s ", e->step->id, e->wafer ? " of wafer " : "",
+                   e->wafer ? e->wafer : "");
+    fw_recipe_put_waited(&text, wait);
+    if (wait->waited_s < 0.0) {
+        fw_text_printf(&text,
+                       " (%s to %s), and comes after it: one of these times is wrong; an entry "
+                       "with the right ones takes the place of the wrong one",
+                       wait->from->start, wait->from->end);
+    } else {
+        fw_text_add(&text, ", and allowed is ");
+        fw_recipe_put_wait_limits(&text, wait);
+        fw_text_add(&text, "; look at what that leaves before the next step");
+        fw_text_add(&text, e->deviation ? "" : ", and write down why (deviation=...)");
+    }
+    FW_TRY(fw_text_end(&text));
+    fw_diag_warning(diags, 648, place, "%s", text.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                    fw_place place, fw_diags *diags) {
+    for (const fw_recipe_asrun_entry *of = run->entry; of <= e; of++) {
+        int i = 0;
+        if (!of->step || (of != e && !fw_recipe_asrun_is_last(run, of))) continue;
+        for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, of, &i, &wait);)
+            if (!wait.fine && (of == e || wait.from == e))
+                FW_TRY(ask_wait(of, &wait, place, diags));
+    }
+    return FW_OK;
 }

@@ -200,7 +200,8 @@ bool fw_recipe_asrun_is_late_as_set(const fw_recipe_asrun *run, const fw_recipe_
     int together;
     const double loads = runs.n > 1 ? 1.0 : fw_recipe_asrun_loads(run, e, &together),
                  actual_s = took_s(e, &runs) - runs.n * fw_recipe_asrun_clock_s(e);
-    return e->as_set != e->step && set->computable && actual_s > loads * set->stop_s &&
+    return e->as_set != e->step && !e->former && set->computable &&
+           actual_s > loads * set->stop_s &&
            (!planned->computable || actual_s <= loads * planned->stop_s) &&
            strcmp(fw_recipe_asrun_in_time(run, e), "in window") == 0;
 }

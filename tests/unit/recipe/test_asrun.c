@@ -967,6 +967,59 @@ static void readings_of_bad_runs(void **state) {
 #undef AT
 }
 
+/* A lot goes on by another plan where its log says so: what a pack that was calibrated meanwhile makes of it. Lines before are
+   judged by the times that stand in them, those behind by the plan; head and chain hold the line that says it, too. */
+static void a_log_goes_on_by_another_plan(void **state) {
+    (void)state;
+    static const char other[] = "ffeeddccbbaa99887766554433221100ffeeddccbbaa99887766554433221100";
+    static const struct {
+        const char *words;
+        bool taken;
+    } of[] = {{"plan; by=AB", false}, {"plan; start=2026-11-20T12:00", false}, {"plan; start=noon; by=AB", false},
+              {"plan; start=2026-11-20T12:00; by=AB; wafer=1", false}, {"plan; start=2026-11-20T12:00; by=AB; note=pack of wafer 1", true}};
+    fw_recipe_asrun run;
+    const char *line = NULL, *head;
+    const char *log = with(begun(), "C22; start=2026-11-20T10:00:00; end=2026-11-20T10:21:00; by=AB; second=CD; thickness=9.1", 0);
+    assert_true(fw_recipe_asrun_is_plan(of[0].words));
+    assert_false(fw_recipe_asrun_is_plan("planarise; start=2026-11-20T12:00"));
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_INPUT);
+    assert_int_equal(diags.item[diags.count - 1].number, 281);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "--entry \"plan; start=TIME; by=INITIALS; note=WHY\""));
+    assert_int_equal(fw_recipe_asrun_read_former(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
+        assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, other, of[i].words, (fw_place){"entry", 1, 1}, &diags, &line), of[i].taken ? FW_OK : FW_INPUT);
+    assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, plan, of[4].words, (fw_place){"entry", 1, 1}, &diags, &head), FW_INPUT);
+    log = fw_arena_printf(arena, "%s%s", log, line);
+    /* at half of the rate the same times are short: of the line before they are not */
+    measured(flow, "cu.J", 100.0, 1.0);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, "C22; start=2026-11-20T13:00:00; end=2026-11-20T13:21:00; by=AB; second=CD; thickness=4.6; wafer=1", (fw_place){"entry", 1, 1}, now, &diags, &line), FW_INPUT);
+    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, "C20; start=2026-11-20T13:00:00; end=2026-11-20T13:09:00; by=AB", (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+    log = fw_arena_printf(arena, "%s%s", log, line);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(run.nentry, 2);
+    assert_int_equal(run.nline, 3);
+    assert_int_equal(run.nreplan, 1);
+    assert_int_equal(run.replan[0].line, 3);
+    assert_true(run.entry[0].former && !run.entry[1].former);
+    assert_int_equal(run.entry[1].line, 4);
+    assert_string_equal(fw_recipe_asrun_in_time(&run, &run.entry[0]), "in window");
+    assert_string_equal(fw_recipe_asrun_in_time(&run, &run.entry[1]), "in window");
+    assert_int_equal(run.entry[0].nmeasured, 1);
+    fw_text text = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_true(holds(&text, "from line 3 on plan ffeeddccbbaa: 2026-11-20T12:00, by AB: pack of wafer 1"));
+    assert_true(holds(&text, "by the plan of its line: "));
+    for (int n = 3; n >= 2; n--) { /* also where the head ends with the line of the plan */
+        assert_int_equal(fw_recipe_asrun_head(arena, n, run.link[n - 1], &head), FW_OK);
+        assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags), FW_OK);
+    }
+    assert_int_equal(fw_recipe_asrun_head(arena, 4, run.chain, &head), FW_OK);
+    assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags), FW_INPUT);
+}
+
 /* a load that was typed with one start and end took that long for all of its wafers, one after the other where the machine takes
    one: neither "long" for each, nor counted for each */
 static void loads_share_their_time(void **state) {
@@ -1412,6 +1465,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(clocks_are_read_to_the_minute, setup, teardown),
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
         cmocka_unit_test_setup_teardown(what_was_set_counts, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_log_goes_on_by_another_plan, setup, teardown),
         cmocka_unit_test_setup_teardown(readings_of_bad_runs, setup, teardown),
         cmocka_unit_test_setup_teardown(inspections_are_overtaken, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
