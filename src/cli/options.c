@@ -447,7 +447,8 @@ static const fw_cli_option_row table[] = {
      "none: round the clock; "
      "\"08:00-18:00 from 2026-11-23T13:00 UTC+01:00\": the first day, with a time of it and a zone "
      "where they matter; a zone whose clocks are changed as POSIX writes it, \"08:00-18:00 from "
-     "2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3\". What needs nobody may go on over night",
+     "2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3\". What needs nobody may go on over night, but for "
+     "what nobody may be alone with and what is looked at between its parts",
      FW_OPT_SCHEDULE, take_day},
     {"planned", 0, "LIST",
      "planning times for steps whose own is NOT COMPUTABLE, like \"S03=90 min,S09=20 s\"; marked "

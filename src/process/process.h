@@ -513,6 +513,8 @@ bool fw_process_step_on_back(const fw_process_step *step);
 bool fw_process_step_is_of_lot(const fw_process_step *step);
 /* do several runs of it on one wafer come to one longer run: is its time that of an amount? */
 bool fw_process_step_adds_up(const fw_process_step *step);
+/* does it go on until somebody ends it: a bath that the wafer is taken out of, a current that is switched off? */
+bool fw_process_step_is_ended(const fw_process_step *step);
 /* does step `index` handle the dies of each wafer, because one before it parted them? */
 bool fw_process_step_is_of_dies(const fw_process_flow *flow, int index);
 /* is it measured on this wafer of the lot (from 0)? The first one, and every so many behind it */

@@ -117,11 +117,11 @@ fw_status fw_recipe_write_schedule_csv(const fw_process_flow *flow, const fw_rec
                                        fw_text *out) {
     const fw_schedule *s = header->schedule;
     (void)flow;
-    fw_text_add(out, "step,title,wafers,equipment,operator,start,end,attended_until,start_s,end_s,"
-                     "attended_s,waits_for,time\n");
+    fw_text_add(out, "step,title,wafers,equipment,operator,start,end,attended_from,attended_until,"
+                     "start_s,end_s,attended_s,waits_for,time\n");
     if (header->rejected)
         fw_text_add(out,
-                    ",REJECTED: the verdict rejects this design: do not fabricate,,,,,,,,,,,\n");
+                    ",REJECTED: the verdict rejects this design: do not fabricate,,,,,,,,,,,,\n");
     for (int i = 0; s && i < s->nrun; i++) {
         const fw_schedule_run *r = &s->run[i];
         const fw_schedule_task *t = &s->shop->task[r->task];
@@ -138,11 +138,14 @@ fw_status fw_recipe_write_schedule_csv(const fw_process_flow *flow, const fw_rec
         moment(out, s, r->start_s);
         fw_text_add(out, "\"");
         moment(out, s, r->end_s);
+        const double from = r->start_s + fw_schedule_task_attended_from_s(t);
         if (r->operator_ >= 0) {
             fw_text_add(out, "\"");
-            moment(out, s, r->start_s + t->attended_s);
+            moment(out, s, from);
+            fw_text_add(out, "\"");
+            moment(out, s, from + t->attended_s);
         } else
-            fw_text_add(out, ",");
+            fw_text_add(out, ",,");
         fw_recipe_put_plain(out, r->start_s);
         fw_text_add(out, ",");
         fw_recipe_put_plain(out, r->end_s);
@@ -324,8 +327,10 @@ static fw_status scheduled(fw_text *out, const fw_process_flow *flow,
         load l = {r, plan->shop->wafers > 1, plan->shop->operators > 1};
         FW_TRY(entry(out, flow, header, s, &l, false, start, end));
         if (r->operator_ < 0) continue;
-        end = start + lround(ceil(plan->shop->task[r->task].attended_s));
-        FW_TRY(entry(out, flow, header, s, &l, true, start, end));
+        const fw_schedule_task *t = &plan->shop->task[r->task];
+        const double from = r->start_s + fw_schedule_task_attended_from_s(t);
+        const long begin = t->at_end ? midnight(plan) + lround(from) : start;
+        FW_TRY(entry(out, flow, header, s, &l, true, begin, begin + lround(ceil(t->attended_s))));
     }
     return FW_OK;
 }
@@ -343,7 +348,8 @@ static fw_status in_a_row(fw_text *out, const fw_process_flow *flow,
         long lasts = lround(ceil(run)), attended = lround(fmin(s->attended_s, 1e8));
         long end = at + (lasts > attended ? lasts : attended);
         FW_TRY(entry(out, flow, header, s, NULL, false, at, end));
-        if (attended > 0) FW_TRY(entry(out, flow, header, s, NULL, true, at, at + attended));
+        const long from = fw_process_step_is_ended(s) ? end - attended : at;
+        if (attended > 0) FW_TRY(entry(out, flow, header, s, NULL, true, from, from + attended));
         at = end;
     }
     return FW_OK;

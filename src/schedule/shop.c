@@ -47,6 +47,7 @@ static void make_task(making *m, int index) {
                             .lot = fw_process_step_is_of_lot(s),
                             .by_day = never_alone(s),
                             .in_parts = s->pulse && s->pause && s->attended_s > 0.0,
+                            .at_end = s->attended_s > 0.0 && fw_process_step_is_ended(s),
                             .unknown = !s->time.computable};
     t->alone = strcmp(s->op, "hold") == 0 && s->attended_s <= 0.0 && !t->lot;
     t->load = t->alone ? 1 : t->lot ? m->shop->wafers : fw_process_step_load(s);
