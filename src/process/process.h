@@ -582,6 +582,12 @@ typedef struct fw_process_bill {
    flow: computed; wafers >= 1. Amounts SI, nominal: uncertainties are not carried, since bottles are
    bought and not measured; mixing is taken as ideal (volumes add). Cost O(steps x consumables). Source:
    arithmetic. Test: tests/unit/process/test_bill.c. */
+/* fillings for so many wafers; 0: not known. The bath that a step mixes for the lot, whose volume it sets; NULL: none. How often
+   a lot of so many needs that; 1 of other steps */
+int fw_process_bath_fillings(const fw_process_flow *flow, const fw_process_bath *bath, int wafers);
+const fw_process_bath *fw_process_step_mixes(const fw_process_flow *flow,
+                                             const fw_process_step *step);
+int fw_process_step_times(const fw_process_flow *flow, const fw_process_step *step, int wafers);
 fw_status fw_process_flow_bill(fw_arena *arena, const fw_process_flow *flow, int wafers,
                                fw_process_bill *bill);
 

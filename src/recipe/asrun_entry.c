@@ -534,9 +534,10 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
     int there = 0;
     for (int i = 0; i < r->run->nwafer; i++)
         there += !fw_recipe_asrun_out(r->run, r->run->wafer[i], e->start_s);
-    e->loads = e->wafer || fw_process_step_is_of_lot(e->step)
-                   ? 1
-                   : (there + e->step->batch - 1) / e->step->batch;
+    e->loads = fw_process_step_is_of_lot(e->step)
+                   ? fw_process_step_times(r->flow, e->step, r->run->nwafer)
+               : e->wafer ? 1
+                          : (there + e->step->batch - 1) / e->step->batch;
     if (e->loads < 1) e->loads = 1; /* a log of before there were wafers */
     FW_TRY(check_entry(r, e));
     FW_TRY(take_settings(r, e));
