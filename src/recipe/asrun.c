@@ -318,8 +318,8 @@ static void ask_place(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *ru
                       const fw_recipe_asrun_entry *e) {
     for (int i = 0; i < run->nentry && !fw_process_step_is_of_lot(e->step) && e->loads <= 1; i++) {
         const fw_recipe_asrun_entry *of = &run->entry[i];
-        if (of->fate != FW_FATE_RUN || of->step == e->step || fw_process_step_is_of_lot(of->step) ||
-            of->loads > 1 || !same_wafer(of, e) ||
+        if (of->fate != FW_FATE_RUN || of->step == e->step || fw_recipe_asrun_taken_back(run, of) ||
+            fw_process_step_is_of_lot(of->step) || of->loads > 1 || !same_wafer(of, e) ||
             !(e->start_s < of->end_s && of->start_s < e->end_s))
             continue;
         fw_diag_warning(r->diags, 283, r->place,
@@ -436,9 +436,9 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
     fw_text_printf(&out, "step=%s\tstart=%s\tend=%s\tby=%s", e.at->id, e.start, e.end, e.by);
     const struct {
         const char *name, *value;
-    } more[] = {{"wafer", e.wafer},           {"second", e.second}, {"tool", e.tool},
-                {"instrument", e.instrument}, {"bath", e.bath},     {"note", e.note},
-                {"deviation", e.deviation}};
+    } more[] = {{"wafer", e.wafer},           {"second", e.second},    {"tool", e.tool},
+                {"instrument", e.instrument}, {"bath", e.bath},        {"note", e.note},
+                {"deviation", e.deviation},   {"replaces", e.replaces}};
     for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
         if (more[i].value) fw_text_printf(&out, "\t%s=%s", more[i].name, more[i].value);
     if (e.fate != FW_FATE_RUN) fw_text_printf(&out, "\t%s=%s", fw_recipe_fate_word(e.fate), e.why);

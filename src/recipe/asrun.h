@@ -55,6 +55,8 @@ typedef struct fw_recipe_asrun_entry {
     double start_s, end_s; /* local time of the laboratory, seconds since 1970-01-01T00:00 there */
     /* as written; NULL: not given; wafer NULL: the whole lot */
     const char *start, *end, *by, *second, *tool, *bath, *note, *wafer, *instrument;
+    const char
+        *replaces; /* line of the entry in whose place this one stands, as written; NULL: none */
     const char *deviation; /* what was done otherwise than the sheet says, with its number there */
     fw_recipe_measured *measured;
     fw_recipe_set *set;

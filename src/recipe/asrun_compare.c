@@ -203,7 +203,7 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
     for (int s = 0; s < flow->nstep; s++)
         for (int i = 0; i < run->nentry; i++) {
             const fw_recipe_asrun_entry *e = &run->entry[i];
-            if (e->step != &flow->step[s]) continue;
+            if (e->step != &flow->step[s] || fw_recipe_asrun_taken_back(run, e)) continue;
             const bool last = fw_recipe_asrun_is_last(run, e), added = !last && goes_on(run, i);
             b.repeated = !last && !added;
             if (!added) FW_TRY(durations_of(&b, run, e));
@@ -369,7 +369,7 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
             any = true;
             if (fw_recipe_asrun_is_last(run, e))
                 sum_runs(run, e, t);
-            else if (!fw_recipe_asrun_is_gone_on(run, e))
+            else if (!fw_recipe_asrun_is_gone_on(run, e) && !fw_recipe_asrun_taken_back(run, e))
                 t->repeated++;
         }
         t->logged += any;
@@ -385,7 +385,8 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
 static int times_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last) {
     int times = 0;
     for (const fw_recipe_asrun_entry *e = run->entry; e <= last; e++)
-        times += e->step == last->step && fw_text_same(e->wafer, last->wafer);
+        times += e->step == last->step && fw_text_same(e->wafer, last->wafer) &&
+                 !fw_recipe_asrun_taken_back(run, e);
     return times;
 }
 

@@ -54,9 +54,9 @@ static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const cha
     return NULL;
 }
 
-static const char *const own_words[] = {"start", "end",     "by",       "second",     "tool",
-                                        "bath",  "note",    "wafer",    "instrument", "scrapped",
-                                        "held",  "resumed", "deviation"};
+static const char *const own_words[] = {"start", "end",     "by",        "second",     "tool",
+                                        "bath",  "note",    "wafer",     "instrument", "scrapped",
+                                        "held",  "resumed", "deviation", "replaces"};
 static const char planned_word[] = "planned";
 enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
 
@@ -368,7 +368,8 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
                  {"note", &e->note, NULL},
                  {"wafer", &e->wafer, NULL},
                  {"instrument", &e->instrument, NULL},
-                 {"deviation", &e->deviation, NULL}};
+                 {"deviation", &e->deviation, NULL},
+                 {"replaces", &e->replaces, NULL}};
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         if (strcmp(field[i].name, name) != 0) continue;
         if (*field[i].text)
@@ -404,6 +405,23 @@ static fw_status check_alone(const fw_recipe_asrun_reader *r, const fw_recipe_as
     return r->fresh ? check_fate(r, e) : FW_OK;
 }
 
+/* the entry that it takes the place of is one of the same step and wafer before it, which no other one took the place of */
+static fw_status check_replaced(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *of = NULL;
+    for (int i = 0; i < r->run->nentry; i++)
+        if (fw_recipe_asrun_replaces(e, &r->run->entry[i])) of = &r->run->entry[i];
+    const char *wrong = !of                                  ? "no entry of the log stands there"
+                        : of->step != e->step                ? "it is of another step"
+                        : !fw_text_same(of->wafer, e->wafer) ? "it is not of the same wafer"
+                        : fw_recipe_asrun_taken_back(r->run, of)
+                            ? "another entry took its place already"
+                            : NULL;
+    if (!wrong) return FW_OK;
+    return fw_diag_error(r->diags, 282, r->place,
+                         "replaces=%s: %s; give the line of the log that this entry stands for",
+                         e->replaces, wrong);
+}
+
 /* what no entry may lack */
 static fw_status check_entry(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
     const char *lacks = !e->start ? "start" : !e->end ? "end" : !e->by ? "by" : NULL;
@@ -416,6 +434,7 @@ static fw_status check_entry(const fw_recipe_asrun_reader *r, const fw_recipe_as
     if (e->end_s < e->start_s)
         return fw_diag_error(r->diags, 282, r->place, "step %s ends before it starts", e->step->id);
     if (e->fate != FW_FATE_RUN) return check_alone(r, e);
+    if (e->replaces) FW_TRY(check_replaced(r, e));
     if (e->step->second_signature && (!e->second || strcmp(e->second, e->by) == 0))
         return fw_diag_error(r->diags, 282, r->place,
                              "step %s is never done alone: add second= with the initials of the "

@@ -310,7 +310,8 @@ static void condition_of_run(const fw_recipe_asrun *run, const fw_recipe_asrun_e
     for (int i = 0; i < run->nentry; i++) {
         const fw_recipe_asrun_entry *o = &run->entry[i];
         if (o->step && fw_process_step_corrects(o->step, which, rate) && of_wafer(o, e) &&
-            o->start_s <= e->start_s && (!of || o->start_s > of->start_s))
+            !fw_recipe_asrun_taken_back(run, o) && o->start_s <= e->start_s &&
+            (!of || o->start_s > of->start_s))
             of = o;
     }
     for (int i = 0; of && i < run->nentry && !(row->condition[which] > 0.0); i++) {
@@ -537,7 +538,7 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
     FW_NEED(readings->item = fw_arena_array(arena, fw_process_reading, (size_t)most + 1));
     for (int i = 0; i < run->nentry; i++) {
         const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (is_among(counted->without, e->wafer)) continue;
+        if (is_among(counted->without, e->wafer) || fw_recipe_asrun_taken_back(run, e)) continue;
         FW_TRY(tell_otherwise(arena, e, diags));
         const bool bad = is_of_bad_run(run, e, counted, diags);
         for (int k = 0; k < e->ncoupon; k++) {

@@ -82,6 +82,9 @@ const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *r
    away what it works on */
 const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun *run,
                                                           const fw_recipe_asrun_entry *e);
+/* asrun_runs.c: does e say that it stands in the place of o? did any entry say so of o? Then o never was */
+bool fw_recipe_asrun_replaces(const fw_recipe_asrun_entry *e, const fw_recipe_asrun_entry *o);
+bool fw_recipe_asrun_taken_back(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o);
 /* asrun_compare.c: does a later run go on from this one? Then it is neither short nor repeated: both come to one */
 bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 /* The run of an earlier step that was done again after e, of the wafer (NULL: of any): what e found, or did, is no longer so.

@@ -45,11 +45,24 @@ int fw_recipe_asrun_count(const fw_process_flow *flow, const fw_recipe_asrun *ru
 
 /* ---- runs of one step on one wafer ---- */
 
+bool fw_recipe_asrun_replaces(const fw_recipe_asrun_entry *e, const fw_recipe_asrun_entry *o) {
+    double line;
+    return e->replaces && fw_number_parse(e->replaces, strlen(e->replaces), &line) &&
+           line == o->line;
+}
+
+bool fw_recipe_asrun_taken_back(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o) {
+    for (const fw_recipe_asrun_entry *by = o + 1; by < run->entry + run->nentry; by++)
+        if (fw_recipe_asrun_replaces(by, o)) return true;
+    return false;
+}
+
 /* by an entry of the same run, or by one that was made later and begins earlier, which takes its place (decision 159) */
 static bool is_replaced(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o) {
     for (const fw_recipe_asrun_entry *by = o + 1; by < run->entry + run->nentry; by++)
         if (by->step == o->step && fw_text_same(by->wafer, o->wafer) &&
-            (by->start_s <= o->start_s || by->start_s < o->end_s))
+            (by->start_s <= o->start_s || by->start_s < o->end_s ||
+             fw_recipe_asrun_replaces(by, o)))
             return true;
     return false;
 }
@@ -127,7 +140,9 @@ static bool is_of(const fw_recipe_asrun_entry *e, const char *wafer) {
 static bool was_run_before(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o,
                            const fw_recipe_asrun_entry *e, const char *wafer) {
     for (const fw_recipe_asrun_entry *b = run->entry; b < run->entry + run->nentry; b++)
-        if (b != o && b->step == o->step && is_of(b, wafer) && b->start_s < e->end_s) return true;
+        if (b != o && b->step == o->step && is_of(b, wafer) && b->start_s < e->end_s &&
+            !fw_recipe_asrun_taken_back(run, b))
+            return true;
     return false;
 }
 
@@ -294,7 +309,8 @@ static const fw_recipe_asrun_entry *came_from(const fw_recipe_asrun *run, const 
                                               const fw_recipe_asrun_entry *e) {
     const fw_recipe_asrun_entry *from = NULL;
     for (const fw_recipe_asrun_entry *of = run->entry; of < run->entry + run->nentry; of++) {
-        if (!of->step || strcmp(of->step->id, step) != 0) continue;
+        if (!of->step || strcmp(of->step->id, step) != 0 || fw_recipe_asrun_taken_back(run, of))
+            continue;
         /* what is done without a wafer is done for each of them */
         if (!shares_wafer(of, e) && (of->wafer || !fw_process_step_is_of_lot(of->step))) continue;
         const bool again = from && of > e && of->start_s >= e->start_s;

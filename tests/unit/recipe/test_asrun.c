@@ -1020,6 +1020,44 @@ static void a_log_goes_on_by_another_plan(void **state) {
     assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags), FW_INPUT);
 }
 
+/* An entry whose times were mistyped cannot be taken back, and one with later times is another run, which adds up; what says that it
+   replaces the line does not: neither times nor coupons of the former count, nor what a wafer waited by it */
+static void a_line_is_replaced(void **state) {
+    (void)state;
+#define AT(step, from, to) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=1"
+    static const char rate[] = "; coupon=etch-rate, pan.R, value=%s um, u=0.01 um, at=%d min";
+    static const struct {
+        const char *more;
+        const char *judged;
+        int readings;
+    } of[] = {{"", "long", 2}, {"; replaces=2", "in window", 1}};
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    const char *first = with(begun(), fw_arena_printf(arena, "%s%s", AT("S14", "08:00", "08:17"), fw_arena_printf(arena, rate, "0.62", 5)), 0);
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_recipe_asrun run;
+        fw_process_readings r;
+        fw_recipe_asrun_total total;
+        const char *log = with(first, fw_arena_printf(arena, "%s%s%s", AT("S14", "10:00", "10:17"), fw_arena_printf(arena, rate, "0.64", 6), of[i].more), 0);
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        assert_string_equal(fw_recipe_asrun_in_time(&run, &run.entry[1]), of[i].judged);
+        assert_int_equal(fw_recipe_asrun_taken_back(&run, &run.entry[0]), i);
+        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
+        assert_int_equal(r.n, of[i].readings);
+        assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+        assert_int_equal(total.repeated, 0);
+        assert_near(total.actual_s, i ? 1020.0 : 2040.0, 1e-9);
+        if (i == 0) continue;
+        with(log, AT("S14", "11:00", "11:17") "; replaces=2", 282); /* another one stands there */
+        with(log, AT("S15", "11:00", "11:07") "; replaces=3", 282);
+        with(log, AT("S14", "11:00", "11:17") "; replaces=9", 282);
+        with(log, "S14; start=2026-11-20T11:00; end=2026-11-20T11:17; by=AB; second=CD; wafer=2; replaces=3", 282);
+        with(log, AT("S14", "11:00", "11:17") "; replaces=that", 282);
+    }
+#undef AT
+}
+
 /* a load that was typed with one start and end took that long for all of its wafers, one after the other where the machine takes
    one: neither "long" for each, nor counted for each */
 static void loads_share_their_time(void **state) {
@@ -1465,6 +1503,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(clocks_are_read_to_the_minute, setup, teardown),
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
         cmocka_unit_test_setup_teardown(what_was_set_counts, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_line_is_replaced, setup, teardown),
         cmocka_unit_test_setup_teardown(a_log_goes_on_by_another_plan, setup, teardown),
         cmocka_unit_test_setup_teardown(readings_of_bad_runs, setup, teardown),
         cmocka_unit_test_setup_teardown(inspections_are_overtaken, setup, teardown),
