@@ -44,9 +44,9 @@ fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,
    A frequency or a stiffness about an equilibrium is off by what the flexures' errors take of it there, and by what they do to
    the equilibrium: a pull that softens closes its gap further, without end towards pull-in. So both are found again with all
    flexures 1/(1 + e) and 1 + e times as stiff, e: their own error, twice what the next level changes of a frequency, and what
-   bodies give; and, where electrodes act, each of these with the pull as it is and with all that may be missing of it. Bands hold
-   all of these. Error: one e for all that gives. Cost: two small motions, four with electrodes. Test:
-   test_near_pull_in.py */
+   bodies give; and, where electrodes act, each of these with the pull as it is, with all that may be missing of it, and over a
+   carrier that conducts with as much less. Bands hold all of these. Error: one e for all that gives. Cost: two small motions, four
+   or six with electrodes. Test: test_near_pull_in.py */
 
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
     const fw_dynamics_motion *x = v->motion ? v->motion[scene] : NULL;
@@ -59,12 +59,12 @@ double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
     return most;
 }
 
-/* a copy of a scene whose electrodes pull 1 + more times as much */
-static fw_status pull_more(fw_arena *arena, double more, fw_device_scene *scene) {
+/* a copy of a scene whose electrodes pull so many times as much */
+static fw_status pull_times(fw_arena *arena, double times, fw_device_scene *scene) {
     fw_device_comb *comb;
     FW_NEED(comb = fw_arena_array(arena, fw_device_comb, (size_t)scene->ncomb));
     for (int i = 0; i < scene->ncomb; i++)
-        comb[i] = scene->comb[i], comb[i].voltage_V *= sqrt(1 + more);
+        comb[i] = scene->comb[i], comb[i].voltage_V *= sqrt(times);
     scene->comb = comb;
     return FW_OK;
 }
@@ -88,7 +88,9 @@ static const char *no_equilibrium(fw_arena *arena, double e, double missing, int
         which % 2 ? "stiffer" : "softer", fw_number_text(off, sizeof off, 100 * e, 2),
         which > 1 ? ", and electrodes that pull by " : "",
         which > 1 ? fw_number_text(part, sizeof part, 100 * missing, 2) : "",
-        which > 1 ? " % more," : "");
+        which > 3   ? " % less,"
+        : which > 1 ? " % more,"
+                    : "");
 }
 
 fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
@@ -99,16 +101,17 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
     if (scene == FW_NONE || !modes) return FW_OK;
     const double e = gives_more(m, modes, v), missing = fw_verdict_pull_missing(v, scene);
     if (!isfinite(e)) return FW_OK; /* bands have no ends then */
-    fw_device_scene more = *of;
-    FW_TRY(pull_more(arena, missing, &more));
-    for (int k = 0; k < (missing > 0 ? 4 : 2); k++) {
+    const int pulls = !(missing > 0) ? 1 : fw_effects_levitation_may_be(m) ? 3 : 2;
+    fw_device_scene now[3] = {*of, *of, *of}; /* as it is, more, less */
+    FW_TRY(pull_times(arena, 1 + missing, &now[1]));
+    FW_TRY(pull_times(arena, 1 / (1 + missing), &now[2]));
+    for (int k = 0; k < 2 * pulls; k++) {
         fw_statics_mode_options o = *given;
         fw_diags own = fw_diags_new(arena);
         o.effects.hinge = modes->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
         o.effects.stiffer = k % 2 ? e : 1 / (1 + e) - 1;
-        const fw_device_scene *s = k < 2 ? of : &more;
         const fw_statics_modes *found = NULL;
-        const fw_status status = fw_statics_small_motions(arena, m, s, &o, &own, &found);
+        const fw_status status = fw_statics_small_motions(arena, m, &now[k / 2], &o, &own, &found);
         if (status == FW_NOMEM || status == FW_CANCELLED) return status;
         const bool stands = status == FW_OK && found &&
                             !(found->count > 0 && found->mode[0].kind == FW_MODE_UNSTABLE);

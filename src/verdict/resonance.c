@@ -470,13 +470,14 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
             f[h] = 1;
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
         const double shakes = largest_of(f, 2 * nh + 2);
-        /* of pull-in it is said already, and ways of round-off have no ratio */
-        if (v->motion[i] && !v->beyond_pull_in && !fw_verdict_stands_still(v, i)) {
+        FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
+        fw_verdict_requirement_factor(f, nh, v->shaken[i].required);
+        v->shaken[i].required_late = v->shaken[i].late;
+        if (v->motion[i] && !fw_verdict_stands_still(v, i)) { /* ways of round-off have no ratio */
             const double e = fw_verdict_bending_counted(v->motion[i]) +
                              fw_verdict_motion_model_error(m, v->motion[i]);
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
         }
-        FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
         if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
         FW_TRY(may_meet(arena, i, f[2 * nh], v));
         FW_TRY(may_ring(arena, i, v));
@@ -513,6 +514,7 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
     for (size_t i = 0; i < scenes; i++) {
         fw_verdict_shaken *of = &to[i];
+        of->other[0].probe = of->other[1].probe = NULL;
         const size_t n = (size_t)of->n, loads = (size_t)of->nload;
         KEEP(of->factor, 2 * h);
         if (n == 0) continue;

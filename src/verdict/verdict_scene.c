@@ -14,8 +14,7 @@
      - it asks for more than the static pull-in voltage and is over before the rotor has snapped, or
        it would touch with voltages higher by what fringe fields and softer hinges can do: inconclusive,
      - what holds it up to its voltages was not found: inconclusive,
-     - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else
-       inconclusive,
+     - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else not,
      - nothing says what its model of the hinges is off by, or the strain of a hinge is not known at an
        instant: inconclusive,
      - it does not start as stated, or its energy does not add up: inconclusive.
@@ -83,11 +82,12 @@ static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw
     if (flexure_ended(ended))
         return fw_verdict_scene_reason(v, scene, 242, FW_INCONCLUSIVE, share_for(NULL),
                                        ended->message);
-    const double off = p ? fmax(fw_verdict_model_error.motion, 0.5 * p->stiffness_error) : 0;
+    double off = p ? fmax(fw_verdict_model_error.motion, 0.5 * p->stiffness_error) : 0;
+    if (p && fw_effects_levitation_may_be(v->mechanism)) off = 1 - (1 - off) / sqrt(1 + p->fringe);
     if (p) FW_TRY(touches(arena, v->mechanism, scene, 1 - off, options, &still));
     const char *why = p ? fw_statics_pull_in_explain(arena, p) : "";
-    FW_NEED(why);
     char less[32];
+    FW_NEED(why);
     fw_number_text(less, sizeof less, 100 * off, 2);
     char *text = fw_arena_printf(arena, "%s%s%s%s%s%s", ended->message, p ? "; " : "", why,
                                  still ? "" : " (not at voltages lower by the ", still ? "" : less,

@@ -98,5 +98,51 @@ class PullIn(unittest.TestCase):
         self.assertLess(said["stiffness_error"], 0.03)  # it was 0.35
 
 
+class Motions(unittest.TestCase):
+    """What may be missing of a pull is in what motions are required to do and in what hinges bear, found again with that pull."""
+
+    STEP = '<require probe="way" measure="peak" min="%s" scene="go"/><require probe="pull" measure="maximum" min="1 nN" scene="go"/>'
+
+    def holds(self, was, now):
+        self.assertTrue(was["band"][0] < now["value"] < was["band"][1], (was["probe"], was["measure"], was["band"], now["value"]))
+
+    def test_of_a_comb(self):
+        text = GUIDED.replace('<scene name="slow"', '<probe id="pull" kind="force" of="main"/><require probe="pull" measure="final" min="0.1 uN"/><scene name="slow"')
+        said = said_of(text)
+        fringe = said["pull_in"][0]["fringe"]
+        self.assertGreater(fringe, 0.03)
+        more = said_of(text, f"volts={60 * (1 + fringe) ** 0.5 * 0.9999} V")
+        for was, now in zip(said["requirements"], more["requirements"]):
+            self.holds(was, now)
+            self.assertLess(was["band"][1] - was["value"], (fringe + 0.025) * was["value"])  # in proportion, far from pull-in
+        for was, now in zip(said["hinges"], more["hinges"]):
+            self.assertLess(now["utilisation"], was["utilisation_band"][1])
+
+    def test_near_pull_in_it_is_more_than_in_proportion(self):
+        text = CLAMP % ('<require probe="way" measure="final" max="6 um" scene="go"/>', SLOWLY)
+        said = said_of(text)
+        fringe = said["pull_in"][0]["fringe"]
+        more = said_of(text, f"volts={39 * (1 + fringe) ** 0.5 * 0.9999} V", modulus(159.2))
+        self.holds(said["requirements"][0], more["requirements"][0])
+        self.assertGreater(more["requirements"][0]["value"], 1.15 * said["requirements"][0]["value"])
+
+    def test_thrown_near_its_stator(self):
+        # rejected with a band of 1 %, where a modulus 0.6 % lower turns it
+        text = CLAMP % (self.STEP % "5.26 um", "")
+        said = said_of(text, "volts=37 V")
+        self.assertLess(said["requirements"][0]["value"], 5.26e-6)
+        self.assertGreater(said_of(text, "volts=37 V", modulus(159))["requirements"][0]["value"], 5.26e-6)
+        self.assertEqual(said["requirements"][0]["verdict"], "inconclusive", said["requirements"][0])
+        self.assertEqual(said["verdict"], "inconclusive")
+        # what it does for certain is decided all the same: with less pull, or stiffer, it goes as far
+        said = said_of(CLAMP % (self.STEP % "4.9 um", ""), "volts=37 V")
+        self.assertEqual(said["requirements"][0]["verdict"], "accept", said["requirements"][0])
+
+    def test_a_carrier_that_conducts_takes_of_the_pull(self):
+        text = GUIDED.replace("silicon-on-glass", "soi-deep-rie").replace(' carrier="insulating"', "")
+        low = {flow: (r := said_of(t)["requirements"][0])["band"][0] / r["value"] for flow, t in (("glass", GUIDED), ("soi", text))}
+        self.assertLess(low["soi"], low["glass"] - 0.02)
+
+
 if __name__ == "__main__":
     unittest.main()
