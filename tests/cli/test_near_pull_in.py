@@ -98,6 +98,29 @@ class PullIn(unittest.TestCase):
         self.assertLess(said["stiffness_error"], 0.03)  # it was 0.35
 
 
+ON_AN_ARM = """<device xmlns="urn:flexwright:device:1" name="clamp"><parameter name="volts" value="20 V" min="0 V" max="300 V"/>
+<material ref="silicon-100" youngs-modulus="160 GPa" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/>
+<flexure id="la" kind="leaf" length="500 um" width="6 um" fillet="5 um"/><flexure id="lb" kind="leaf" length="400 um" width="7 um" fillet="5 um"/>
+<mechanism><body id="arm" x="0.5 mm" y="0.6 mm" mass="0.05 mg" inertia="0.01 mg mm^2" com-x="0.3 mm" com-y="0.05 mm"/>
+<body id="tip" x="1.8 mm" y="0.7 mm" mass="0.02 mg" inertia="0.003 mg mm^2"/>
+<revolute id="A" a="ground" a-x="0 mm" a-y="0.5 mm" b="arm" b-x="-0.5 mm" b-y="-0.1 mm" hinge="la" axis="0 deg"/>
+<revolute id="B" a="arm" a-x="0.9 mm" a-y="0.1 mm" b="tip" b-x="-0.4 mm" b-y="0 mm" hinge="lb" axis="-90 deg"/></mechanism>
+<scene name="both" duration="60 ms">
+<comb-drive id="p1" kind="plate" on="arm" x="0.6 mm" y="0.2 mm" direction="90 deg" gap="12 um" length="300 um" voltage="volts"/>
+<comb-drive id="p2" kind="comb" on="tip" against="arm" x="0.2 mm" y="-0.1 mm" direction="-80 deg" gap="5 um" fingers="20" overlap="30 um"
+length="70 um" width="8 um" voltage="1.2*volts"/><force on="tip" x="0.1 mm" fy="-1 uN"/></scene></device>"""
+
+
+class Followed(unittest.TestCase):
+    """A path of equilibria that is smooth is followed to where it turns, however little its softest motion is pushed on the way."""
+
+    def test_a_plate_and_a_comb_on_one_arm(self):
+        # rigid bodies on eight beam elements a leaf, with these electrodes, lose their stability at 28.97 V
+        pull = said_of(ON_AN_ARM, command="statics")["pull_in"][0]
+        self.assertNotEqual(pull["kind"], "none", pull["why"])
+        self.assertLess(abs(pull["voltage_V"] / 1.2 - 28.97), 0.03)
+
+
 class Motions(unittest.TestCase):
     """What may be missing of a pull is in what motions are required to do and in what hinges bear, found again with that pull."""
 
