@@ -210,11 +210,10 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
             if (variant && variant->flow) fw_text_printf(out, " (%s)", variant->flow);
             fw_text_printf(out, ": %s%s at ", FW_NAMED("comb drive", p->comb));
             fw_text_number(out, p->voltage_V, 4);
-            fw_text_printf(out, " V (%s)%s; the scene asks for up to ",
-                           fw_statics_pull_in_kind_text(p->kind),
-                           in->device->scene[k].ncomb > 1
-                               ? " where all drives of the scene grow together, slowly"
-                               : "");
+            const bool several = in->device->scene[k].ncomb > 1;
+            fw_text_printf(out, " V (%s)%s%s%s; the scene asks for up to ",
+                           fw_statics_pull_in_kind_text(p->kind), several ? " " : "",
+                           several ? p->together : "", several ? ", slowly" : "");
             fw_text_number(out, p->largest_V, 4);
             fw_text_add(out, " V\n");
         }

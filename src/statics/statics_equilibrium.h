@@ -258,7 +258,7 @@ int fw_statics_equilibrium_mover(const fw_statics_equilibrium *w, const double *
 double fw_statics_equilibrium_per_s2(const fw_statics_equilibrium *w);
 const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w);
 
-/* pull_in.c: (nhinge) of a small motion (SI) about the pose q */
+/* stability.c: (nhinge) of a small motion (SI) about the pose q */
 fw_status fw_statics_hinge_energies(const fw_statics_equilibrium *w, const double *q,
                                     const double *shape, double **energy);
 

@@ -111,9 +111,9 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
             ? fw_arena_printf(
                   arena,
                   "%s%s asks for up to %s V, beyond the pull-in voltage %s V of "
-                  "%s%s%s; %s, and whether that holds on a wafer is not known",
+                  "%s%s%s%s; %s, and whether that holds on a wafer is not known",
                   FW_NAMED("scene", scene->name), asked, at, FW_NAMED("comb drive", p->comb),
-                  scene->ncomb > 1 ? " where all drives of the scene grow together" : "",
+                  scene->ncomb > 1 ? " " : "", scene->ncomb > 1 ? p->together : "",
                   scene->ncontact > 0
                       ? "no electrodes touch in it, because it is over before the rotor "
                         "has snapped or because a contact of the scene holds it off them"

@@ -121,6 +121,46 @@ class Followed(unittest.TestCase):
         self.assertLess(abs(pull["voltage_V"] / 1.2 - 28.97), 0.03)
 
 
+def clamp(*drives):
+    """Plates at the arm of CLAMP, each with its table."""
+    start = CLAMP % ('<require probe="way" measure="peak" max="12 um" scene="go"/>', "")
+    head, tail = start.split('<comb-drive', 1)
+    place = {"down": 'x="1.0 mm" y="-0.08 mm" direction="-90 deg"', "up": 'x="0.8 mm" y="0.08 mm" direction="90 deg"'}
+    plates = "".join(f'<comb-drive id="{name}" kind="plate" on="arm" {place[side]} gap="12 um" length="{length}" voltage="volts" law="table" table="{table}"/>'
+                     for name, (side, length, table) in zip(("cl", "d1", "d2"), drives))
+    return (head + plates + tail.split("/>", 1)[1]).replace('duration="40 ms"', 'duration="90 ms"')
+
+
+class Drives(unittest.TestCase):
+    """Drives that do not act together pull in as those do that act at an instant."""
+
+    FIRST, LATER = "0 ms: 0; 30 ms: 1; 40 ms: 1; 45 ms: 0", "0 ms: 0; 50 ms: 0; 80 ms: 1"
+
+    def pull_in(self, *drives):
+        return said_of(clamp(*drives), "volts=30 V", command="statics")["pull_in"][0]
+
+    def test_those_that_oppose_each_other(self):
+        alone = self.pull_in(("down", "400 um", self.FIRST))["voltage_V"]
+        both = self.pull_in(("down", "400 um", self.FIRST), ("up", "400 um", self.LATER))
+        self.assertLess(abs(both["voltage_V"] / alone - 1), 1e-6)  # 49.25 V for 41.31, as if both held it at once
+        self.assertLess(abs(both["at_s"] - 40e-3), 1e-6)
+        self.assertEqual(both["comb"], "cl")
+        said = said_of(clamp(("down", "400 um", self.FIRST), ("up", "400 um", self.LATER)), "volts=40.5 V")
+        self.assertIn("pulls in at 41.31 V, or at less", " ".join(r["text"] for r in said["reasons"]))
+
+    def test_those_that_follow_each_other(self):
+        alone = self.pull_in(("up", "400 um", self.FIRST))["voltage_V"]
+        each = self.pull_in(("up", "400 um", self.FIRST), ("down", "200 um", self.LATER), ("up", "100 um", "0 ms: 0; 85 ms: 0; 86 ms: 0.1"))
+        self.assertLess(each["voltage_V"], alone * (1 + 1e-6))
+        after = self.pull_in(("down", "400 um", self.FIRST), ("down", "400 um", self.LATER))["voltage_V"]
+        self.assertLess(abs(after / self.pull_in(("down", "400 um", self.FIRST))["voltage_V"] - 1), 1e-6)
+
+    def test_those_of_one_law_are_one(self):
+        together = self.pull_in(("down", "400 um", self.LATER), ("up", "400 um", self.LATER))
+        self.assertIsNone(together["at_s"])
+        self.assertGreater(together["voltage_V"], 45)
+
+
 class Motions(unittest.TestCase):
     """What may be missing of a pull is in what motions are required to do and in what hinges bear, found again with that pull."""
 
