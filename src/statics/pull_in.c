@@ -490,8 +490,11 @@ static fw_status name_drives(seeker *k, double t_s) {
     char at[32];
     fw_text list = fw_text_new(k->arena);
     int n = 0;
+    double most = 0;
     for (int i = 0; i < k->scene.ncomb; i++)
-        if (k->scene.comb[i].voltage_V != 0)
+        most = fmax(most, fabs(k->scene.comb[i].voltage_V));
+    for (int i = 0; i < k->scene.ncomb; i++)
+        if (fabs(k->scene.comb[i].voltage_V) > 1e-3 * most)
             fw_text_printf(&list, "%s%s", n++ ? ", " : "", fw_text_name(k->scene.comb[i].id));
     FW_TRY(fw_text_end(&list));
     k->out->at_s = t_s;

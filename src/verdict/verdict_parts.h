@@ -317,6 +317,8 @@ void fw_verdict_requirement_others(const fw_mechanism *mechanism, const fw_verdi
                                    fw_verdict_requirement *r);
 /* what its band says against its bounds: margin, utilisations, decision */
 void fw_verdict_requirement_decide(fw_verdict_requirement *r);
+/* verdict_bending.c: what bands of a device that is not drawn are without, by name */
+fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v);
 void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
                                    fw_verdict_requirement *r);
 /* what may still decide those that are inconclusive, and the accuracy that would */

@@ -573,6 +573,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].measure && !v->requirement[k].why)
             put_shaken(m, v, &v->requirement[k]);
+    FW_TRY(fw_verdict_bending_name_rigid(arena, v));
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].decision != FW_ACCEPT && !has_reason(v, &v->requirement[k]))
             FW_TRY(add_reason(arena, m, &v->requirement[k], v));

@@ -105,7 +105,6 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
     fw_number_text(asked, sizeof asked, p->largest_V, 4);
     fw_number_text(part, sizeof part, 100 * p->fringe, 2);
     fw_percent_text(off, sizeof off, p->stiffness_error);
-    v->beyond_pull_in = true;
     const char *text =
         p->margin < 1
             ? fw_arena_printf(
@@ -149,7 +148,6 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
         fw_percent_text(off, sizeof off, p->stiffness_error));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);
-    v->beyond_pull_in = true;
     return fw_verdict_scene_reason(v, scene, 248, FW_INCONCLUSIVE,
                                    0.98 * (1 - p->stiffness_error) / (1 + p->fringe), text);
 }
