@@ -332,6 +332,9 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
         if (!now[k].goes) continue;
         const double by = beyond(m, x->observed, far, &now[k], k == 0 ? 1 : -1, &v->shaken[i]);
         if (k == 0) most = fmax(most, by);
+        if (k == 0 && missing > 0)
+            v->shaken[i].nearer_m =
+                fw_verdict_electrodes_nearer(x, now[k].motion, &v->shaken[i].gap_m);
     }
     return tell_soft(arena, s, v->left[i], e, missing, now[0].goes, most, brief, diags, v);
 }
