@@ -360,15 +360,15 @@ static near_to nearest(const fw_dynamics_motion *x, int element) {
 }
 
 double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
-                                    double *least_m) {
+                                    double *kept) {
     double nearer = 0;
-    *least_m = HUGE_VAL;
+    *kept = 1;
     for (int i = 0; i < was->loads->nelement && i < now->loads->nelement; i++) {
         const fw_effects_comb_element *c = fw_effects_comb_of(&was->loads->element[i]);
         if (!c || !fw_effects_comb_of(&now->loads->element[i])) continue;
         const near_to a = nearest(was, i), b = nearest(now, i);
         const double length = isnan(c->length_m) ? 2 * c->overlap_m : c->length_m;
-        *least_m = fmin(*least_m, a.gap);
+        *kept = fmin(*kept, a.gap / c->gap_m);
         nearer = fmax(nearer, a.gap - b.gap);
         if (c->kind == FW_ELECTRODES_COMB && length - c->overlap_m - b.along < 2 * b.gap)
             nearer = fmax(nearer, b.along - a.along);

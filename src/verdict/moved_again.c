@@ -334,7 +334,7 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
         if (k == 0) most = fmax(most, by);
         if (k == 0 && missing > 0)
             v->shaken[i].nearer_m =
-                fw_verdict_electrodes_nearer(x, now[k].motion, &v->shaken[i].gap_m);
+                fw_verdict_electrodes_nearer(x, now[k].motion, &v->shaken[i].kept);
     }
     return tell_soft(arena, s, v->left[i], e, missing, now[0].goes, most, brief, diags, v);
 }

@@ -448,7 +448,7 @@ static void may_come_near(int scene, double by, double ways, fw_verdict_variant_
     const fw_verdict_shaken *s = &v->shaken[scene];
     for (int k = 0; k < v->nstator; k++) {
         fw_wiring_moved *to = &v->stator[k];
-        const bool own = s->gap_m > 0 && to->m > gap * s->gap_m;
+        const bool own = s->kept > 0 && to->m > gap * s->kept * to->start_m;
         if (to->index == scene)
             to->low_m -=
                 own ? (ways - 1) * to->moved_m + quarter * s->nearer_m : (by - 1) * to->moved_m;

@@ -123,9 +123,9 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
 /* body_loads.c: by how much what holds rotors is softer at pull-in for what bodies give there, relative, at most */
 fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                    const fw_statics_pull_in *pull_in, double *gives);
-/* body_loads.c: by how much electrodes come nearer in another motion, m, and the least gap of this one */
+/* body_loads.c: by how much electrodes come nearer in another motion, m, and the share of a gap that this one keeps */
 double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
-                                    double *least_m);
+                                    double *kept);
 /* body_loads.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     double *to);
@@ -194,7 +194,7 @@ struct fw_verdict_shaken {
     double late; /* what of a largest way may be there at the end besides, for phases run apart */
     /* the same on what is required, by the most of them, without what the motions of `other` have */
     double required[2], required_late;
-    double nearer_m, gap_m;    /* of electrodes, in these; the least as computed */
+    double nearer_m, kept; /* of electrodes, in these; share of a gap as computed, 0: not asked */
     fw_verdict_other other[2]; /* softer, with all of the pull, and stiffer, with the least of it */
 };
 typedef struct fw_verdict_answer { /* times as much as computed: up >= 1, down <= 1 */
