@@ -524,7 +524,8 @@ static bool goes(const fw_mechanism *m, const fw_dynamics_motion *motion, double
     const double share = 1e-8, closed_m = 2 * motion->stats.assembly_moved_m;
     for (size_t i = 0; i < n; i++) {
         const fw_mechanism_mass *body = &m->body[i / 3];
-        const double drawn[3] = {body->x_m, body->y_m, body->phi_rad}, turn = i % 3 == 2;
+        const double drawn[3] = {body->x_m, body->y_m, body->phi_rad};
+        const bool turn = i % 3 == 2;
         const double little = share * (turn ? 1 : arm_m),
                      closed = turn && arm_m > 0 ? closed_m / arm_m : closed_m;
         if (fabs(motion->q[i] - drawn[i % 3]) > little + closed) return true;
