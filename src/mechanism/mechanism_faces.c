@@ -325,7 +325,8 @@ static void put_strip(const fw_mechanism *m, const walls *w, const seen *s,
     strip[k] = (fw_mechanism_strip_beside){s->gap_m, s->at, w->wall[s->other].piece};
 }
 
-/* each pair of bodies is seen from the one with the lower index, the ground by none */
+/* A pair of bodies is seen from both of them, with half of the area each: from the outer one of two arcs there is more of it,
+   and which body is described first decides nothing. The ground looks at none. */
 static fw_status look_from(const fw_mechanism *m, const walls *w, int own, double come_m, list *to,
                            fw_mechanism_strip_beside *strip) {
     const wall *a = &w->wall[own];
@@ -346,8 +347,12 @@ static fw_status look_from(const fw_mechanism *m, const walls *w, int own, doubl
         if (b->solid == a->solid || vec_dot(out, n) > -facing) continue;
         if (a->solid <= FLEXED)
             put_strip(m, w, &s, strip);
-        else if (b->solid == FW_GROUND || b->solid > a->solid)
+        else if (b->solid == FW_GROUND)
             FW_TRY(put_beside(to, m, w, &s));
+        else if (b->solid >= 0) {
+            s.length_m *= 0.5;
+            FW_TRY(put_beside(to, m, w, &s));
+        }
     }
     return FW_OK;
 }

@@ -6,7 +6,7 @@
    its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
    comes behind it. Test: test_program.py, EndsEarly
 
-   The last part of the file are scenes in which nothing moves (FW-D655). */
+   Behind that: where a motion comes to rest, and scenes in which nothing moves (FW-D655). */
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
@@ -23,8 +23,9 @@ static const double hardly_moves = 0.05;                             /* of the f
 
 /* s; 0: nothing swings */
 static fw_status longest_period(fw_arena *arena, const fw_mechanism *m,
-                                const fw_device_scene *scene, double *period_s) {
-    const fw_statics_mode_options o = {.accuracy = 1e-3};
+                                const fw_device_scene *scene, bool at_equilibrium,
+                                double *period_s) {
+    const fw_statics_mode_options o = {.accuracy = 1e-3, .at_equilibrium = at_equilibrium};
     const fw_statics_modes *modes = NULL;
     fw_diags own = fw_diags_new(arena);
     *period_s = 0;
@@ -111,7 +112,7 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
     if (x->loads->quasi_static || x->ended || x->nsample < 1) return FW_OK;
     fw_dynamics_motion_rows(x, x->nsample - 1, 1);
     if (goes_on(m, x, (double)INFINITY) == FW_NONE) return FW_OK;
-    FW_TRY(longest_period(arena, m, scene, &period_s));
+    FW_TRY(longest_period(arena, m, scene, false, &period_s));
     const int k = goes_on(m, x, period_s);
     if (k == FW_NONE) return FW_OK;
     FW_TRY(last_longer(arena, m, scene, x, period_s, options, &longer));
@@ -339,78 +340,6 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     return tell_soft(arena, s, v->left[i], e, missing, now[0].goes, most, brief, diags, v);
 }
 
-/* ---- and what is required of these motions ---- */
-
-static double measured(const fw_probe_course *c, const fw_device_requirement *q) {
-    const double most = c->maximum.value, least = c->minimum.value;
-    switch (q->measure) {
-    case FW_MEASURE_PEAK:
-        return fmax(fabs(most), fabs(least));
-    case FW_MEASURE_MAXIMUM:
-        return most;
-    case FW_MEASURE_MINIMUM:
-        return least;
-    case FW_MEASURE_FINAL:
-        return c->final;
-    case FW_MEASURE_PEAK_TO_PEAK:
-        return most - least;
-    case FW_MEASURE_SETTLING:
-        return fw_probe_settling_s(c, q->band);
-    case FW_MEASURE_PARASITIC:
-        return fabs(c->across.value);
-    }
-    return (double)NAN;
-}
-
-static bool goes_with_loads(const fw_device_probe *p, fw_device_measure measure) {
-    return measure != FW_MEASURE_SETTLING &&
-           (p->row == FW_PROBE_IS_force || p->row == FW_PROBE_IS_torque ||
-            p->row == FW_PROBE_IS_power);
-}
-
-/* what a band has beside what the other device has in its place */
-static double beside(const fw_verdict_requirement *r, double off) {
-    return fmax(r->numeric, fmin(r->high - r->value, r->value - r->low) - off * fabs(r->swing));
-}
-
-/* a final value is anywhere in the ring of that motion, too */
-static void take_in(const fw_verdict_other *o, int probe, const fw_device_requirement *q,
-                    double now, fw_verdict_requirement *r) {
-    const double rest = beside(r, o->off);
-    double low = now - rest, high = now + rest;
-    if (q->measure == FW_MEASURE_FINAL) {
-        const fw_probe_ring ring = fw_probe_rings(&o->probe->probe[probe], o->motion);
-        if (ring.amplitude > 0)
-            low = fmin(now, ring.low) - r->numeric, high = fmax(now, ring.high) + r->numeric;
-    }
-    r->low = fmin(r->low, low), r->high = fmax(r->high, high);
-}
-
-void fw_verdict_requirement_others(const fw_mechanism *m, const fw_verdict_shaken *s,
-                                   fw_verdict_requirement *r) {
-    const fw_device_requirement *q = &m->device->requirement[r->asked];
-    const fw_device_probe *of = &m->device->probe[q->probe];
-    const double value = r->value, at_low = r->low, at_high = r->high;
-    const bool anywhere = q->measure == FW_MEASURE_FINAL || q->measure == FW_MEASURE_SETTLING;
-    double now[2] = {(double)NAN, (double)NAN};
-    for (int k = 0; k < 2; k++) {
-        const fw_verdict_other *o = &s->other[k];
-        if (!o->asked || o->lost || !o->probe || o->probe->course[q->probe].count == 0) continue;
-        now[k] = measured(&o->probe->course[q->probe], q);
-        if (goes_with_loads(of, q->measure)) now[k] /= o->by;
-        take_in(o, q->probe, q, now[k], r);
-    }
-    if (value != 0) r->lasting += fmax(at_low - r->low, r->high - at_high) / fabs(value);
-    if (s->other[0].lost) { /* away from where the stiffer one is */
-        if (anywhere || !(now[1] < value)) r->low = -HUGE_VAL;
-        if (anywhere || !(now[1] > value)) r->high = HUGE_VAL;
-        r->open = "with flexures as soft and a pull as strong as they may be no motion to its end "
-                  "was found";
-    }
-    if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
-    fw_verdict_requirement_decide(r);
-}
-
 /* ---- what takes hold again and again ----
    What throws back meets what the last blow left by its phase, and behind some blows peaks turn on a per mille of a stiffness. So
    where something takes hold a second time the scene is moved again with flexures stiffer and softer by thirds of what they are
@@ -511,6 +440,78 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
         fw_number_text(off, sizeof off, 100 * e, 2), fw_number_text(fewest, sizeof fewest, down, 3),
         fw_number_text(most, sizeof most, up, 3));
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- where a motion comes to rest ----
+   In: the course of a probe that was kept, the loads as they are at the scene's end. Out: the equilibrium under these, where
+   the course ends about it; where loads go on, friction holds it anywhere within a range, or none is found, the middle of what the
+   course goes over in the last period of the slowest mode, off by half of that. The value at the last instant is neither:
+   where a scene ends it may be anywhere in its ring. Cost: modes and an equilibrium. Test: test_probe.py,
+   test_a_settling_time_does_not_go_with_the_length_of_a_scene */
+
+/* least and largest of the last span of a course, its last two instants at the least */
+static void range_of(const fw_probe_course *c, double from_s, double *low, double *high) {
+    *low = *high = c->final;
+    for (size_t i = c->kept; i-- > 0 && (c->time[i] >= from_s || i + 2 >= c->kept);)
+        *low = fmin(*low, c->value[i]), *high = fmax(*high, c->value[i]);
+}
+
+/* NaN: none is found, or it is one of many */
+static fw_status equilibrium_at(fw_arena *arena, const fw_mechanism *m, int scene,
+                                const fw_dynamics_motion *motion, int probe, double *at) {
+    const fw_device_scene *s = &m->device->scene[scene];
+    const fw_statics_static_options o = {.effects.hinge = motion->ledger.hinge.used,
+                                         .effects.untold = true};
+    const fw_statics *found = NULL;
+    fw_diags own = fw_diags_new(arena);
+    fw_probe *bound;
+    *at = (double)NAN;
+    const fw_status status = fw_statics_solve(arena, m, s, &o, &own, &found);
+    if (status == FW_CANCELLED || status == FW_NOMEM) return status;
+    if (status != FW_OK || !found || found->negative > 0 || found->loose ||
+        (found->friction && !found->friction->why))
+        return FW_OK;
+    FW_TRY(fw_probe_bind(arena, m, s, found->loads, &bound));
+    *at = fw_probe_at_equilibrium(&bound[probe], s, found);
+    return FW_OK;
+}
+
+fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *m, int scene,
+                               double *period_s) {
+    double loaded_s;
+    FW_TRY(longest_period(arena, m, &m->device->scene[scene], false, period_s));
+    FW_TRY(longest_period(arena, m, &m->device->scene[scene], true, &loaded_s));
+    *period_s = fmax(*period_s, loaded_s);
+    return FW_OK;
+}
+
+fw_status fw_verdict_rests_at(const fw_mechanism *m, int scene, const fw_dynamics_motion *motion,
+                              const fw_probe_monitor *monitor, const fw_device_requirement *q,
+                              fw_verdict_rest *rest) {
+    const fw_probe_course *c = &monitor->course[q->probe];
+    double low, high, at;
+    *rest = (fw_verdict_rest){.at = c->final};
+    if (motion->loads && motion->loads->quasi_static) return FW_OK;
+    FW_TRY(fw_verdict_slowest_s(monitor->arena, m, scene, &rest->period_s));
+    if (!(rest->period_s > 0))
+        rest->period_s = motion->end_s; /* nothing says how slowly it swings */
+    const double goes_on_s = fw_verdict_laws_go_on_s(m, &m->device->scene[scene]);
+    rest->period_s = fmax(rest->period_s, goes_on_s);
+    range_of(c, motion->end_s - rest->period_s, &low, &high);
+    if (goes_on_s > 0)
+        at = (double)NAN; /* no one instant's equilibrium is where it comes to rest */
+    else
+        FW_TRY(equilibrium_at(monitor->arena, m, scene, motion, q->probe, &at));
+    const double beyond = fmax(0, fmax(low - at, at - high));
+    if (isnan(at)) {
+        rest->at = 0.5 * (low + high), rest->off = 0.5 * (high - low);
+    } else if (beyond <= fmax(high - low, 0.1 * q->band)) {
+        rest->at = at, rest->off = beyond > high - low ? beyond : 0;
+    } else {
+        rest->why = "the scene ends away from the equilibrium under its last loads, and not about "
+                    "another one that is known: give the scene a longer duration";
+    }
+    return FW_OK;
 }
 
 /* ---- scenes in which nothing moves ---- */

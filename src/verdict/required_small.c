@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is required of equilibria: frequencies, stiffnesses and compliances, which have no measure of a motion. */
+/* What is required of equilibria: frequencies, stiffnesses and compliances, which have no measure of a motion; and what of
+   motions is read once more, of a softer and a stiffer device. */
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
@@ -254,6 +255,21 @@ int fw_verdict_instants(const fw_mechanism *m, const fw_device_scene *scene, boo
     return n;
 }
 
+double fw_verdict_laws_go_on_s(const fw_mechanism *m, const fw_device_scene *scene) {
+    laws l;
+    double longest = 0;
+    laws_of(m, scene, &l);
+    for (int i = 0; i < l.n; i++) {
+        const double f_Hz = fw_quantity_law_wave_of(l.of[i]).fastest_Hz;
+        bool alike = true;
+        for (int k = 1; k <= 8; k++) /* no period of a sine has all of these */
+            alike = alike && are_alike(&(laws){.of = {l.of[i]}, .n = 1, .end_s = l.end_s}, l.end_s,
+                                       l.end_s * (1 - 1e-3 * k * (1 + 0.07 * k)));
+        if (!alike) longest = fmax(longest, fmax(0.25 * l.end_s, f_Hz > 0 ? 1 / f_Hz : 0));
+    }
+    return l.more ? l.end_s : fmin(longest, l.end_s);
+}
+
 /* by how much of its value a bound is missed; what is not known there is not known */
 static double worst_share(const fw_verdict_requirement *r) {
     if (r->why || isnan(r->value)) return HUGE_VAL;
@@ -305,5 +321,82 @@ fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
         if (!v->requirement[k].measure && v->requirement[k].scene_index == scene)
             v->requirement[k].why = "loads are at an extreme at more instants of its scene than "
                                     "are looked at; put parts of it into scenes of their own";
+    return FW_OK;
+}
+
+/* ---- what is required of motions that are found again (moved_again.c) ---- */
+
+static double measured(const fw_probe_course *c, const fw_device_requirement *q) {
+    const double most = c->maximum.value, least = c->minimum.value;
+    switch (q->measure) {
+    case FW_MEASURE_PEAK:
+        return fmax(fabs(most), fabs(least));
+    case FW_MEASURE_MAXIMUM:
+        return most;
+    case FW_MEASURE_MINIMUM:
+        return least;
+    case FW_MEASURE_FINAL:
+        return c->final;
+    case FW_MEASURE_PEAK_TO_PEAK:
+        return most - least;
+    case FW_MEASURE_SETTLING:
+        return fw_probe_settling_s(c, c->final, q->band);
+    case FW_MEASURE_PARASITIC:
+        return fabs(c->across.value);
+    }
+    return (double)NAN;
+}
+
+static bool goes_with_loads(const fw_device_probe *p, fw_device_measure measure) {
+    return measure != FW_MEASURE_SETTLING &&
+           (p->row == FW_PROBE_IS_force || p->row == FW_PROBE_IS_torque ||
+            p->row == FW_PROBE_IS_power);
+}
+
+/* what a band has beside what the other device has in its place */
+static double beside(const fw_verdict_requirement *r, double off) {
+    return fmax(r->numeric, fmin(r->high - r->value, r->value - r->low) - off * fabs(r->swing));
+}
+
+/* a final value is anywhere in the ring of that motion, too */
+static fw_status take_in(const fw_mechanism *m, const fw_verdict_other *o,
+                         const fw_device_requirement *q, double now, fw_verdict_requirement *r) {
+    const double rest = beside(r, o->off);
+    double low = now - rest, high = now + rest, slowest_s;
+    if (q->measure == FW_MEASURE_FINAL && !(o->motion->loads && o->motion->loads->quasi_static)) {
+        fw_probe_ring ring;
+        fw_arena *arena = o->probe->arena;
+        FW_TRY(fw_verdict_slowest_s(arena, m, r->scene_index, &slowest_s));
+        FW_TRY(fw_probe_rings(arena, &o->probe->probe[q->probe], o->motion, slowest_s, &ring));
+        if (ring.amplitude > 0)
+            low = fmin(now, ring.low) - r->numeric, high = fmax(now, ring.high) + r->numeric;
+    }
+    r->low = fmin(r->low, low), r->high = fmax(r->high, high);
+    return FW_OK;
+}
+
+fw_status fw_verdict_requirement_others(const fw_mechanism *m, const fw_verdict_shaken *s,
+                                        fw_verdict_requirement *r) {
+    const fw_device_requirement *q = &m->device->requirement[r->asked];
+    const fw_device_probe *of = &m->device->probe[q->probe];
+    const double value = r->value, at_low = r->low, at_high = r->high;
+    const bool anywhere = q->measure == FW_MEASURE_FINAL || q->measure == FW_MEASURE_SETTLING;
+    double now[2] = {(double)NAN, (double)NAN};
+    for (int k = 0; k < 2; k++) {
+        const fw_verdict_other *o = &s->other[k];
+        if (!o->asked || o->lost || !o->probe || o->probe->course[q->probe].count == 0) continue;
+        now[k] = measured(&o->probe->course[q->probe], q);
+        if (goes_with_loads(of, q->measure)) now[k] /= o->by;
+        FW_TRY(take_in(m, o, q, now[k], r));
+    }
+    if (value != 0) r->lasting += fmax(at_low - r->low, r->high - at_high) / fabs(value);
+    if (s->other[0].lost) { /* away from where the stiffer one is */
+        if (anywhere || !(now[1] < value)) r->low = -HUGE_VAL;
+        if (anywhere || !(now[1] > value)) r->high = HUGE_VAL;
+        r->open = "with flexures as soft and a pull as strong as they may be no motion to its end "
+                  "was found";
+    }
+    if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
+    fw_verdict_requirement_decide(r);
     return FW_OK;
 }

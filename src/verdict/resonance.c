@@ -462,6 +462,15 @@ static double largest_of(const double *x, int n) {
     return most;
 }
 
+/* the most of what anything moves or bends by: what a probe goes with is not looked up */
+void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]) {
+    most[0] = most[1] = 1;
+    for (int h = 0; h <= nhinge; h++) {
+        most[0] = fmax(most[0], factor[2 * h]);
+        most[1] = fmin(most[1], factor[2 * h + 1]);
+    }
+}
+
 /* v->shaken; warnings, and a reason where what does not meet may then meet */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
                             const fw_dynamics_motion_options *options, bool brief, fw_diags *diags,

@@ -182,20 +182,36 @@ static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, 
                                                                     : computed;
 }
 
-/* What the model is off by scales the departure from the final value, and where that is as large as the band it is off by
-   that part of it. Frequencies, and so all times, go with the root of a stiffness */
-static void put_settling(fw_verdict_requirement *r, const fw_probe_course *course, double band,
-                         double numeric, double model, double lasting, double end_s) {
-    double off = numeric + model * band;
-    double low = fw_probe_settling_s(course, band + off),
-           high = band > off ? fw_probe_settling_s(course, band - off) : end_s;
-    double exact = band > numeric ? fw_probe_settling_s(course, band - numeric) : end_s;
-    r->value = fw_probe_settling_s(course, band);
-    r->low = low * (1 - 0.5 * model);
+/* What the model is off by scales the departure from where it comes to rest, and where that is as large as the band it is off by
+   that part of it. Frequencies, and so all times, go with the root of a stiffness. What was out within the last period of
+   the slowest mode may be so again behind the end */
+static fw_status put_settling(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                              const fw_probe_monitor *monitor, const fw_probe_result *p,
+                              fw_verdict_requirement *r) {
+    const fw_device_requirement *q = &m->device->requirement[r->asked];
+    const fw_probe_course *course = &monitor->course[q->probe];
+    const double band = q->band,
+                 model = model_of(m, motion, p->level) +
+                         fw_verdict_places_error(motion, &m->device->probe[q->probe]);
+    fw_verdict_rest rest;
+    FW_TRY(fw_verdict_rests_at(m, r->scene_index, motion, monitor, q, &rest));
+    const double off = p->final_numeric + model * band + rest.off;
+    const double exact = band > p->final_numeric
+                             ? fw_probe_settling_s(course, rest.at, band - p->final_numeric)
+                             : motion->end_s;
+    double high = band > off ? fw_probe_settling_s(course, rest.at, band - off) : motion->end_s;
+    r->value = fw_probe_settling_s(course, rest.at, band);
+    r->low = fw_probe_settling_s(course, rest.at, band + off) * (1 - 0.5 * model);
     r->high = high * (1 + 0.5 * model);
     r->numeric = fmax(0, exact - r->value);
-    r->lasting = lasting;
+    r->lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
+    r->open = rest.why;
+    if (!r->open && high > motion->end_s - rest.period_s)
+        r->open = "it has not settled where the scene ends: give the scene a longer duration";
+    if (r->open) r->high = HUGE_VAL;
+    if (rest.why) r->low = 0;
     fw_verdict_requirement_decide(r);
+    return FW_OK;
 }
 
 /* of what the errors of a model are shares: what the value is beyond the drawn one; of a gap, whose
@@ -210,10 +226,14 @@ static double departure(const fw_probe_result *p, double value) {
 static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motion,
                           const fw_probe_monitor *monitor, const fw_probe_result *p,
                           fw_verdict_requirement *r) {
-    const fw_probe_ring ring =
-        fw_probe_rings(&monitor->probe[m->device->requirement[r->asked].probe], motion);
+    const fw_probe *of = &monitor->probe[m->device->requirement[r->asked].probe];
     const double off = 0.5 * (r->high - r->low);
+    fw_probe_ring ring;
+    double slowest_s;
     bool shaken;
+    if (motion->loads && motion->loads->quasi_static) return FW_OK; /* equilibria do not ring */
+    FW_TRY(fw_verdict_slowest_s(monitor->arena, m, r->scene_index, &slowest_s));
+    FW_TRY(fw_probe_rings(monitor->arena, of, motion, slowest_s, &ring));
     FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
     if (ring.amplitude > 0.02 * fabs(p->final - p->origin)) r->rings = ring.amplitude;
     if (shaken || !(ring.amplitude > 0)) return FW_OK;
@@ -225,9 +245,8 @@ static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motio
 }
 
 /* still: nothing moves, and shares of that are round-off over round-off */
-static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
-                  const fw_probe_monitor *monitor, const fw_probe_result *p, bool still,
-                  fw_verdict_requirement *r) {
+static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion, const fw_probe_result *p,
+                  bool still, fw_verdict_requirement *r) {
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const double model = still ? 0
                                : model_of(m, motion, p->level) +
@@ -262,9 +281,7 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
         put(r, p->maximum - p->minimum, 2 * p->numeric, model, lasting,
             gap ? 2 * p->moved : p->maximum - p->minimum, true);
         return;
-    case FW_MEASURE_SETTLING:
-        put_settling(r, &monitor->course[q->probe], q->band, p->final_numeric, model, lasting,
-                     motion->end_s);
+    case FW_MEASURE_SETTLING: /* put_settling */
         return;
     case FW_MEASURE_PARASITIC:
         break;
@@ -316,11 +333,13 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         const fw_device_requirement *q = &m->device->requirement[r->asked];
         const fw_probe_result *p = &v->probed[scene * n + q->probe];
         const char *of = m->device->probe[q->probe].of;
-        if (p->known) judge(m, v->motion[scene], monitor, p, still, r);
+        if (p->known) judge(m, v->motion[scene], p, still, r);
         if (fw_verdict_places_lower(v->motion[scene], of, &r->low, &r->high))
             fw_verdict_requirement_decide(r);
         if (p->known && q->measure == FW_MEASURE_FINAL)
             FW_TRY(put_ring(m, v->motion[scene], monitor, p, r));
+        if (p->known && q->measure == FW_MEASURE_SETTLING && !v->motion[scene]->ended)
+            FW_TRY(put_settling(m, v->motion[scene], monitor, p, r));
         if (p->known && v->motion[scene]->ended) judge_ended(q->measure, r);
         if (!p->known && monitor->within)
             r->why =
@@ -459,10 +478,10 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                r->probe, of, isnan(r->min) ? "most" : "least",
                                fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
                                r->why);
-    if (r->open)
+    if (r->open && r->decision != FW_REJECT)
         return fw_arena_printf(arena,
-                               "%s (%s) is %s, and at %s %s is required, but by how much the model "
-                               "of the hinges is off there is not known: %s",
+                               "%s (%s) is %s, and at %s %s is required, but what that may be off "
+                               "by is not known: %s",
                                r->probe, of, fw_probe_text(value, r->value, r->unit),
                                below ? "least" : "most", bound, r->open);
     fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);
@@ -541,21 +560,13 @@ void fw_verdict_requirement_shaken(const double factor[2], double late, fw_devic
     fw_verdict_requirement_decide(r);
 }
 
-/* the most of what anything moves or bends by: what a probe goes with is not looked up */
-void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]) {
-    most[0] = most[1] = 1;
-    for (int h = 0; h <= nhinge; h++) {
-        most[0] = fmax(most[0], factor[2 * h]);
-        most[1] = fmin(most[1], factor[2 * h + 1]);
-    }
-}
-
-static void put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v,
-                       fw_verdict_requirement *r) {
+static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v,
+                            fw_verdict_requirement *r) {
     const fw_verdict_shaken *s = &v->shaken[r->scene_index];
-    fw_verdict_requirement_others(m, s, r);
+    FW_TRY(fw_verdict_requirement_others(m, s, r));
     fw_verdict_requirement_shaken(s->required, s->required_late,
                                   m->device->requirement[r->asked].measure, r);
+    return FW_OK;
 }
 
 fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
@@ -572,7 +583,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
     }
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].measure && !v->requirement[k].why)
-            put_shaken(m, v, &v->requirement[k]);
+            FW_TRY(put_shaken(m, v, &v->requirement[k]));
     FW_TRY(fw_verdict_bending_name_rigid(arena, v));
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].decision != FW_ACCEPT && !has_reason(v, &v->requirement[k]))

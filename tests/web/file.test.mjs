@@ -147,8 +147,12 @@ describe("text and file", () => {
         test("Ctrl S and Save take it first, also while its edit is under way", async () => {
             await field().fill("14 uN");
             await page.keyboard.press("Control+s");
-            await page.waitForSelector('.notice:has-text("Saved device.xml")');
+            await page.waitForFunction(() => document.querySelector("#file-state").textContent === "device.xml"); // a former "Saved" may stand there yet
             assert.equal(onDisk(), "14 uN");
+            await page.evaluate(() => document.querySelectorAll(".notice").forEach((n) => n.classList.add("former")));
+            await page.keyboard.press("Control+s");
+            await page.waitForSelector('.notice:not(.former):has-text("Saved device.xml")');
+            assert.equal(await page.locator('.notice:has-text("Saved device.xml")').count(), 1, "said once");
             let release;
             const gate = new Promise((resolve) => (release = resolve));
             await page.route("**/api/edit", async (r) => (await gate, r.continue()));

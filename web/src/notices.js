@@ -18,6 +18,7 @@ function strip(kind, content, actions = []) {
 /** {kind: "info" | "warn" | "bad", text, actions: [[label, function, {stay: it does not end the notice}]], stay,
  *  dismiss: may go without an answer} */
 export function notice({ kind = "info", text, actions = [], stay = false, dismiss = true }) {
+    for (const former of [...$("notices").children]) if (former.says === text) former.remove(); // said once, and of now
     const box = strip(kind, text, [
         ...actions.map(([label, act, how]) => button(label, { class: "small" }, () => {
             if (!how?.stay) box.remove();
@@ -25,6 +26,7 @@ export function notice({ kind = "info", text, actions = [], stay = false, dismis
         })),
         dismiss ? button("Dismiss", { icon: "close", hidden: true, class: "quiet" }, () => box.remove()) : null,
     ]);
+    box.says = text;
     if (!stay && !actions.length) setTimeout(() => box.remove(), SHOWN_MS);
     return box;
 }
