@@ -441,10 +441,18 @@ static fw_status may_ring(fw_arena *arena, int scene, fw_verdict_variant_verdict
                         FW_NAMED("scene", s->name), what));
 }
 
-/* and electrodes come nearer to each other */
-static void may_come_near(int scene, double by, fw_verdict_variant_verdict *v) {
-    for (int k = 0; k < v->nstator; k++)
-        if (v->stator[k].index == scene) v->stator[k].low_m -= (by - 1) * v->stator[k].moved_m;
+/* and electrodes come nearer to each other: by what moves them farther, but where their own gap is what is nearest by what it
+   loses in the motion of the softer device; ways: without that motion */
+static void may_come_near(int scene, double by, double ways, fw_verdict_variant_verdict *v) {
+    const double quarter = 1.25, gap = 0.9;
+    const fw_verdict_shaken *s = &v->shaken[scene];
+    for (int k = 0; k < v->nstator; k++) {
+        fw_wiring_moved *to = &v->stator[k];
+        const bool own = s->kept > 0 && to->m > gap * s->kept * to->start_m;
+        if (to->index == scene)
+            to->low_m -=
+                own ? (ways - 1) * to->moved_m + quarter * s->nearer_m : (by - 1) * to->moved_m;
+    }
 }
 
 static double largest_of(const double *x, int n) {
@@ -452,6 +460,15 @@ static double largest_of(const double *x, int n) {
     for (int i = 0; i < n; i++)
         most = fmax(most, x[i]);
     return most;
+}
+
+/* the most of what anything moves or bends by: what a probe goes with is not looked up */
+void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]) {
+    most[0] = most[1] = 1;
+    for (int h = 0; h <= nhinge; h++) {
+        most[0] = fmax(most[0], factor[2 * h]);
+        most[1] = fmin(most[1], factor[2 * h + 1]);
+    }
 }
 
 /* v->shaken; warnings, and a reason where what does not meet may then meet */
@@ -470,17 +487,19 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
             f[h] = 1;
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
         const double shakes = largest_of(f, 2 * nh + 2);
-        /* of pull-in it is said already, and ways of round-off have no ratio */
-        if (v->motion[i] && !v->beyond_pull_in && !fw_verdict_stands_still(v, i)) {
+        FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
+        fw_verdict_requirement_factor(f, nh, v->shaken[i].required);
+        v->shaken[i].required_late = v->shaken[i].late;
+        const double ways = f[2 * nh];
+        if (v->motion[i] && !fw_verdict_stands_still(v, i)) { /* ways of round-off have no ratio */
             const double e = fw_verdict_bending_counted(v->motion[i]) +
                              fw_verdict_motion_model_error(m, v->motion[i]);
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
         }
-        FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
         if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
         FW_TRY(may_meet(arena, i, f[2 * nh], v));
         FW_TRY(may_ring(arena, i, v));
-        may_come_near(i, f[2 * nh], v);
+        may_come_near(i, f[2 * nh], ways, v);
         most = largest_of(f, 2 * nh + 2);
         if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
@@ -513,6 +532,7 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
     for (size_t i = 0; i < scenes; i++) {
         fw_verdict_shaken *of = &to[i];
+        of->other[0].probe = of->other[1].probe = NULL;
         const size_t n = (size_t)of->n, loads = (size_t)of->nload;
         KEEP(of->factor, 2 * h);
         if (n == 0) continue;
