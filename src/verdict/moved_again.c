@@ -449,13 +449,6 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
    where a scene ends it may be anywhere in its ring. Cost: modes and an equilibrium. Test: test_probe.py,
    test_a_settling_time_does_not_go_with_the_length_of_a_scene */
 
-/* least and largest of the last span of a course, its last two instants at the least */
-static void range_of(const fw_probe_course *c, double from_s, double *low, double *high) {
-    *low = *high = c->final;
-    for (size_t i = c->kept; i-- > 0 && (c->time[i] >= from_s || i + 2 >= c->kept);)
-        *low = fmin(*low, c->value[i]), *high = fmax(*high, c->value[i]);
-}
-
 /* NaN: none is found, or it is one of many */
 static fw_status equilibrium_at(fw_arena *arena, const fw_mechanism *m, int scene,
                                 const fw_dynamics_motion *motion, int probe, double *at) {
@@ -497,7 +490,7 @@ fw_status fw_verdict_rests_at(const fw_mechanism *m, int scene, const fw_dynamic
         rest->period_s = motion->end_s; /* nothing says how slowly it swings */
     const double goes_on_s = fw_verdict_laws_go_on_s(m, &m->device->scene[scene]);
     rest->period_s = fmax(rest->period_s, goes_on_s);
-    range_of(c, motion->end_s - rest->period_s, &low, &high);
+    fw_probe_range(c, motion->end_s - rest->period_s, &low, &high);
     if (goes_on_s > 0)
         at = (double)NAN; /* no one instant's equilibrium is where it comes to rest */
     else

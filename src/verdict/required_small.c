@@ -339,12 +339,23 @@ static double measured(const fw_probe_course *c, const fw_device_requirement *q)
         return c->final;
     case FW_MEASURE_PEAK_TO_PEAK:
         return most - least;
-    case FW_MEASURE_SETTLING:
-        return fw_probe_settling_s(c, c->final, q->band);
+    case FW_MEASURE_SETTLING: /* settling */
+        break;
     case FW_MEASURE_PARASITIC:
         return fabs(c->across.value);
     }
     return (double)NAN;
+}
+
+/* from the middle of what it goes over in the last period of the slowest mode */
+static fw_status settling(const fw_mechanism *m, const fw_verdict_other *o,
+                          const fw_device_requirement *q, int scene, double *s) {
+    const fw_probe_course *c = &o->probe->course[q->probe];
+    double slowest_s, low, high;
+    FW_TRY(fw_verdict_slowest_s(o->probe->arena, m, scene, &slowest_s));
+    fw_probe_range(c, o->motion->end_s - slowest_s, &low, &high);
+    *s = fw_probe_settling_s(c, 0.5 * (low + high), q->band);
+    return FW_OK;
 }
 
 static bool goes_with_loads(const fw_device_probe *p, fw_device_measure measure) {
@@ -386,6 +397,7 @@ fw_status fw_verdict_requirement_others(const fw_mechanism *m, const fw_verdict_
         const fw_verdict_other *o = &s->other[k];
         if (!o->asked || o->lost || !o->probe || o->probe->course[q->probe].count == 0) continue;
         now[k] = measured(&o->probe->course[q->probe], q);
+        if (q->measure == FW_MEASURE_SETTLING) FW_TRY(settling(m, o, q, r->scene_index, &now[k]));
         if (goes_with_loads(of, q->measure)) now[k] /= o->by;
         FW_TRY(take_in(m, o, q, now[k], r));
     }
