@@ -575,8 +575,8 @@ fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *m,
                                   const fw_dynamics_motion **motion) {
     fw_dynamics_motion_options o = *given;
     fw_diags own = fw_diags_new(arena);
-    o.trace = NULL, o.glance = NULL, o.unsettled = NULL, o.other = NULL, o.like = NULL;
-    o.tapes = NULL, o.late_rows = false, o.whole = o.trace_both = false;
+    o.glance = NULL, o.unsettled = NULL, o.other = NULL, o.like = NULL;
+    o.tapes = NULL, o.late_rows = false, o.trace_both = false;
     o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
     if (o.alone)
         o.integrator = like->integrator; /* found by trying: what gives along itself is stiff */

@@ -283,10 +283,11 @@ typedef struct
     hold { /* f (2 x (nhinge + 1)): more and less of every hinge, and of what goes farthest */
     const fw_verdict_strain_monitor *saw;
     double *far, *now, *f;
+    double more; /* times what is found */
 } hold;
 
-static void hold_factor(double now, double was, double *f) {
-    const double more = 1.25, part = was > 0 ? now / was - 1 : 0;
+static void hold_factor(double more, double now, double was, double *f) {
+    const double part = was > 0 ? now / was - 1 : 0;
     f[0] = fmax(f[0], 1 + more * part);
     f[1] = fmin(f[1], fmax(0, 1 + more * part));
 }
@@ -300,12 +301,13 @@ static void hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw
         strained = fmax(strained, h->saw->hinge[k].strain.value);
     for (int k = 0; k < nh; k++)
         if (h->saw->hinge[k].strain.value > hardly_strained * strained)
-            hold_factor(saw->hinge[k].strain.value, h->saw->hinge[k].strain.value, h->f + 2 * k);
+            hold_factor(h->more, saw->hinge[k].strain.value, h->saw->hinge[k].strain.value,
+                        h->f + 2 * k);
     for (int i = 0; i < 2 * nb; i++)
         most[i >= nb] = fmax(most[i >= nb], h->far[i]);
     for (int i = 0; i < 2 * nb; i++)
         if (h->far[i] > hardly_moves * most[i >= nb])
-            hold_factor(h->now[i], h->far[i], h->f + 2 * nh);
+            hold_factor(h->more, h->now[i], h->far[i], h->f + 2 * nh);
 }
 
 static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
@@ -316,6 +318,7 @@ static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_d
     fw_verdict_strain_monitor monitor;
     FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
     o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    o.trace = NULL, o.whole = false;
     FW_TRY(fw_statics_move_stiffer(arena, m, scene, by, like, &o, &x));
     *whole = x && !x->ended && !monitor.no_memory;
     memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
@@ -342,7 +345,7 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const double e = fmin(fmax(fw_verdict_motion_lasting_error(m), least), largest);
     if (!x || v->corner || nh == 0 || x->ended || !fw_statics_takes_hold(m, s, x, again))
         return FW_OK;
-    hold h = {.saw = x->observed};
+    hold h = {.saw = x->observed, .more = 1.25};
     FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
     h.now = h.far + n, h.f = h.now + n;
     for (size_t k = 0; k < 2 * nh + 2; k++)
@@ -371,6 +374,118 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
         fw_number_text(off, sizeof off, 100 * e, 2), fw_number_text(fewest, sizeof fewest, down, 3),
         fw_number_text(most, sizeof most, up, 3));
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- what the layer's own strain presses ----
+   A force that heat or a stress of the layer makes goes with what flexures are stiff along themselves, which is known to some per
+   cent, and what it leaves of their bending goes with K less that force: what decides is how far both are off against each
+   other, which no common factor has. So a scene whose layer grows is moved again, with bending softer and stiffer by what it is off
+   by, and the stiffness along strips the other way and the same way; bodies, which are in series with that, give where it is
+   softer. Bands take in all four; where one of them does not stand the device may have buckled: undecided.
+   In: v->motion, v->probed. Error: all flexures are off the same way. Cost: four motions, of such scenes alone. Source:
+   docs/theory/probes.md. Test: test_heated.py, Ratio */
+
+bool fw_verdict_grows(const fw_verdict_variant_verdict *v, int scene) {
+    return v->motion && scene != FW_NONE && v->motion[scene] &&
+           fw_effects_has_growth(v->motion[scene]->loads);
+}
+
+/* a leaf bends as it turns and as its ends go across it, and its stiffness along is its own; of others all is bending */
+void fw_verdict_off_by_itself(const fw_mechanism *m, double *bending, double *along) {
+    *bending = *along = 0;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_mechanism_hinge *h = &m->hinge[k];
+        const fw_flexure_error *e = &h->closed_form.error;
+        const bool leaf = h->law.half_angle_rad == 0 && !h->law.table;
+        *bending = fmax(*bending, fmax(h->stated ? 0 : e->stiffness, leaf ? e->kx : 0));
+        *along = fmax(*along, leaf ? e->ky : fmax(e->kx, e->ky));
+    }
+}
+
+fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double gives) {
+    const bool bends = k == 0 || k == 2, gave = k == 1 || k == 2;
+    const double bent = bends ? 1 / (1 + bending) : 1 + bending, left = 1 / (1 + gives),
+                 strip = gave ? left / (1 + along) : 1 + along, all = k == 2 ? left * bent : bent;
+    return (fw_verdict_way){.stiffer = all - 1, .along = strip / all - 1, .gives = gave};
+}
+
+/* what was accepted there is open */
+static fw_status tell_lost(fw_arena *arena, const fw_device_scene *s, int scene, double bending,
+                           double along, const fw_verdict_way *way, bool found,
+                           fw_verdict_variant_verdict *v) {
+    char bent[32], strip[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "%s%s: heat or stress makes the layer grow or shrink, and with flexures that bend %s by "
+        "the %s %%, and are %s along themselves by the %s %%, that they may be off by, %s: it may "
+        "buckle; keep away from there",
+        FW_NAMED("scene", s->name), way->stiffer < 0 ? "more easily" : "less easily",
+        fw_number_text(bent, sizeof bent, 100 * bending, 2), way->gives ? "softer" : "stiffer",
+        fw_number_text(strip, sizeof strip, 100 * along, 2),
+        found ? "it rests on an unstable equilibrium" : "no motion to its end was found");
+    FW_NEED(text);
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        if (r->scene_index != scene || !r->measure || r->why || r->decision == FW_REJECT) continue;
+        r->open = text, r->decision = FW_INCONCLUSIVE;
+        r->low = r->size || isnan(r->origin) ? 0 : -HUGE_VAL, r->high = HUGE_VAL;
+    }
+    return fw_verdict_scene_reason(v, s, 699, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF, text);
+}
+
+/* *told: a reason is given where it does not stand then, or has no such motion */
+static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
+                           const fw_dynamics_motion_options *given, const hold *h,
+                           fw_verdict_variant_verdict *v, bool *told) {
+    const long hopeless = 300000;
+    const fw_device_scene *s = &m->device->scene[i];
+    double bending, along;
+    fw_verdict_off_by_itself(m, &bending, &along);
+    const fw_verdict_way way =
+        fw_verdict_way_of(k, bending, along, fw_verdict_bending_share(v->motion[i]));
+    fw_dynamics_motion_options o = *given;
+    fw_verdict_strain_monitor monitor;
+    fw_probe_monitor *probe[2];
+    const fw_dynamics_motion *x;
+    const fw_statics_stability *falls = NULL;
+    fw_diags own = fw_diags_new(arena);
+    FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
+    FW_TRY(fw_verdict_requirements_watch(arena, m, i, v, true, probe));
+    monitor.probe = probe[0];
+    o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    o.within_limits = true, o.hopeless_rhs = hopeless, o.effects.along = way.along;
+    o.whole = probe[0] != NULL, o.trace = probe[0] ? fw_verdict_clearance_trace : NULL;
+    FW_TRY(fw_statics_move_stiffer(arena, m, s, way.stiffer, v->motion[i], &o, &x));
+    if (monitor.no_memory || (probe[0] && probe[0]->no_memory)) return FW_NOMEM;
+    const bool found = x && !x->ended;
+    if (found) FW_TRY(fw_statics_stability_find(arena, m, s, x, &own, &falls, NULL));
+    if (!found || falls) {
+        if (!*told) FW_TRY(tell_lost(arena, s, i, bending, along, &way, found, v));
+        *told = true;
+        return FW_OK;
+    }
+    memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
+    fw_verdict_farthest(m, x, h->now), hold_run(m, &monitor, h);
+    if (probe[0]) fw_verdict_requirements_take_in(m, i, x, probe[0], way.gives, v);
+    return FW_OK;
+}
+
+fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
+                                 const fw_dynamics_motion_options *options,
+                                 fw_verdict_variant_verdict *v) {
+    const fw_dynamics_motion *x = v->motion[i];
+    const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
+    if (!fw_verdict_grows(v, i) || nh == 0 || x->ended || !x->observed) return FW_OK;
+    hold h = {.saw = x->observed, .more = 1};
+    bool told = false;
+    FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
+    h.now = h.far + n, h.f = v->shaken[i].grown = h.now + n;
+    for (size_t k = 0; k < 2 * nh + 2; k++)
+        h.f[k] = 1;
+    fw_verdict_farthest(m, x, h.far);
+    for (int k = 0; k < FW_VERDICT_WAYS; k++)
+        FW_TRY(grown_way(arena, m, i, k, options, &h, v, &told));
+    return FW_OK;
 }
 
 /* ---- scenes in which nothing moves ---- */

@@ -69,26 +69,49 @@ static fw_status pull_more(fw_arena *arena, double more, fw_device_scene *scene)
     return FW_OK;
 }
 
-/* of stiffnesses */
-static double gives_more(const fw_mechanism *m, const fw_statics_modes *modes,
-                         const fw_verdict_variant_verdict *v) {
+/* of stiffnesses, by flexures alone */
+static double gives_more(const fw_mechanism *m, const fw_statics_modes *modes) {
     double most = 0;
     for (int k = 0; k < m->nhinge; k++)
         if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
-    return most + 2 * (m->nhinge > 0 ? modes->ledger.hinge.error : 0) +
-           fw_verdict_bending_of_any(v);
+    return most + 2 * (m->nhinge > 0 ? modes->ledger.hinge.error : 0);
 }
 
-static const char *no_equilibrium(fw_arena *arena, double e, double missing, int which) {
+/* the ways in which flexures are looked at; ways.n of them */
+typedef struct ways {
+    fw_verdict_way of[FW_VERDICT_WAYS];
+    int n;
+    double off; /* by which they are */
+} ways;
+
+static ways ways_of(const fw_mechanism *m, int scene, const fw_statics_modes *modes,
+                    const fw_verdict_variant_verdict *v) {
+    const double flexures = gives_more(m, modes), gives = fw_verdict_bending_of_any(v),
+                 e = flexures + gives;
+    if (!fw_verdict_grows(v, scene))
+        return (ways){.of = {{.stiffer = 1 / (1 + e) - 1}, {.stiffer = e}}, .n = 2, .off = e};
+    ways w = {.n = FW_VERDICT_WAYS};
+    double bending, along;
+    fw_verdict_off_by_itself(m, &bending, &along);
+    const double step = 2 * (m->nhinge > 0 ? modes->ledger.hinge.error : 0);
+    for (int k = 0; k < w.n; k++)
+        w.of[k] = fw_verdict_way_of(k, bending + step, along, gives);
+    w.off = isfinite(e) ? fmax(e, fmax(bending + step, along)) : e;
+    return w;
+}
+
+static const char *no_equilibrium(fw_arena *arena, const ways *w, double missing, int which) {
     char off[32], part[32];
-    return fw_arena_printf(
-        arena,
-        "with flexures and bodies %s by the %s %% that they may be off%s%s%s no stable equilibrium "
-        "was found, so that the device may have snapped: keep away from there",
-        which % 2 ? "stiffer" : "softer", fw_number_text(off, sizeof off, 100 * e, 2),
-        which > 1 ? ", and electrodes that pull by " : "",
-        which > 1 ? fw_number_text(part, sizeof part, 100 * missing, 2) : "",
-        which > 1 ? " % more," : "");
+    return fw_arena_printf(arena,
+                           "with flexures and bodies %s%s by the %s %% that they may be off%s%s%s "
+                           "no stable equilibrium "
+                           "was found, so that the device may have snapped: keep away from there",
+                           w->of[which % w->n].stiffer > 0 ? "stiffer" : "softer",
+                           w->n > 2 ? " in bending, and along themselves another way," : "",
+                           fw_number_text(off, sizeof off, 100 * w->off, 2),
+                           which >= w->n ? ", and electrodes that pull by " : "",
+                           which >= w->n ? fw_number_text(part, sizeof part, 100 * missing, 2) : "",
+                           which >= w->n ? " % more," : "");
 }
 
 fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
@@ -97,16 +120,17 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
                                  fw_verdict_small_others *to) {
     *to = (fw_verdict_small_others){0};
     if (scene == FW_NONE || !modes) return FW_OK;
-    const double e = gives_more(m, modes, v), missing = fw_verdict_pull_missing(v, scene);
-    if (!isfinite(e)) return FW_OK; /* bands have no ends then */
+    const ways w = ways_of(m, scene, modes, v);
+    const double missing = fw_verdict_pull_missing(v, scene);
+    if (!isfinite(w.off)) return FW_OK; /* bands have no ends then */
     fw_device_scene more = *of;
     FW_TRY(pull_more(arena, missing, &more));
-    for (int k = 0; k < (missing > 0 ? 4 : 2); k++) {
+    for (int k = 0; k < (missing > 0 ? 2 : 1) * w.n; k++) {
         fw_statics_mode_options o = *given;
         fw_diags own = fw_diags_new(arena);
         o.effects.hinge = modes->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
-        o.effects.stiffer = k % 2 ? e : 1 / (1 + e) - 1;
-        const fw_device_scene *s = k < 2 ? of : &more;
+        o.effects.stiffer = w.of[k % w.n].stiffer, o.effects.along = w.of[k % w.n].along;
+        const fw_device_scene *s = k < w.n ? of : &more;
         const fw_statics_modes *found = NULL;
         const fw_status status = fw_statics_small_motions(arena, m, s, &o, &own, &found);
         if (status == FW_NOMEM || status == FW_CANCELLED) return status;
@@ -115,7 +139,7 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
         if (stands)
             to->modes[to->count++] = found;
         else if (!to->lost)
-            FW_NEED(to->lost = no_equilibrium(arena, e, missing, k));
+            FW_NEED(to->lost = no_equilibrium(arena, &w, missing, k));
     }
     return FW_OK;
 }

@@ -477,10 +477,13 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
         }
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
-        if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
-        FW_TRY(may_meet(arena, i, f[2 * nh], v));
+        FW_TRY(fw_verdict_grown_again(arena, m, i, options, v));
+        const double *g = v->shaken[i].grown, far = f[2 * nh] * (g ? g[2 * nh] : 1),
+                     near = f[2 * nh + 1] * (g ? g[2 * nh + 1] : 1);
+        if (near < 1) may_not_meet(v, i, near);
+        FW_TRY(may_meet(arena, i, far, v));
         FW_TRY(may_ring(arena, i, v));
-        may_come_near(i, f[2 * nh], v);
+        may_come_near(i, far, v);
         most = largest_of(f, 2 * nh + 2);
         if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
@@ -515,6 +518,7 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
         fw_verdict_shaken *of = &to[i];
         const size_t n = (size_t)of->n, loads = (size_t)of->nload;
         KEEP(of->factor, 2 * h);
+        KEEP(of->grown, 2 * h);
         if (n == 0) continue;
         KEEP(of->mode, n);
         KEEP(of->load, loads);
