@@ -427,7 +427,7 @@ static fw_status tell_lost(fw_arena *arena, const fw_device_scene *s, int scene,
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         if (r->scene_index != scene || !r->measure || r->why || r->decision == FW_REJECT) continue;
-        r->open = text, r->decision = FW_INCONCLUSIVE;
+        r->open = "it may buckle (FW-D699)", r->decision = FW_INCONCLUSIVE;
         r->low = r->size || isnan(r->origin) ? 0 : -HUGE_VAL, r->high = HUGE_VAL;
     }
     return fw_verdict_scene_reason(v, s, 699, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF, text);
