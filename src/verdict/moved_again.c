@@ -466,7 +466,7 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
     }
     memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
     fw_verdict_farthest(m, x, h->now), hold_run(m, &monitor, h);
-    if (probe[0]) fw_verdict_requirements_take_in(m, i, x, probe[0], way.gives, v);
+    if (probe[0]) FW_TRY(fw_verdict_requirements_take_in(m, i, x, probe[0], way.gives, v));
     return FW_OK;
 }
 
@@ -499,7 +499,8 @@ static bool goes(const fw_mechanism *m, const fw_dynamics_motion *motion, double
     const double share = 1e-8, closed_m = 2 * motion->stats.assembly_moved_m;
     for (size_t i = 0; i < n; i++) {
         const fw_mechanism_mass *body = &m->body[i / 3];
-        const double drawn[3] = {body->x_m, body->y_m, body->phi_rad}, turn = i % 3 == 2;
+        const double drawn[3] = {body->x_m, body->y_m, body->phi_rad};
+        const bool turn = i % 3 == 2;
         const double little = share * (turn ? 1 : arm_m),
                      closed = turn && arm_m > 0 ? closed_m / arm_m : closed_m;
         if (fabs(motion->q[i] - drawn[i % 3]) > little + closed) return true;

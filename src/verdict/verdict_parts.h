@@ -224,10 +224,10 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_dynamics_motion_options *options,
                                  fw_verdict_variant_verdict *v);
 /* verdict_requirement.c: bands of a scene take in what another motion of it has; gives: bodies do in that */
-void fw_verdict_requirements_take_in(const fw_mechanism *mechanism, int scene,
-                                     const fw_dynamics_motion *other,
-                                     const fw_probe_monitor *monitor, bool gives,
-                                     fw_verdict_variant_verdict *v);
+fw_status fw_verdict_requirements_take_in(const fw_mechanism *mechanism, int scene,
+                                          const fw_dynamics_motion *other,
+                                          const fw_probe_monitor *monitor, bool gives,
+                                          fw_verdict_variant_verdict *v);
 /* most of a pull that may be missing in a scene (fw_effects_comb_fringe), relative; 0: no electrodes act */
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
 /* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with all of the pull;

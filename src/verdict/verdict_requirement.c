@@ -303,30 +303,39 @@ static void judge_ended(fw_device_measure measure, fw_verdict_requirement *r) {
 
 /* Another motion of the scene, with what is left of the band once what flexures are off by is out of it, and what bodies
    give where they do in `other` */
-static void take_in(const fw_mechanism *m, const fw_dynamics_motion *motion,
-                    const fw_dynamics_motion *other, const fw_probe_monitor *monitor,
-                    const fw_probe_result *p, const fw_probe_result *now, bool gives,
-                    fw_verdict_requirement *r) {
+static fw_status take_in(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                         const fw_dynamics_motion *other, const fw_probe_monitor *monitor,
+                         const fw_probe_result *p, const fw_probe_result *now, bool gives,
+                         fw_verdict_requirement *r) {
     const fw_device_measure measure = m->device->requirement[r->asked].measure;
     const bool across = measure == FW_MEASURE_PARASITIC, time = measure == FW_MEASURE_SETTLING;
-    const double left = model_of(m, motion, across ? p->across_level : p->level) -
+    const int probe = m->device->requirement[r->asked].probe;
+    const double left = model_of(m, motion, across ? p->across_level : p->level) +
+                        fw_verdict_places_error(motion, &m->device->probe[probe]) -
                         fw_verdict_motion_lasting_error(m) -
                         (gives ? fw_verdict_bending_share(motion) : 0);
     fw_verdict_requirement then = *r;
     judge(m, other, monitor, now, false, &then);
+    fw_probe_ring ring = {0, then.value, then.value};
+    if (measure == FW_MEASURE_FINAL) { /* where it still rings, as put_ring */
+        bool shaken;
+        FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
+        if (!shaken) ring = fw_probe_rings(&monitor->probe[probe], other);
+    }
     const double off = r->numeric + (time ? 0 : fmax(0, left) * then.swing),
                  least = r->low >= 0 && r->value >= 0 && isnan(r->origin) ? 0 : -HUGE_VAL,
-                 low = fmin(r->low, fmax(least, then.value - off)),
-                 high = fmax(r->high, then.value + off);
+                 low = fmin(r->low, fmax(least, fmin(then.value, ring.low) - off)),
+                 high = fmax(r->high, fmax(then.value, ring.high) + off);
     if (r->value != 0) r->lasting += fmax(r->low - low, high - r->high) / fabs(r->value);
     r->low = low, r->high = high;
     decide(r);
+    return FW_OK;
 }
 
-void fw_verdict_requirements_take_in(const fw_mechanism *m, int scene,
-                                     const fw_dynamics_motion *other,
-                                     const fw_probe_monitor *monitor, bool gives,
-                                     fw_verdict_variant_verdict *v) {
+fw_status fw_verdict_requirements_take_in(const fw_mechanism *m, int scene,
+                                          const fw_dynamics_motion *other,
+                                          const fw_probe_monitor *monitor, bool gives,
+                                          fw_verdict_variant_verdict *v) {
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         const int probe = m->device->requirement[r->asked].probe;
@@ -334,8 +343,9 @@ void fw_verdict_requirements_take_in(const fw_mechanism *m, int scene,
         fw_probe_result now;
         if (r->scene_index != scene || !r->measure || r->why) continue;
         fw_probe_result_of(monitor, NULL, other, probe, &now);
-        if (now.known) take_in(m, v->motion[scene], other, monitor, p, &now, gives, r);
+        if (now.known) FW_TRY(take_in(m, v->motion[scene], other, monitor, p, &now, gives, r));
     }
+    return FW_OK;
 }
 
 fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
