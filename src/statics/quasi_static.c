@@ -581,7 +581,8 @@ fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *m,
     if (o.alone)
         o.integrator = like->integrator; /* found by trying: what gives along itself is stiff */
     o.samples = like->nsample, o.hinge_accuracy = 1;
-    o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+    o.effects.hinge = like->ledger.hinge.used, o.effects.untold = true;
+    o.effects.like = o.effects.along != 0 ? &like->ledger : NULL; /* hardly another device */
     o.effects.stiffer = by;
     const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, motion);
     if (status != FW_OK) *motion = NULL;

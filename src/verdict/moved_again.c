@@ -436,7 +436,8 @@ static fw_status tell_lost(fw_arena *arena, const fw_device_scene *s, int scene,
 /* *told: a reason is given where it does not stand then, or has no such motion */
 static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
                            const fw_dynamics_motion_options *given, const hold *h,
-                           fw_verdict_variant_verdict *v, bool *told) {
+                           const fw_verdict_required *required, fw_verdict_variant_verdict *v,
+                           bool *told) {
     const long hopeless = 300000;
     const fw_device_scene *s = &m->device->scene[i];
     double bending, along;
@@ -450,7 +451,7 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
     const fw_statics_stability *falls = NULL;
     fw_diags own = fw_diags_new(arena);
     FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
-    FW_TRY(fw_verdict_requirements_watch(arena, m, i, v, true, probe));
+    FW_TRY(required->watch(arena, m, i, v, true, probe));
     monitor.probe = probe[0];
     o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
     o.within_limits = true, o.hopeless_rhs = hopeless, o.effects.along = way.along;
@@ -466,12 +467,13 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
     }
     memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
     fw_verdict_farthest(m, x, h->now), hold_run(m, &monitor, h);
-    if (probe[0]) FW_TRY(fw_verdict_requirements_take_in(m, i, x, probe[0], way.gives, v));
+    if (probe[0]) FW_TRY(required->take_in(m, i, x, probe[0], way.gives, v));
     return FW_OK;
 }
 
 fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
                                  const fw_dynamics_motion_options *options,
+                                 const fw_verdict_required *required,
                                  fw_verdict_variant_verdict *v) {
     const fw_dynamics_motion *x = v->motion[i];
     const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
@@ -484,7 +486,7 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
         h.f[k] = 1;
     fw_verdict_farthest(m, x, h.far);
     for (int k = 0; k < FW_VERDICT_WAYS; k++)
-        FW_TRY(grown_way(arena, m, i, k, options, &h, v, &told));
+        FW_TRY(grown_way(arena, m, i, k, options, &h, required, v, &told));
     return FW_OK;
 }
 

@@ -456,7 +456,8 @@ static double largest_of(const double *x, int n) {
 
 /* v->shaken; warnings, and a reason where what does not meet may then meet */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
-                            const fw_dynamics_motion_options *options, bool brief, fw_diags *diags,
+                            const fw_dynamics_motion_options *options,
+                            const fw_verdict_required *required, bool brief, fw_diags *diags,
                             fw_verdict_variant_verdict *v) {
     const double told = 1.1;
     const fw_device *d = m->device;
@@ -477,7 +478,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
         }
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
-        FW_TRY(fw_verdict_grown_again(arena, m, i, options, v));
+        FW_TRY(fw_verdict_grown_again(arena, m, i, options, required, v));
         const double *g = v->shaken[i].grown, far = f[2 * nh] * (g ? g[2 * nh] : 1),
                      near = f[2 * nh + 1] * (g ? g[2 * nh + 1] : 1);
         if (near < 1) may_not_meet(v, i, near);

@@ -553,7 +553,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     for (int i = 0; i < device->nscene; i++)
         bodies[i] = fw_verdict_bending_share(v->motion[i]);
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
-    FW_TRY(fw_verdict_detune(arena, m, bodies, &options->motion, brief, diags, v));
+    FW_TRY(fw_verdict_detune(arena, m, bodies, &options->motion, &fw_verdict_required_of_scenes,
+                             brief, diags, v));
     fw_verdict_bent_leaves_open(v, 0);
     if (!options->hinges_only)
         FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));
@@ -565,7 +566,6 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
                                       is_brief(options, v) || options->bounded, v));
     if (!brief) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
-
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *hinge = &m->hinge[k];
         const judged by = {.m = m,

@@ -207,6 +207,16 @@ fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, i
 fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
                               const fw_dynamics_motion_options *options, bool brief,
                               fw_diags *diags, fw_verdict_variant_verdict *v);
+/* verdict_requirement.c: who moves a scene again looks at what is required of it, and bands take in what that motion has; gives: bodies do in it */
+typedef struct fw_verdict_required {
+    fw_status (*watch)(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                       const fw_verdict_variant_verdict *v, bool required,
+                       fw_probe_monitor *monitor[2]);
+    fw_status (*take_in)(const fw_mechanism *mechanism, int scene, const fw_dynamics_motion *other,
+                         const fw_probe_monitor *monitor, bool gives,
+                         fw_verdict_variant_verdict *v);
+} fw_verdict_required;
+extern const fw_verdict_required fw_verdict_required_of_scenes;
 /* moved_again.c: the layer of a scene grows or shrinks by itself, so that what flexures are off by in bending and along
    themselves counts each by itself. Of the four ways k to combine them: what all of a flexure's stiffness is more by, and
    what that along itself is more by besides; gives: share that bodies give */
@@ -222,12 +232,8 @@ fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double giv
    does not stand then is undecided (FW-D699) */
 fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                  const fw_dynamics_motion_options *options,
+                                 const fw_verdict_required *required,
                                  fw_verdict_variant_verdict *v);
-/* verdict_requirement.c: bands of a scene take in what another motion of it has; gives: bodies do in that */
-fw_status fw_verdict_requirements_take_in(const fw_mechanism *mechanism, int scene,
-                                          const fw_dynamics_motion *other,
-                                          const fw_probe_monitor *monitor, bool gives,
-                                          fw_verdict_variant_verdict *v);
 /* most of a pull that may be missing in a scene (fw_effects_comb_fringe), relative; 0: no electrodes act */
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
 /* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with all of the pull;
@@ -262,7 +268,8 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *mechanism
 /* v->shaken, whose factors are 1 where no law goes to and fro and loads leave most of the stiffness; bodies (nscene): share
    that they give (fw_verdict_bending_share). Warnings (FW-D642, FW-D672), and what may meet then, or may not, is undecided */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,
-                            const fw_dynamics_motion_options *options, bool brief, fw_diags *diags,
+                            const fw_dynamics_motion_options *options,
+                            const fw_verdict_required *required, bool brief, fw_diags *diags,
                             fw_verdict_variant_verdict *v);
 /* factors (2 x (nhinge + 1)) and `late` for modes that lie anywhere between their low and high, at other stiffnesses */
 fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *mechanism, int scene,

@@ -332,10 +332,9 @@ static fw_status take_in(const fw_mechanism *m, const fw_dynamics_motion *motion
     return FW_OK;
 }
 
-fw_status fw_verdict_requirements_take_in(const fw_mechanism *m, int scene,
-                                          const fw_dynamics_motion *other,
-                                          const fw_probe_monitor *monitor, bool gives,
-                                          fw_verdict_variant_verdict *v) {
+static fw_status take_in_motion(const fw_mechanism *m, int scene, const fw_dynamics_motion *other,
+                                const fw_probe_monitor *monitor, bool gives,
+                                fw_verdict_variant_verdict *v) {
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         const int probe = m->device->requirement[r->asked].probe;
@@ -347,6 +346,9 @@ fw_status fw_verdict_requirements_take_in(const fw_mechanism *m, int scene,
     }
     return FW_OK;
 }
+
+const fw_verdict_required fw_verdict_required_of_scenes = {fw_verdict_requirements_watch,
+                                                           take_in_motion};
 
 fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
                                            const fw_probe_monitor *monitor,
