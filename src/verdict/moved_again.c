@@ -485,7 +485,8 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
     for (size_t k = 0; k < 2 * nh + 2; k++)
         h.f[k] = 1;
     fw_verdict_farthest(m, x, h.far);
-    for (int k = 0; k < FW_VERDICT_WAYS; k++)
+    const bool pins = x->ledger.hinge.used == FW_HINGE_REVOLUTE; /* which have nothing along */
+    for (int k = 0; k < (pins ? 2 : FW_VERDICT_WAYS); k++)
         FW_TRY(grown_way(arena, m, i, k, options, &h, required, v, &told));
     return FW_OK;
 }
