@@ -284,6 +284,13 @@ static fw_status make_parents(fw_arena *arena, const char *path, fw_diags *diags
     return FW_OK;
 }
 
+fw_status fw_output_directory(fw_arena *arena, const char *path, bool *made) {
+    fw_diags untold = fw_diags_new(arena);
+    const fw_status status = make_parents(arena, path, &untold);
+    *made = status != FW_NOMEM && mkdir(path, 0777) == 0;
+    return status == FW_NOMEM ? FW_NOMEM : FW_OK;
+}
+
 /* sha256 that the manifest lists for `name`, or NULL */
 static const char *listed(const json_t *manifest, const char *name) {
     const json_t *outputs = json_object_get(manifest, "outputs"), *entry;

@@ -33,6 +33,9 @@ void fw_output_abort(fw_output *output); /* removes what was built; NULL and twi
 fw_status fw_output_single(fw_arena *arena, const char *path, const void *data, size_t n,
                            fw_diags *diags);
 
+/* makes a directory with those above it. *made: it was not there. What is wrong with it, writing into it will say */
+fw_status fw_output_directory(fw_arena *arena, const char *path, bool *made);
+
 typedef struct fw_output_member {
     const char *name; /* without '/' */
     const void *data;

@@ -4,7 +4,6 @@
 #include "continuum/continuum.h"
 #include "plan/ladder.h"
 #include <math.h>
-#include <sys/stat.h>
 
 typedef struct writer {
     fw_plan *plan;
@@ -91,9 +90,10 @@ static fw_status whole_mechanism(const writer *w, const fw_device_scene *scene) 
 fw_status fw_cli_decks(fw_plan *plan, const char *directory, double refinement, int *files) {
     const fw_device *device = plan->device;
     writer w = {.plan = plan, .directory = directory, .refinement = refinement, .files = files};
+    bool made;
     *files = 0;
     FW_TRY(fw_plan_hinges_layout(plan, &w.layout));
-    mkdir(directory, 0777); /* what is wrong with it, writing will say */
+    FW_TRY(fw_output_directory(plan->arena, directory, &made));
     for (int i = 0; i < plan->nflow; i++) {
         const fw_mechanism_variant *variant = &plan->flow[i].variant;
         w.flow = variant->flow;

@@ -286,6 +286,22 @@ static void tell_once(fw_diags *diags, size_t before, size_t first, fw_place pla
     diags->count = kept;
 }
 
+/* the one line that says that the lot goes on by another plan */
+static fw_status replan(fw_plan *plan, const fw_plan_flow *pf, const char *hash,
+                        const fw_cli_options *options, fw_text *added, fw_recipe_asrun *run) {
+    const char *words, *line;
+    FW_TRY(entry_words(plan->arena, options, &words));
+    FW_TRY(fw_recipe_asrun_add_plan(plan->arena, run, hash, words, (fw_place){"entry", 1, 1},
+                                    &plan->diags, &line));
+    fw_text_add(added, line);
+    FW_NEED(run->link = fw_arena_grow(plan->arena, run->link, (size_t)run->nline,
+                                      (size_t)run->nline + 1, sizeof *run->link));
+    FW_NEED(run->replan = fw_arena_grow(plan->arena, run->replan, (size_t)run->nreplan,
+                                        (size_t)run->nreplan + 1, sizeof *run->replan));
+    FW_TRY(fw_recipe_asrun_read_next(plan->arena, pf->flow, options->run, line, &plan->diags, run));
+    return fw_text_end(added);
+}
+
 /* All lines behind what the log holds; each is read back behind those before it, as the next command would. The log after
    them is in *run. */
 static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flow *pf,
@@ -300,13 +316,17 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
     fw_text_add(&whole, line);
     fw_text_add(added, line);
     FW_TRY(fw_text_end(&whole));
-    FW_TRY(fw_recipe_asrun_read(plan->arena, pf->flow, hash, options->run, whole.data, whole.length,
-                                &plan->diags, run));
+    const bool replans = options->entry && fw_recipe_asrun_is_plan(options->entry);
+    FW_TRY((replans ? fw_recipe_asrun_read_former : fw_recipe_asrun_read)(
+        plan->arena, pf->flow, hash, options->run, whole.data, whole.length, &plan->diags, run));
     FW_TRY(fw_cli_check_head(plan->arena, &plan->diags, options->run, begun, run));
     run->table = pf->table;
+    if (replans) return replan(plan, pf, hash, options, added, run);
     FW_TRY(entries_of(plan, options, run, &list));
     FW_NEED(run->entry = fw_arena_grow(plan->arena, run->entry, (size_t)run->nentry,
                                        (size_t)(run->nentry + list.n), sizeof *run->entry));
+    FW_NEED(run->link = fw_arena_grow(plan->arena, run->link, (size_t)run->nline,
+                                      (size_t)(run->nline + list.n), sizeof *run->link));
     fw_status wrong = FW_OK; /* every mistake of a list is told, and nothing of it is added */
     const size_t first = plan->diags.count;
     for (int i = 0; i < list.n; i++) {
@@ -344,7 +364,7 @@ static fw_status write_behind(fw_append *file, fw_plan *plan, const fw_text *add
                               const fw_recipe_asrun *run) {
     const size_t before = file->n;
     FW_TRY(fw_append_text(file, added->data, added->length));
-    fw_status status = write_head(plan, file->path, run->nentry, run->chain);
+    fw_status status = write_head(plan, file->path, run->nline, run->chain);
     if (status != FW_OK)
         fw_append_take_back(file, before); /* else it would be added a second time */
     return status;
@@ -362,7 +382,7 @@ static fw_status add_to(fw_append *file, fw_plan *plan, const fw_plan_flow *pf, 
     if (begins) FW_TRY(write_head(plan, options->run, 0, run.begun));
     fw_status status = write_behind(file, plan, &added, &run);
     if (status != FW_OK && begins) unlink(name); /* there is no log */
-    if (status == FW_OK && !options->quiet) printf("%s: entry %d\n", options->run, run.nentry);
+    if (status == FW_OK && !options->quiet) printf("%s: entry %d\n", options->run, run.nline);
     return status;
 }
 

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static void progress(void *context, long done, long all, double seconds) {
@@ -46,12 +45,11 @@ static fw_status print(fw_study *study, fw_status (*compose)(const fw_study *stu
     return FW_OK;
 }
 
-/* out/DEVICE-STUDY; `out` is made, as plan does */
+/* out/DEVICE-STUDY */
 static fw_status settle_output(fw_study *study) {
     if (study->options.output) return FW_OK;
     FW_NEED(study->options.output =
                 fw_arena_printf(study->arena, "out/%s-%s", study->device_name, study->asked->name));
-    mkdir("out", 0777); /* what is wrong with it, the store will say */
     return FW_OK;
 }
 

@@ -345,6 +345,10 @@ static fw_status of_table(work *w, const fw_process_flow *flow, const char *file
                           fw_process_calibration *found) {
     fw_process_measurement *row;
     int nrow;
+    if (w->options->without || w->options->all_runs)
+        return fw_diag_error(&w->diags, 211, (fw_place){.file = file},
+                             "a table has neither wafers nor runs: --without and --all-runs are "
+                             "for the as-run log of a lot; leave rows out of the table itself");
     FW_TRY(fw_process_measurements_read(w->arena, file, text, w->n, &w->diags, &row, &nrow));
     const fw_process_measurement **each =
         fw_arena_array(w->arena, const fw_process_measurement *, (size_t)nrow + 1);
@@ -364,7 +368,9 @@ static fw_status of_log(work *w, const fw_process_flow *flow, const char *file, 
     fw_process_readings readings;
     FW_TRY(fw_recipe_asrun_read(w->arena, flow, NULL, file, text, w->n, &w->diags, &run));
     FW_TRY(fw_cli_check_head(w->arena, &w->diags, file, true, &run));
-    FW_TRY(fw_recipe_asrun_readings(w->arena, &run, &w->diags, &readings));
+    const fw_recipe_counted counted = {.all_runs = w->options->all_runs,
+                                       .without = w->options->without};
+    FW_TRY(fw_recipe_asrun_readings(w->arena, &run, &counted, &w->diags, &readings));
     readings.file = slash ? slash + 1 : file;
     readings.sha256 = hash;
     const fw_process_measurement **each =

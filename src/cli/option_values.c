@@ -273,6 +273,17 @@ const char *fw_cli_take_wafer_ids(fw_cli_options *o, const char *v) {
     return wrong;
 }
 
+const char *fw_cli_take_without(fw_cli_options *o, const char *v) {
+    o->without = v;
+    return *v ? NULL : "needs ids of wafers with commas between";
+}
+
+const char *fw_cli_take_all_runs(fw_cli_options *o, const char *v) {
+    (void)v;
+    o->all_runs = true;
+    return NULL;
+}
+
 const char *fw_cli_take_wafer(fw_cli_options *o, const char *v) {
     o->wafer = v;
     return *v ? NULL : "needs the id of a wafer";

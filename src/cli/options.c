@@ -388,8 +388,7 @@ static const fw_cli_option_row table[] = {
      take_memory},
     {"time-limit", 0, "SECONDS",
      "most time that the command may take; where it is over, nothing is written and the exit "
-     "status "
-     "is 6. Default: none",
+     "status is 6. Default: none",
      FW_OPT_PLAN, take_time_limit},
     {"effects", 0, "WHICH",
      "auto (leaves out what provably changes less than the accuracy wanted), all, none, or a "
@@ -400,8 +399,7 @@ static const fw_cli_option_row table[] = {
      FW_OPT_PLAN, take_effects},
     {"corners", 0, "WHICH",
      "auto: the verdict holds for what each flow may make of the device, at the corners of its "
-     "ranges "
-     "(edges, etch, thickness, modulus); none: for the drawn geometry only",
+     "ranges (edges, etch, thickness, modulus); none: for the drawn geometry only",
      FW_OPT_PLAN, take_corners},
     {"advice", 0, "WHICH",
      "auto: for a design that is not accepted, the smallest changes that would be are searched "
@@ -411,8 +409,7 @@ static const fw_cli_option_row table[] = {
      "which input of a flow to measure first: by how much knowing each as exactly as its coupon "
      "reads "
      "it narrows the verdict's band and the steps' time windows. auto: with a recipe, and where "
-     "what a "
-     "flow makes is undecided; all: always; none: never",
+     "what a flow makes is undecided; all: always; none: never",
      FW_OPT_VERDICT, take_measurements},
     {"flow", 0, "NAME", "only this process flow", FW_OPT_PLAN, take_flow},
     {"hinge-model", 0, "MODEL", "how flexures enter the mechanism: {names}", FW_OPT_PLAN,
@@ -434,15 +431,13 @@ static const fw_cli_option_row table[] = {
      fw_cli_take_mask_format},
     {"mask-vertices", 0, "N",
      "most vertices of one GDSII boundary: 199, 4094 or 8190; default 4094; larger outlines are "
-     "cut "
-     "at vertices",
+     "cut at vertices",
      FW_OPT_FABRICATE, fw_cli_take_mask_vertices},
     {"layers", 0, "FILE",
      "the laboratory's own layer numbers, 0 to 65535, and names, a line for each layer: "
      "\"structure 7/0 "
      "name POLY2\"; LAYER is an id or a role of the layer table, lines below \"flow NAME\" are for "
-     "that "
-     "flow, # begins a remark",
+     "that flow, # begins a remark",
      FW_OPT_FABRICATE, fw_cli_take_layers},
     {"wafers", 0, "N", "wafers of the schedule, 1 to 50; default 1", FW_OPT_SCHEDULE, take_wafers},
     {"operators", 0, "K", "people who stand at the machines, 1 to 50; default 1", FW_OPT_SCHEDULE,
@@ -452,12 +447,12 @@ static const fw_cli_option_row table[] = {
      "none: round the clock; "
      "\"08:00-18:00 from 2026-11-23T13:00 UTC+01:00\": the first day, with a time of it and a zone "
      "where they matter; a zone whose clocks are changed as POSIX writes it, \"08:00-18:00 from "
-     "2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3\". What needs nobody may go on over night",
+     "2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3\". What needs nobody may go on over night, but for "
+     "what nobody may be alone with and what is looked at between its parts",
      FW_OPT_SCHEDULE, take_day},
     {"planned", 0, "LIST",
      "planning times for steps whose own is NOT COMPUTABLE, like \"S03=90 min,S09=20 s\"; marked "
-     "in "
-     "the schedule, and used for nothing else",
+     "in the schedule, and used for nothing else",
      FW_OPT_SCHEDULE, take_planned},
     {"cut", 0, "LINE",
      "where the sections of the run sheet cut the wafer: \"x1,y1,x2,y2\" in um or as lengths with "
@@ -469,6 +464,14 @@ static const fw_cli_option_row table[] = {
      FW_OPT_PLAN | FW_OPT_CALIBRATE, take_lab},
     {"output", 'o', "FILE", "the laboratory pack; default standard output", FW_OPT_CALIBRATE,
      take_output},
+    {"without", 0, "LIST",
+     "wafers of a log whose readings do not count: their ids with commas "
+     "between",
+     FW_OPT_CALIBRATE, fw_cli_take_without},
+    {"all-runs", 0, NULL,
+     "count readings of a log also where its own times say that the run was out of its window, or "
+     "an earlier step was run again since",
+     FW_OPT_CALIBRATE, fw_cli_take_all_runs},
     {"output", 'o', "FILE",
      "the PDF; default standard output where that is no terminal, - in any case", FW_OPT_FIGURE,
      take_output},
@@ -491,8 +494,7 @@ static const fw_cli_option_row table[] = {
     {"stabilise", 0, "HOW", "projection, baumgarte or none", FW_OPT_SIMULATE, take_stabilise},
     {"rtol", 0, "R",
      "relative tolerance of the integrator, used between 1e-13 and 1e-5 (a note says when it is "
-     "not "
-     "used as given); default from --accuracy",
+     "not used as given); default from --accuracy",
      FW_OPT_SIMULATE, take_rtol},
     {"samples", 0, "N", "rows of the CSV, evenly over the scene; default 1001", FW_OPT_SIMULATE,
      take_samples},
@@ -539,8 +541,7 @@ static const fw_cli_option_row table[] = {
      "many entries at once, a line for each with the words of --entry and wafer=ID; "
      "instrument=NAME; "
      "set power=251 W; coupon=...; # begins a remark. All of them are added, or none; - is "
-     "standard "
-     "input",
+     "standard input",
      FW_OPT_LOG, fw_cli_take_entries},
     {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, fw_cli_take_lot},
     {"wafers", 0, "LIST",
@@ -559,8 +560,7 @@ static const fw_cli_option_row table[] = {
      fw_cli_take_setting},
     {"coupon", 0, "WORDS",
      "a coupon as calibrate takes it: \"arde-slots, drawn=10 um, value=45.6 45.4 45.7 45.5 45.6 "
-     "um, "
-     "u=0.1 um, at=90 min\"; repeatable",
+     "um, u=0.1 um, at=90 min\"; repeatable",
      FW_OPT_LOG, fw_cli_take_coupon},
     {"instrument", 0, "NAME", "with which it was measured", FW_OPT_LOG, fw_cli_take_instrument},
     {"report", 0, "FILE",
@@ -571,13 +571,11 @@ static const fw_cli_option_row table[] = {
     {"ipv6", 0, NULL, "listen on ::1 as well as on 127.0.0.1", FW_OPT_SERVE, take_ipv6},
     {"budget", 0, "SECONDS",
      "how much work to spend, 1 to 3600 s of a machine that does 2.5e9 instructions a second; "
-     "default "
-     "20. Settings that would go over their share are left out and listed as such",
+     "default 20. Settings that would go over their share are left out and listed as such",
      FW_OPT_TRADEOFF, take_budget},
     {"no-time", 0, NULL,
      "measure nothing on this machine (times, counted instructions): costs are those of a model, "
-     "and "
-     "the same input gives the same bytes",
+     "and the same input gives the same bytes",
      FW_OPT_TRADEOFF, take_no_time},
     {"settings", 0, "LIST",
      "run only the settings LEVEL;METHOD/INTEGRATOR/RTOL,... and print nothing: what the program "

@@ -23,6 +23,8 @@ typedef struct fw_cli_options {
     const char *level, *deck;                /* of hinge; NULL: by accuracy, none */
     const char *run, *entry, *entries, *lot; /* of log */
     const char *wafer, *wafer_ids, *instrument, *report;
+    const char *without; /* of calibrate; NULL: none */
+    bool all_runs;
     double now_s; /* local time when it was started, since 1970-01-01T00:00 there */
     struct {
         const char *before, *words; /* "set ", "power=251 W" */
@@ -143,6 +145,8 @@ const char *fw_cli_take_entry(fw_cli_options *o, const char *v);
 const char *fw_cli_take_entries(fw_cli_options *o, const char *v);
 const char *fw_cli_take_lot(fw_cli_options *o, const char *v);
 const char *fw_cli_take_wafer_ids(fw_cli_options *o, const char *v);
+const char *fw_cli_take_without(fw_cli_options *o, const char *v);
+const char *fw_cli_take_all_runs(fw_cli_options *o, const char *v);
 const char *fw_cli_take_wafer(fw_cli_options *o, const char *v);
 const char *fw_cli_take_instrument(fw_cli_options *o, const char *v);
 const char *fw_cli_take_report(fw_cli_options *o, const char *v);

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -119,8 +118,10 @@ int fw_cli_session_print(fw_design *design, const fw_cli_options *options, int d
 
 int fw_cli_session_put(fw_plan *plan, const char *directory, const fw_output_member *file,
                        size_t count) {
-    bool made = mkdir(directory, 0777) == 0; /* what is wrong with it, saving will say */
-    fw_status status = fw_output_members(plan->arena, directory, file, count, &plan->diags);
+    bool made;
+    fw_status status = fw_output_directory(plan->arena, directory, &made);
+    if (status == FW_OK)
+        status = fw_output_members(plan->arena, directory, file, count, &plan->diags);
     if (status != FW_OK && made) rmdir(directory);
     return (int)status;
 }

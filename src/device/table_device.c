@@ -90,12 +90,13 @@ static const fw_xml_attribute_row require_rows[] = {
      .sentence =
          "What of its course over the scene: peak: the largest size; maximum, minimum; "
          "final: at the end; peak-to-peak: maximum less minimum; settling-time: after which "
-         "it stays within the band about its final value; parasitic: the largest "
-         "displacement across the direction."},
+         "it stays within the band about where it comes to rest under the loads that the scene "
+         "ends with; parasitic: the largest displacement across the direction."},
     {"min", .kind = FW_KIND_ANY, .fallback = "no bound", .sentence = "At least this."},
     {"max", .kind = FW_KIND_ANY, .fallback = "no bound", .sentence = "At most this."},
     {"band", .kind = FW_KIND_ANY,
-     .sentence = "Of a settling time: how far from the final value still counts as settled."},
+     .sentence =
+         "Of a settling time: how far from where it comes to rest still counts as settled."},
     {"scene", REF(FW_SPACE_SCENE),
      .fallback = "every scene that has the probe; of stiffness, compliance and frequency: at rest",
      .sentence = "In which scene; of stiffness, compliance and frequency: about the worst of "

@@ -232,6 +232,30 @@ static void check_start(fw_device_reader *r, const fw_xml_record *record,
                     fw_xml_label(record, label), fw_xml_in_unit(end, end_s, "ms"));
 }
 
+/* a law that grows on behind the scene's end: a ramp that is longer, points of a table that nothing reaches */
+static void check_reach(fw_device_reader *r, const fw_xml_record *record,
+                        const fw_quantity_law *law) {
+    enum { BREAKS = 256 };
+    const double end_s = fw_xml_number_of(&r->xml.record[record->parent], "duration");
+    double at_s[BREAKS], last_s = 0;
+    char label[FW_LABEL], end[FW_LABEL], last[FW_LABEL], part[32];
+    if (!law->kind->largest || !(end_s > 0) || !isfinite(end_s)) return;
+    const int n = fw_quantity_law_breaks_of(law, (double)INFINITY, at_s, BREAKS);
+    for (int i = 0; i < n && i < BREAKS; i++)
+        last_s = fmax(last_s, at_s[i]);
+    if (!(last_s > end_s * (1 + 1e-9)) || !isfinite(last_s)) return;
+    const double most = fw_quantity_law_largest(law, last_s),
+                 met = fw_quantity_law_largest(law, end_s);
+    if (!(met > 0) || !(met < 0.99 * most)) return;
+    fw_diag_warning(r->diags, 701, fw_xml_place_of(record, "law"),
+                    "%s: where the scene ends, at %s, its law has come to %s %% of what it comes "
+                    "to, at %s: nothing is said of the rest; make the scene longer, or let the "
+                    "law be as far as it is meant to come",
+                    fw_xml_label(record, label), fw_xml_in_unit(end, end_s, "ms"),
+                    fw_number_text(part, sizeof part, 100 * met / most, 3),
+                    fw_xml_in_unit(last, last_s, "ms"));
+}
+
 /* Every period takes some ten steps, and a run 10 million of them at most (FW-D108). Of what a mean
    would leave out no bound is known. */
 static const double fw_most_periods = 1e6;
@@ -266,6 +290,7 @@ fw_status fw_device_time_law(fw_device_reader *r, const fw_xml_record *record,
     FW_TRY(read_law(r, record, kind, own, &ok));
     if (ok && !fw_quantity_law_is_constant(own)) *law = own;
     if (ok) check_start(r, record, own);
+    if (ok) check_reach(r, record, own);
     if (ok) check_periods(r, record, own);
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -15,6 +15,10 @@ static bool brittle(const fw_device_material *material) {
     return material->criterion && strncmp(material->criterion, "fracture", 8) == 0;
 }
 
+static bool from_device(const fw_quantity *q) {
+    return known(q) && q->source && strcmp(q->source, "device file") == 0;
+}
+
 /* from one quantity, as it is */
 static void take_plain(const fw_quantity *q, const char *definition, fw_flexure_limit *limit) {
     limit->allowable_Pa = q->value;
@@ -45,12 +49,13 @@ static bool stated(const fw_flexure_limit_input *in, fw_flexure_limits *all,
 /* What breaks: its plain strength, or, where a failure probability P of the whole device is asked
    for, the stress at which one of its n flexures in series breaks with 1 - (1 - P)^(1/n):
      sigma = sigma0 ((A0/A_eff) ln(1/(1 - P))/n)^(1/m)
+   A distribution that the device file states counts for what yields, too, beside its yield.
    source: Weibull (1951), docs/theory/limits-of-materials.md eq. 1-3; test_weibull.c */
 static bool fracture(const fw_flexure_limit_input *in, fw_flexure_limits *all,
                      fw_flexure_limit *limit) {
     const fw_device_material *m = in->material;
     const fw_device_limit_data *d = &m->limit;
-    if (!brittle(m)) return false;
+    if (!brittle(m) && !from_device(&d->weibull_strength)) return false;
     double probability = in->asked->failure_probability;
     bool asked = probability > 0;
     if (known(&d->weibull_strength) && known(&d->weibull_modulus) && known(&d->weibull_area))
@@ -72,6 +77,7 @@ static bool fracture(const fw_flexure_limit_input *in, fw_flexure_limits *all,
             &all->weibull, fw_flexure_series_share(probability, in->nhinge));
         return true;
     }
+    if (!brittle(m)) return false;
     if (asked) {
         all->missing = "weibull-strength, weibull-modulus and weibull-area";
         all->missing_place = in->asked->probability_place;
@@ -97,10 +103,6 @@ static bool film(const fw_flexure_limit_input *in, fw_quantity *offset) {
     offset->value += d->film_yield_rise.value * pow(t / 1e-6, -d->film_exponent.value);
     offset->status = weakest(used, 4);
     return true;
-}
-
-static bool from_device(const fw_quantity *q) {
-    return known(q) && q->source && strcmp(q->source, "device file") == 0;
 }
 
 /* What yields, for position accuracy: the proportional limit. It is, in this order, factor x the

@@ -193,23 +193,53 @@ double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int 
     return fw_probe_value(p, &s);
 }
 
-fw_probe_ring fw_probe_rings(const fw_probe *p, const fw_dynamics_motion *motion) {
-    const int n = motion->nsample;
-    double turn[3], at_s[3], later = n > 0 ? fw_probe_at_row(p, motion, n - 1) : 0;
-    fw_probe_ring ring = {0, later, later};
-    int found = 0;
-    for (int i = n - 2; i > 0 && found < 3; i--) {
-        const double here = fw_probe_at_row(p, motion, i),
-                     before = fw_probe_at_row(p, motion, i - 1);
-        if ((here - before) * (later - here) < 0)
-            turn[found] = here, at_s[found++] = motion->t_s[i];
-        later = here;
+/* The last three turns of values, the last first, each of which is followed by one of the other kind more than h away; how
+   many there are. The end is none. */
+static int last_turns(const double *value, int n, double h, int turn[3]) {
+    int found = 0, low = n - 1, high = n - 1, seeks = 0; /* 1: a most, -1: a least, 0: either */
+    for (int i = n - 2; i >= 0 && found < 3; i--) {
+        if (value[i] < value[low]) low = i;
+        if (value[i] > value[high]) high = i;
+        if (seeks >= 0 && value[i] < value[high] - h) {
+            if (high < n - 1) turn[found++] = high;
+            seeks = -1, low = i;
+        } else if (seeks <= 0 && value[i] > value[low] + h) {
+            if (low < n - 1) turn[found++] = low;
+            seeks = 1, high = i;
+        }
     }
-    if (found < 3 || motion->t_s[n - 1] - at_s[0] > 1.5 * (at_s[0] - at_s[1])) return ring;
-    for (int i = 0; i < 3; i++)
-        ring.low = fmin(ring.low, turn[i]), ring.high = fmax(ring.high, turn[i]);
-    ring.amplitude = 0.5 * fmax(fabs(turn[0] - turn[1]), fabs(turn[1] - turn[2]));
-    return ring;
+    return found;
+}
+
+fw_status fw_probe_rings(fw_arena *arena, const fw_probe *p, const fw_dynamics_motion *motion,
+                         double slowest_s, fw_probe_ring *ring) {
+    const int n = motion->nsample;
+    const double end_s = motion->t_s[n - 1], from_s = end_s - 3 * slowest_s;
+    const fw_mark mark = fw_arena_mark(arena);
+    double *value, low, high;
+    int first = n - 1, turn[3];
+    while (first > 0 && motion->t_s[first - 1] >= from_s)
+        first--;
+    const int count = n - first;
+    FW_NEED(value = fw_arena_array(arena, double, (size_t)count));
+    for (int i = 0; i < count; i++)
+        value[i] = fw_probe_at_row(p, motion, first + i);
+    low = high = value[count - 1];
+    for (int i = 0; i < count; i++)
+        low = fmin(low, value[i]), high = fmax(high, value[i]);
+    *ring = (fw_probe_ring){0, value[count - 1], value[count - 1]};
+    for (double h = 0; h<high - low; h = h> 0 ? 2 * h : 1e-4 * (high - low)) {
+        if (last_turns(value, count, h, turn) < 3) break;
+        const double *t_s = motion->t_s + first, half_s = t_s[turn[0]] - t_s[turn[1]];
+        if (half_s > 0.75 * slowest_s || end_s - t_s[turn[0]] > 1.5 * half_s) continue;
+        for (int i = 0; i < 3; i++)
+            ring->low = fmin(ring->low, value[turn[i]]),
+            ring->high = fmax(ring->high, value[turn[i]]);
+        ring->amplitude = fmax(ring->amplitude, 0.5 * fmax(fabs(value[turn[0]] - value[turn[1]]),
+                                                           fabs(value[turn[1]] - value[turn[2]])));
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
 }
 
 bool fw_probe_has_rate(const fw_probe *p) {

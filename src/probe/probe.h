@@ -168,16 +168,19 @@ typedef struct fw_probe_result { /* what a motion did, and by how much that may 
 void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor *looser,
                         const fw_dynamics_motion *motion, int probe, fw_probe_result *result);
 
-/* what still goes to and fro where a motion ends: the last three turns of its samples and its end, where no more than one and
-   a half half-periods are behind the last of them; amplitude 0: it is at rest, or goes one way. Test: test_probe.c */
+/* What still goes to and fro where a motion ends: the last three turns of its samples and its end, where no more than one and
+   a half half-periods are behind the last of them. A fast mode of a little hides the turns of a slow one of much: turns are
+   looked for with ever larger ways between them, of half-periods up to 1.5 times that of the slowest mode, slowest_s its period.
+   Amplitude 0: it is at rest, or goes one way. Cost: the rows of three periods. Test: test_probe.c, test_probe.py */
 typedef struct fw_probe_ring {
     double amplitude, low, high;
 } fw_probe_ring;
-fw_probe_ring fw_probe_rings(const fw_probe *p, const fw_dynamics_motion *motion);
+fw_status fw_probe_rings(fw_arena *arena, const fw_probe *p, const fw_dynamics_motion *motion,
+                         double slowest_s, fw_probe_ring *ring);
 
-/* Time after which the probe stays within `band` of its final value: the last crossing, by the line
-   between two instants. Of a course that was kept; 0: it never left */
-double fw_probe_settling_s(const fw_probe_course *course, double band);
+/* Time after which the probe stays within `band` of `rest`: the last crossing, by the line between two instants. Of a course
+   that was kept; 0: it never left */
+double fw_probe_settling_s(const fw_probe_course *course, double rest, double band);
 
 /* "354 uN": four digits and a prefix for a value in an SI unit */
 enum { FW_PROBE_TEXT = 48 };

@@ -249,12 +249,12 @@ double fw_probe_monitor_unsettled(const fw_probe_monitor *tighter, const fw_prob
 
 /* ---- settling ---- */
 
-double fw_probe_settling_s(const fw_probe_course *c, double band) {
+double fw_probe_settling_s(const fw_probe_course *c, double rest, double band) {
     for (size_t i = c->kept; i-- > 0;) {
-        double off = fabs(c->value[i] - c->final) - band;
+        double off = fabs(c->value[i] - rest) - band;
         if (off <= 0) continue;
         if (i + 1 >= c->kept) return c->time[i];
-        double next = fabs(c->value[i + 1] - c->final) - band, span = c->time[i + 1] - c->time[i];
+        double next = fabs(c->value[i + 1] - rest) - band, span = c->time[i + 1] - c->time[i];
         return c->time[i] + (next < off ? span * off / (off - next) : span);
     }
     return 0;

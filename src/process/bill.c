@@ -291,13 +291,37 @@ static fw_status fill(work *w, fw_process_bill_bath *row) {
     return FW_OK;
 }
 
+int fw_process_bath_fillings(const fw_process_flow *flow, const fw_process_bath *bath, int wafers) {
+    const double serves = bath->serves ? known(bath->serves) : wafers;
+    int passes = 0;
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nuse; k++)
+            passes += flow->step[i].use[k].bath == bath;
+    return serves >= 1.0 ? (int)ceil(passes * (double)wafers / serves) : 0;
+}
+
+const fw_process_bath *fw_process_step_mixes(const fw_process_flow *flow,
+                                             const fw_process_step *step) {
+    for (int i = 0; i < flow->nbath && fw_process_step_is_of_lot(step); i++)
+        for (int k = 0; k < step->nsetting; k++)
+            if (step->setting[k].q == flow->bath[i].volume ||
+                step->setting[k].q == flow->bath[i].one_part)
+                return &flow->bath[i];
+    return NULL;
+}
+
+int fw_process_step_times(const fw_process_flow *flow, const fw_process_step *step, int wafers) {
+    const fw_process_bath *bath = fw_process_step_mixes(flow, step);
+    const int fillings = bath ? fw_process_bath_fillings(flow, bath, wafers < 1 ? 1 : wafers) : 1;
+    return fillings > 1 ? fillings : 1;
+}
+
 /* how many fillings, and what they take of every consumable */
-static fw_status close_bath(work *w, fw_process_bill_bath *row, int passes) {
+static fw_status close_bath(work *w, fw_process_bill_bath *row) {
     const fw_process_bath *b = row->bath;
-    double serves = b->serves ? known(b->serves) : w->bill->wafers;
     FW_TRY(fill(w, row));
     if (b->serves) FW_TRY(need(w->arena, &row->missing, b->serves));
-    row->fillings = serves >= 1.0 ? (int)ceil(passes * (double)w->bill->wafers / serves) : 0;
+    row->fillings = fw_process_bath_fillings(w->flow, b, w->bill->wafers);
     for (int i = 0; i < b->npart; i++) {
         fw_process_bill_row *r = row_of(w, b->part[i].of);
         r->amount += row->fillings > 0 ? row->fillings * row->part_amount[i] : (double)NAN;
@@ -315,13 +339,8 @@ static fw_status baths(work *w) {
             const fw_process_bath *b = f->step[i].use[k].bath;
             if (b) FW_TRY(append(w->arena, &bath_of(w, b)->steps, f->step[i].id));
         }
-    for (int j = 0; j < w->bill->nbath; j++) {
-        int passes = 0;
-        for (int i = 0; i < f->nstep; i++)
-            for (int k = 0; k < f->step[i].nuse; k++)
-                passes += f->step[i].use[k].bath == w->bill->bath[j].bath;
-        FW_TRY(close_bath(w, &w->bill->bath[j], passes));
-    }
+    for (int j = 0; j < w->bill->nbath; j++)
+        FW_TRY(close_bath(w, &w->bill->bath[j]));
     return FW_OK;
 }
 
@@ -386,7 +405,9 @@ static fw_status machines(work *w) {
         if (k == b->nmachine)
             b->machine[b->nmachine++] =
                 (fw_process_bill_machine){.equipment = s->equipment, .steps = ""};
-        m->booked_s += s->time.computable ? s->booked_s * loads(s, b->wafers) : (double)NAN;
+        m->booked_s += s->time.computable ? s->booked_s * loads(s, b->wafers) *
+                                                fw_process_step_times(w->flow, s, b->wafers)
+                                          : (double)NAN;
         FW_TRY(append(w->arena, &m->steps, s->id));
     }
     for (int k = 0; k < b->nmachine; k++) {

@@ -47,6 +47,7 @@ typedef struct table {
     fw_diags *diags;
     fw_place place;     /* of the line */
     int where[COLUMNS]; /* column of the file, -1: not there */
+    char between[2];    /* fields: "," or, where spreadsheets write 3,64, ";" */
 } table;
 
 /* the next field of a line, unquoted, without blanks around; *at moves behind its comma */
@@ -62,16 +63,16 @@ static const char *field(table *t, const char **at, bool *more) {
             c += *c == '"';
         }
         c += *c == '"';
-        c += strcspn(c, ",");
+        c += strcspn(c, t->between);
     } else {
-        size_t n = strcspn(c, ","), kept = n;
+        size_t n = strcspn(c, t->between), kept = n;
         while (kept > 0 && (c[kept - 1] == ' ' || c[kept - 1] == '\t'))
             kept--;
         fw_text_bytes(&out, c, kept);
         c += n;
     }
-    *more = *c == ',';
-    *at = c + (*c == ',');
+    *more = *c == t->between[0];
+    *at = c + (*c == t->between[0]);
     return fw_text_end(&out) == FW_OK ? out.data : NULL;
 }
 
@@ -86,6 +87,7 @@ static fw_status fields(table *t, const char *line, const char *list[MOST_FIELDS
 static fw_status header(table *t, const char *line) {
     const char *name[MOST_FIELDS];
     int n;
+    if (strchr(line, ';') && !strchr(line, ',')) t->between[0] = ';';
     FW_TRY(fields(t, line, name, &n));
     for (int k = 0; k < COLUMNS; k++)
         t->where[k] = -1;
@@ -194,12 +196,28 @@ static bool openness(table *t, const char *const *cell, fw_process_measurement *
     return true;
 }
 
+static bool is_number(int k) {
+    return k == DRAWN || k == MEASURED || k == U || k == AT || k == U_AT || k >= WARM;
+}
+
+/* "3,64" of a table whose fields are parted by semicolons is 3.64 */
+static fw_status with_point(table *t, const char **cell) {
+    if (!strchr(*cell, ',') || strchr(*cell, '.')) return FW_OK;
+    char *copy = fw_arena_strdup(t->arena, *cell);
+    FW_NEED(copy);
+    *strchr(copy, ',') = '.';
+    *cell = copy;
+    return FW_OK;
+}
+
 static fw_status one_row(table *t, const char *line, fw_process_measurement *r, bool *good) {
     const char *name[MOST_FIELDS], *cell[COLUMNS];
     int n;
     FW_TRY(fields(t, line, name, &n));
     for (int k = 0; k < COLUMNS; k++)
         cell[k] = t->where[k] >= 0 && t->where[k] < n ? name[t->where[k]] : "";
+    for (int k = 0; k < COLUMNS && t->between[0] == ';'; k++)
+        if (is_number(k)) FW_TRY(with_point(t, &cell[k]));
     *r = (fw_process_measurement){.coupon = fw_process_coupon_called(cell[COUPON]),
                                   .feature = cell[FEATURE],
                                   .place = t->place};
@@ -227,7 +245,7 @@ static fw_status one_row(table *t, const char *line, fw_process_measurement *r, 
 }
 
 static bool blank(const char *line) {
-    return line[strspn(line, " \t,")] == '\0' || line[strspn(line, " \t")] == '#';
+    return line[strspn(line, " \t,;")] == '\0' || line[strspn(line, " \t")] == '#';
 }
 
 /* ---- rows that read the very same ---- */
@@ -271,7 +289,7 @@ static void once(fw_process_measurement *row, int *n, fw_diags *diags) {
 fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const char *text,
                                        size_t n, fw_diags *diags,
                                        fw_process_measurement **measurement, int *nmeasurement) {
-    table t = {.arena = arena, .diags = diags, .place = {.file = file}};
+    table t = {.arena = arena, .diags = diags, .place = {.file = file}, .between = ","};
     size_t before = diags->errors, lines = 1;
     bool headed = false;
     const char *end = text + n, *at = text;

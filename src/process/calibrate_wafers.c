@@ -202,12 +202,12 @@ static double rest_of(const wafer *w, int k) {
    scatter that cannot be seen is not taken to be absent. Then it is correlated as chance is. One wafer: b is not known.
    Source: DerSimonian and Laird, Control. Clin. Trials 7 (1986) 177 (moments); JCGM 100:2008, G.3 and E.4.3 (deviation of
    a variance). Test: test_wafers.c, coverage. */
-static moments moments_of(const lot *l, const char *id) {
+static moments moments_of(const lot *l, const char *id, const wafer *without) {
     moments o = {0};
     for (int i = 0; i < l->nwafer; i++) {
         const wafer *w = &l->wafer[i];
         int k = at(w, id), m = w->of_shared.m;
-        if (k < 0 || k >= w->found.count) continue;
+        if (k < 0 || k >= w->found.count || w == without) continue;
         o.n++;
         o.mean += w->found.item[k].value;
         o.chance += w->of_chance.C[k * m + k];
@@ -217,7 +217,7 @@ static moments moments_of(const lot *l, const char *id) {
     o.mean /= o.n, o.chance /= o.n, o.shared /= o.n, o.rest /= o.n;
     for (int i = 0; i < l->nwafer; i++) {
         int k = at(&l->wafer[i], id);
-        if (k < 0 || k >= l->wafer[i].found.count) continue;
+        if (k < 0 || k >= l->wafer[i].found.count || &l->wafer[i] == without) continue;
         double off = l->wafer[i].found.item[k].value - o.mean;
         o.variance += o.n > 1 ? off * off / (o.n - 1) : 0.0;
     }
@@ -315,7 +315,7 @@ static fw_status source_of(const lot *l, fw_process_calibrated *c) {
 /* ---- the whole lot ---- */
 
 static fw_status combine(lot *l, fw_process_calibrated *c, const char *id, double *gain) {
-    moments o = moments_of(l, id);
+    moments o = moments_of(l, id, NULL);
     char text[32];
     *c = (fw_process_calibrated){.id = id, .value = o.mean, .uncertainty = o.u};
     *gain = o.gain;
@@ -341,6 +341,71 @@ static fw_status combine(lot *l, fw_process_calibrated *c, const char *id, doubl
                              c->coupon, fw_number_text(text, sizeof text, c->probability, 2), id);
     FW_TRY(note_of(l, &o, c->note, &c->note));
     return source_of(l, c);
+}
+
+/* ---- a wafer that is not like the others ---- */
+
+/* t = |x_i - mean of the others|/(s sqrt(1 + 1/n)), s their scatter or, where that is larger, what their readings are off by;
+   against Student's t of n - 1 degrees of freedom, which one wafer in a hundred exceeds where nothing is odd. n others, at
+   least two: of two wafers nobody knows which one is odd. The worst one. Test: test_wafers.c, one_that_is_odd. */
+static const wafer *odd_one(const lot *l, const char *id, double *times) {
+    static const double seldom = 0.995; /* on either side */
+    const wafer *odd = NULL;
+    *times = 1.0;
+    for (int i = 0; i < l->nwafer; i++) {
+        const wafer *w = &l->wafer[i];
+        const int k = at(w, id);
+        if (k < 0 || k >= w->found.count) continue;
+        const moments o = moments_of(l, id, w);
+        const double s = sqrt(fmax(o.variance, o.chance + o.rest) * (1.0 + 1.0 / o.n));
+        if (o.n < 2 || !(s > 0.0)) continue;
+        const double t = fabs(w->found.item[k].value - o.mean) /
+                         (s * fw_maths_student_quantile(seldom, o.n - 1));
+        if (t > *times) odd = w, *times = t;
+    }
+    return odd;
+}
+
+/* "-1.2", in the unit of the quantity */
+static void put_in_unit(const lot *l, const char *id, double si, bool difference, fw_text *out) {
+    const fw_quantity *q = fw_process_flow_quantity(l->flow, id);
+    fw_quantity_unit unit;
+    if (q && fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) {
+        if (difference) unit.offset = 0.0;
+        si = fw_quantity_unit_from_si(&unit, si);
+    }
+    fw_text_number(out, si, difference ? 2 : 4);
+}
+
+static void put_stated(const lot *l, const char *id, const moments *o, fw_text *out) {
+    put_in_unit(l, id, o->mean, false, out);
+    fw_text_add(out, " +- ");
+    put_in_unit(l, id, o->u, true, out);
+}
+
+/* FW-D692 */
+static fw_status ask_odd(const lot *l, const char *id) {
+    double times;
+    const wafer *w = odd_one(l, id, &times);
+    const fw_quantity *q = fw_process_flow_quantity(l->flow, id);
+    fw_text text = fw_text_new(l->arena);
+    if (!w) return FW_OK;
+    const moments all = moments_of(l, id, NULL), others = moments_of(l, id, w);
+    fw_text_printf(&text, "wafer %s reads %s as ", w->name, id);
+    put_in_unit(l, id, w->found.item[at(w, id)].value, false, &text);
+    if (q && strcmp(q->unit, "1") != 0) fw_text_printf(&text, " %s", q->unit);
+    fw_text_printf(&text, ", and the other %d wafers as ", others.n);
+    put_in_unit(l, id, others.mean, false, &text);
+    fw_text_add(&text, ", beyond what they differ by; without it ");
+    put_stated(l, id, &others, &text);
+    fw_text_add(&text, ", with it ");
+    put_stated(l, id, &all, &text);
+    FW_TRY(fw_text_end(&text));
+    fw_diag_warning(l->diags, 692, w->row[0].place,
+                    "%s. Look how it was run and read; where that was not as planned leave it out "
+                    "(--without %s)",
+                    text.data, w->name);
+    return l->diags->failed ? FW_NOMEM : FW_OK;
 }
 
 fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *flow,
@@ -373,6 +438,8 @@ fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *fl
     FW_NEED(all.C = fw_arena_array(arena, double, (size_t)(all.m * all.m)));
     for (int i = 0; i < l->nitem; i++)
         FW_TRY(combine(l, &item[i], l->id[i], &gain[i]));
+    for (int i = 0; i < l->nitem; i++)
+        FW_TRY(ask_odd(l, l->id[i]));
     for (int i = 0; i < all.m; i++)
         for (int k = 0; k < all.m; k++)
             all.C[i * all.m + k] = covariance_of(l, l->id[i], l->id[k], gain[i] * gain[k]);
@@ -482,91 +549,4 @@ void fw_process_calibration_ask(const fw_process_flow *flow,
                         kind && kind->mistaken ? "; " : "",
                         kind && kind->mistaken ? kind->mistaken : "");
     }
-}
-
-/* what the coupon itself does not take */
-static void ask_columns(const fw_process_measurement *r, const fw_process_coupon *kind,
-                        const char *file, fw_diags *diags) {
-    if (!kind->drawn && !isnan(r->drawn_m) && r->drawn_m > 0.0)
-        fw_diag_warning(diags, 679, (fw_place){file, r->place.line, r->place.column},
-                        "%s takes no drawn width: what stands under drawn_um is not used",
-                        r->coupon);
-    if (!kind->at && !isnan(r->at))
-        fw_diag_warning(diags, 679, (fw_place){file, r->place.line, r->place.column},
-                        "%s is measured under no condition: what stands under at is not used",
-                        r->coupon);
-}
-
-/* the quantities that a step would correct the rate by, and that nobody knows; "": no step would */
-static fw_status lacks(const fw_process_flow *flow, fw_process_condition which, const char *rate,
-                       fw_diags *diags, const char **names, const char **step) {
-    const fw_process_coupon_lacking of = fw_process_coupon_lacks(flow, which, rate);
-    fw_text text = fw_text_new(diags->arena);
-    fw_text_add(&text, "");
-    for (int i = 0; i < of.n; i++)
-        fw_text_printf(&text, "%s%s", i ? " and " : "", of.q[i]->id);
-    FW_TRY(fw_text_end(&text));
-    *names = text.data;
-    *step = of.step ? of.step->id : "";
-    return FW_OK;
-}
-
-static fw_status ask_given(const fw_process_flow *flow, const fw_process_measurement *r, int rows,
-                           fw_process_condition which, bool typed, const char *file,
-                           fw_diags *diags) {
-    static const char *const word[FW_CONDITIONS] = {
-        [FW_CONDITION_TEMPERATURE] = "temperature", [FW_CONDITION_OPEN_AREA] = "open area"};
-    const char *rate = fw_process_coupon_rate(flow, r), *names, *step;
-    const bool by_depth =
-        fw_quantity_dimension_equal(r->at_dimension, (fw_quantity_dimension)FW_DIM_LENGTH);
-    const fw_place at = {file, r->place.line, r->place.column};
-    if (rate && fw_process_flow_corrects(flow, which, rate)) {
-        if (by_depth && typed)
-            fw_diag_warning(
-                diags, 679, at,
-                "the %s of %d row%s of %s is not used: these give no rate, but what was "
-                "etched at a depth",
-                word[which], rows, rows > 1 ? "s" : "", r->coupon);
-        return FW_OK;
-    }
-    FW_TRY(lacks(flow, which, rate ? rate : "", diags, &names, &step));
-    if (*names)
-        fw_diag_warning(
-            diags, 679, at,
-            "the %s of %d row%s of %s is not used: step %s corrects %s for it where %s "
-            "are known, and here they are not. State them in a laboratory pack and name "
-            "it with --lab",
-            word[which], rows, rows > 1 ? "s" : "", r->coupon, step, rate, names);
-    else
-        fw_diag_warning(
-            diags, 679, at,
-            "the %s of %d row%s of %s is not used: no step of flow '%s' corrects %s for "
-            "it",
-            word[which], rows, rows > 1 ? "s" : "", r->coupon, flow->id,
-            rate ? rate : "what it gives");
-    return FW_OK;
-}
-
-/* once for all rows of a coupon, at the first. Test: test_calibrate.c, columns_that_nothing_takes */
-fw_status fw_process_measurements_ask(const fw_process_flow *flow,
-                                      const fw_process_measurement *const *row, int n, bool typed,
-                                      const char *file, fw_diags *diags) {
-    for (int i = 0; i < n; i++) {
-        const fw_process_coupon *kind = fw_process_coupon_kind(row[i]->coupon);
-        bool first = kind != NULL;
-        for (int k = 0; k < i; k++)
-            first = first && (strcmp(row[k]->coupon, row[i]->coupon) != 0 ||
-                              strcmp(row[k]->feature, row[i]->feature) != 0);
-        if (typed && first) ask_columns(row[i], kind, file, diags);
-        for (int c = 0; c < FW_CONDITIONS; c++) {
-            int rows = 0, before = 0;
-            for (int k = 0; k < n; k++)
-                if (strcmp(row[k]->coupon, row[i]->coupon) == 0 &&
-                    strcmp(row[k]->feature, row[i]->feature) == 0 && row[k]->condition[c] > 0.0)
-                    rows++, before += k < i;
-            if (kind && row[i]->condition[c] > 0.0 && before == 0)
-                FW_TRY(ask_given(flow, row[i], rows, (fw_process_condition)c, typed, file, diags));
-        }
-    }
-    return diags->failed ? FW_NOMEM : FW_OK;
 }

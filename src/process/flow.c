@@ -261,7 +261,7 @@ static fw_status give_planned(fw_arena *arena, fw_process_step *s) {
     return derive_all(arena, s);
 }
 
-static fw_status compute_step(fw_arena *arena, fw_process_step *s) {
+fw_status fw_process_step_compute(fw_arena *arena, fw_process_step *s) {
     fw_process_argument list[FW_LAW_ARGUMENTS];
     fw_quantity none;
     s->finish_s = finishing_s(s);
@@ -490,7 +490,7 @@ fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
     flow->total_s = 0.0;
     flow->not_computable = 0;
     for (int i = 0; i < flow->nstep; i++) {
-        FW_TRY(compute_step(arena, &flow->step[i]));
+        FW_TRY(fw_process_step_compute(arena, &flow->step[i]));
         FW_TRY(derive_losses(arena, flow, &flow->step[i]));
         if (flow->step[i].time.computable)
             flow->total_s += flow->step[i].booked_s;

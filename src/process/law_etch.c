@@ -272,6 +272,8 @@ const fw_process_law fw_process_law_faraday = {
     .evaluate = faraday_time,
     .slope = faraday_slope,
     .derive = faraday_derive,
+    .derived = "current",
+    .of_argument = "current_density",
 };
 
 /* t = (V/Q) ln(c0/c): rinsing in a stirred overflow bath. V m3, Q m3/s, c0/c 1; t s.

@@ -445,6 +445,14 @@ static fw_status tell_attended(fw_arena *arena, fw_process_flow *flow, const fw_
     return fw_process_flow_add_reason(arena, flow, -1, why);
 }
 
+bool fw_process_step_is_ended(const fw_process_step *s) {
+    const fw_process_goes_on how = fw_process_step_goes_on(s);
+    const fw_process_hazard *in = fw_process_step_in_liquid(s) ? fw_process_step_liquid(s) : NULL;
+    const bool acts = how == FW_GOES_ON_UNDER_CURRENT ||
+                      (how == FW_GOES_ON_IN_BATH && in && !fw_process_only_dries(in));
+    return acts && !s->pulse;
+}
+
 /* Somebody waits for the end of what goes on until it is ended: of a bath that is seen to be through, of a current that is
    switched off, from the first look to the stop time. Whoever is there for less comes back to what went on alone. A chamber
    stops by itself, and a solvent takes nothing else, however long. And nobody is there for hours longer than a computed step takes; of stated times that was asked before.
@@ -454,13 +462,8 @@ static fw_status lint_watched(fw_arena *arena, fw_process_flow *flow, const fw_p
     const fw_process_law *law = fw_process_law_find(s->law);
     const double window_s = s->time.stop_s - s->time.first_look_s;
     const bool stated = !law || law->stated;
-    const fw_process_goes_on how = fw_process_step_goes_on(s);
-    const fw_process_hazard *in = fw_process_step_in_liquid(s) ? fw_process_step_liquid(s) : NULL;
-    const bool acts = how == FW_GOES_ON_UNDER_CURRENT ||
-                      (how == FW_GOES_ON_IN_BATH && in && !fw_process_only_dries(in)),
-               seen = acts && !s->pulse;
     if (!s->time.computable) return FW_OK;
-    if (seen && s->attended_s < window_s * (1.0 - 1e-9))
+    if (fw_process_step_is_ended(s) && s->attended_s < window_s * (1.0 - 1e-9))
         return tell_attended(arena, flow, s, 617, window_s, diags);
     if (!stated && s->attended_s > s->booked_stop_own_s + 3600.0)
         return tell_attended(arena, flow, s, 609, s->booked_stop_own_s, diags);

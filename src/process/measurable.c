@@ -370,3 +370,92 @@ fw_status fw_process_flow_times_with(fw_arena *arena, fw_process_flow *flow,
         time[i] = flow->step[i].time;
     return FW_OK;
 }
+
+/* ---- what is given of readings and nothing takes ---- */
+
+/* what the coupon itself does not take */
+static void ask_columns(const fw_process_measurement *r, const fw_process_coupon *kind,
+                        const char *file, fw_diags *diags) {
+    if (!kind->drawn && !isnan(r->drawn_m) && r->drawn_m > 0.0)
+        fw_diag_warning(diags, 679, (fw_place){file, r->place.line, r->place.column},
+                        "%s takes no drawn width: what stands under drawn_um is not used",
+                        r->coupon);
+    if (!kind->at && !isnan(r->at))
+        fw_diag_warning(diags, 679, (fw_place){file, r->place.line, r->place.column},
+                        "%s is measured under no condition: what stands under at is not used",
+                        r->coupon);
+}
+
+/* the quantities that a step would correct the rate by, and that nobody knows; "": no step would */
+static fw_status lacks(const fw_process_flow *flow, fw_process_condition which, const char *rate,
+                       fw_diags *diags, const char **names, const char **step) {
+    const fw_process_coupon_lacking of = fw_process_coupon_lacks(flow, which, rate);
+    fw_text text = fw_text_new(diags->arena);
+    fw_text_add(&text, "");
+    for (int i = 0; i < of.n; i++)
+        fw_text_printf(&text, "%s%s", i ? " and " : "", of.q[i]->id);
+    FW_TRY(fw_text_end(&text));
+    *names = text.data;
+    *step = of.step ? of.step->id : "";
+    return FW_OK;
+}
+
+static fw_status ask_given(const fw_process_flow *flow, const fw_process_measurement *r, int rows,
+                           fw_process_condition which, bool typed, const char *file,
+                           fw_diags *diags) {
+    static const char *const word[FW_CONDITIONS] = {
+        [FW_CONDITION_TEMPERATURE] = "temperature", [FW_CONDITION_OPEN_AREA] = "open area"};
+    const char *rate = fw_process_coupon_rate(flow, r), *names, *step;
+    const bool by_depth =
+        fw_quantity_dimension_equal(r->at_dimension, (fw_quantity_dimension)FW_DIM_LENGTH);
+    const fw_place at = {file, r->place.line, r->place.column};
+    if (rate && fw_process_flow_corrects(flow, which, rate)) {
+        if (by_depth && typed)
+            fw_diag_warning(
+                diags, 679, at,
+                "the %s of %d row%s of %s is not used: these give no rate, but what was "
+                "etched at a depth",
+                word[which], rows, rows > 1 ? "s" : "", r->coupon);
+        return FW_OK;
+    }
+    FW_TRY(lacks(flow, which, rate ? rate : "", diags, &names, &step));
+    if (*names)
+        fw_diag_warning(
+            diags, 679, at,
+            "the %s of %d row%s of %s is not used: step %s corrects %s for it where %s "
+            "are known, and here they are not. State them in a laboratory pack and name "
+            "it with --lab",
+            word[which], rows, rows > 1 ? "s" : "", r->coupon, step, rate, names);
+    else
+        fw_diag_warning(
+            diags, 679, at,
+            "the %s of %d row%s of %s is not used: no step of flow '%s' corrects %s for "
+            "it",
+            word[which], rows, rows > 1 ? "s" : "", r->coupon, flow->id,
+            rate ? rate : "what it gives");
+    return FW_OK;
+}
+
+/* once for all rows of a coupon, at the first. Test: test_calibrate.c, columns_that_nothing_takes */
+fw_status fw_process_measurements_ask(const fw_process_flow *flow,
+                                      const fw_process_measurement *const *row, int n, bool typed,
+                                      const char *file, fw_diags *diags) {
+    for (int i = 0; i < n; i++) {
+        const fw_process_coupon *kind = fw_process_coupon_kind(row[i]->coupon);
+        bool first = kind != NULL;
+        for (int k = 0; k < i; k++)
+            first = first && (strcmp(row[k]->coupon, row[i]->coupon) != 0 ||
+                              strcmp(row[k]->feature, row[i]->feature) != 0);
+        if (typed && first) ask_columns(row[i], kind, file, diags);
+        for (int c = 0; c < FW_CONDITIONS; c++) {
+            int rows = 0, before = 0;
+            for (int k = 0; k < n; k++)
+                if (strcmp(row[k]->coupon, row[i]->coupon) == 0 &&
+                    strcmp(row[k]->feature, row[i]->feature) == 0 && row[k]->condition[c] > 0.0)
+                    rows++, before += k < i;
+            if (kind && row[i]->condition[c] > 0.0 && before == 0)
+                FW_TRY(ask_given(flow, row[i], rows, (fw_process_condition)c, typed, file, diags));
+        }
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}

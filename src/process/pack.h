@@ -93,6 +93,8 @@ fw_status fw_process_pack_texts(fw_process_pack *pack);
 fw_status fw_process_flow_fill_texts(fw_arena *arena, fw_process_flow *flow, fw_diags *diags);
 /* takes the share from its quantity, where it has one */
 void fw_process_step_overrun(fw_process_step *step);
+/* its derived values, its time and what it is booked for */
+fw_status fw_process_step_compute(fw_arena *arena, fw_process_step *step);
 /* one pass of fw_process_flow_compute */
 fw_status fw_process_flow_compute_once(fw_arena *arena, fw_process_flow *flow,
                                        const fw_process_mask_facts *facts, fw_diags *diags);

@@ -513,6 +513,8 @@ bool fw_process_step_on_back(const fw_process_step *step);
 bool fw_process_step_is_of_lot(const fw_process_step *step);
 /* do several runs of it on one wafer come to one longer run: is its time that of an amount? */
 bool fw_process_step_adds_up(const fw_process_step *step);
+/* does it go on until somebody ends it: a bath that the wafer is taken out of, a current that is switched off? */
+bool fw_process_step_is_ended(const fw_process_step *step);
 /* does step `index` handle the dies of each wafer, because one before it parted them? */
 bool fw_process_step_is_of_dies(const fw_process_flow *flow, int index);
 /* is it measured on this wafer of the lot (from 0)? The first one, and every so many behind it */
@@ -580,6 +582,12 @@ typedef struct fw_process_bill {
    flow: computed; wafers >= 1. Amounts SI, nominal: uncertainties are not carried, since bottles are
    bought and not measured; mixing is taken as ideal (volumes add). Cost O(steps x consumables). Source:
    arithmetic. Test: tests/unit/process/test_bill.c. */
+/* fillings for so many wafers; 0: not known. The bath that a step mixes for the lot, whose volume it sets; NULL: none. How often
+   a lot of so many needs that; 1 of other steps */
+int fw_process_bath_fillings(const fw_process_flow *flow, const fw_process_bath *bath, int wafers);
+const fw_process_bath *fw_process_step_mixes(const fw_process_flow *flow,
+                                             const fw_process_step *step);
+int fw_process_step_times(const fw_process_flow *flow, const fw_process_step *step, int wafers);
 fw_status fw_process_flow_bill(fw_arena *arena, const fw_process_flow *flow, int wafers,
                                fw_process_bill *bill);
 

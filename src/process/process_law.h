@@ -100,6 +100,8 @@ typedef struct fw_process_law {
     bool by_rate;         /* is thickness over rate, and nothing else */
     bool lags;            /* knows how narrow openings fall behind: probability or lag */
     const char *pairs_of; /* numbered arguments are pairs of this; NULL: it has none of its own */
+    /* what it derives, and the argument that goes in proportion to it: who sets the one has set the other; may be NULL */
+    const char *derived, *of_argument;
 } fw_process_law;
 
 const fw_process_law *fw_process_law_row(int i);             /* i-th law, NULL after the last */
@@ -137,6 +139,16 @@ fw_status fw_process_step_derive(fw_arena *arena, fw_process_step *step, const c
                                  double value, double uncertainty, fw_quantity_dimension dimension,
                                  const char *unit, fw_quantity_value_status status,
                                  const char *source);
+
+/* A value as it was set in place of what was planned, SI */
+typedef struct fw_process_set {
+    const fw_quantity *planned; /* of a setting, of an argument, or derived in the step */
+    double value, uncertainty;
+} fw_process_set;
+/* variants.c: the step as its law times and books it with these values (n), handling as planned. What is asked of the step is not
+   replaced: what it adds, a dose, a time. *out is the step itself where its time stays the same; step: of a computed flow */
+fw_status fw_process_step_as_set(fw_arena *arena, const fw_process_step *step,
+                                 const fw_process_set *set, int n, const fw_process_step **out);
 
 #define FW_PROCESS_LAW(name) extern const fw_process_law fw_process_law_##name;
 #include "process/time_laws.def"

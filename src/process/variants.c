@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ways in which a flow may be run, and the flow of one device: alternatives that a laboratory chose are put in their
    places, what the device does not need is taken out, and every other way is asked the same questions, so that whoever
-   needs it next finds it sound. */
+   needs it next finds it sound. And a step as it was run with other settings. */
 #include "base/text.h"
 #include "process/calibrate.h"
 #include "process/pack.h"
+#include "process/process_law.h"
+#include <math.h>
 #include <string.h>
 
 /* ---- other ways of doing a step ----
@@ -323,5 +325,129 @@ fw_status fw_process_flow_read_chosen(fw_arena *arena, const char *base_file, co
     if (diags->failed) return FW_NOMEM;
     if (diags->errors > errors) return FW_INPUT;
     *flow = pack.flow;
+    return FW_OK;
+}
+
+/* ---- a step as it was set ---- */
+
+typedef struct replaced { /* quantities, and the copies that take their place */
+    const fw_quantity **from;
+    fw_quantity *to;
+    int n;
+} replaced;
+
+static fw_quantity *replacement(const replaced *r, const fw_quantity *q) {
+    for (int i = 0; i < r->n; i++)
+        if (r->from[i] == q) return &r->to[i];
+    return NULL;
+}
+
+static const fw_quantity *as_replaced(const replaced *r, const fw_quantity *q) {
+    const fw_quantity *by = replacement(r, q);
+    return by ? by : q;
+}
+
+static fw_quantity *replace(replaced *r, const fw_quantity *q) {
+    r->from[r->n] = q;
+    r->to[r->n] = *q;
+    return &r->to[r->n++];
+}
+
+static fw_status with_replaced(fw_arena *arena, const replaced *r,
+                               const fw_process_argument *argument, int n,
+                               fw_process_argument **list) {
+    FW_NEED(*list = fw_arena_array(arena, fw_process_argument, (size_t)n + 1));
+    for (int i = 0; i < n; i++)
+        (*list)[i] = (fw_process_argument){argument[i].name, as_replaced(r, argument[i].q)};
+    return FW_OK;
+}
+
+/* what a step is to reach and not what it is done under: what it adds, what the resist needs, how long */
+static bool is_asked(const fw_process_step *s, const fw_quantity *q) {
+    for (int i = 0; i < s->nchange; i++)
+        if (s->change[i].thickness == q && strcmp(s->change[i].kind, "add") == 0) return true;
+    return fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_TIME) ||
+           fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension)FW_DIM_DOSE);
+}
+
+/* the quantity that a derived one is written to, as *times of it; NULL: it is in no law */
+static const fw_quantity *behind(const fw_process_step *s, const fw_quantity *derived, double value,
+                                 double *times) {
+    const fw_process_law *law = fw_process_law_find(s->law);
+    *times = 1.0;
+    for (int i = 0; i < s->nderive; i++)
+        if (s->derive[i].q && strcmp(s->derive[i].name, derived->id) == 0) return s->derive[i].q;
+    const bool in_proportion = law && law->derived && strcmp(law->derived, derived->id) == 0 &&
+                               !derived->unknown && derived->value > 0.0;
+    for (int i = 0; in_proportion && i < s->nargument; i++)
+        if (strcmp(s->argument[i].name, law->of_argument) == 0 && s->argument[i].q) {
+            *times = s->argument[i].q->value / derived->value;
+            return s->argument[i].q->unknown || !(value > 0.0) ? NULL : s->argument[i].q;
+        }
+    return NULL;
+}
+
+static void set_one(replaced *r, const fw_process_step *s, const fw_process_set *set) {
+    const fw_quantity *q = set->planned;
+    double times = 1.0;
+    for (int i = 0; i < s->nderived; i++)
+        if (s->derived[i] == set->planned) q = behind(s, s->derived[i], set->value, &times);
+    if (!q || isnan(set->value) || is_asked(s, q)) return;
+    fw_quantity *to = replacement(r, q);
+    if (!to) to = replace(r, q);
+    to->value = set->value * times;
+    to->uncertainty = set->uncertainty * times;
+    to->unknown = to->interval = false;
+}
+
+/* what the step derives by itself has copies of its own, and is not derived where it was set */
+static fw_status derive_as_set(fw_arena *arena, replaced *r, const fw_process_step *s,
+                               fw_process_step *out) {
+    FW_NEED(out->derive = fw_arena_array(arena, fw_process_derive, (size_t)s->nderive + 1));
+    out->nderive = 0;
+    for (int i = 0; i < s->nderive; i++) {
+        if (s->derive[i].q && replacement(r, s->derive[i].q)) continue;
+        out->derive[out->nderive] = s->derive[i];
+        if (s->derive[i].q) out->derive[out->nderive].q = replace(r, s->derive[i].q);
+        out->nderive++;
+    }
+    for (int i = 0; i < out->nderive; i++) {
+        fw_process_derive *d = &out->derive[i];
+        FW_TRY(with_replaced(arena, r, d->argument, d->nargument, &d->argument));
+    }
+    return FW_OK;
+}
+
+/* The laws of the step once more, with everything that they write in copies. Test: test_asrun.c, what_was_set_counts. */
+fw_status fw_process_step_as_set(fw_arena *arena, const fw_process_step *s,
+                                 const fw_process_set *set, int n, const fw_process_step **out) {
+    const size_t most = (size_t)(n + s->nderive + 1);
+    replaced r = {0};
+    *out = s;
+    FW_NEED(r.from = fw_arena_array(arena, const fw_quantity *, most));
+    FW_NEED(r.to = fw_arena_array(arena, fw_quantity, most));
+    for (int i = 0; i < n; i++)
+        set_one(&r, s, &set[i]);
+    if (r.n == 0) return FW_OK;
+    fw_process_step *copy = fw_arena_array(arena, fw_process_step, 1);
+    FW_NEED(copy);
+    *copy = *s;
+    FW_TRY(derive_as_set(arena, &r, s, copy));
+    if (s->planned) copy->planned = replace(&r, s->planned);
+    FW_TRY(with_replaced(arena, &r, s->argument, s->nargument, &copy->argument));
+    FW_TRY(with_replaced(arena, &r, s->need, s->nneed, &copy->need));
+    copy->overrun_from = as_replaced(&r, s->overrun_from);
+    copy->pulse = as_replaced(&r, s->pulse), copy->pause = as_replaced(&r, s->pause);
+    fw_process_step_overrun(copy);
+    FW_TRY(fw_process_step_compute(arena, copy));
+    /* somebody who is there for a shorter etch hands it over as fast as for a longer one */
+    const double more =
+        s->booked_stop_s - s->booked_stop_own_s + copy->booked_stop_own_s - copy->booked_stop_s;
+    if (s->time.computable && copy->time.computable)
+        copy->booked_s += more, copy->booked_stop_s += more;
+    if (copy->time.computable != s->time.computable ||
+        fabs(copy->time.nominal_s - s->time.nominal_s) > 1e-9 * s->time.nominal_s ||
+        fabs(copy->booked_stop_s - s->booked_stop_s) > 1e-9 * s->booked_stop_s)
+        *out = copy;
     return FW_OK;
 }

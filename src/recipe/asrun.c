@@ -39,14 +39,14 @@ fw_status fw_recipe_asrun_check_head(const fw_recipe_asrun *run, const char *fil
         sizeof first_word - 1 + (size_t)end != n || entries < 0 || strlen(chain) != 64)
         return torn(diags, place,
                     "is damaged; restore it, or keep both as they are and begin a new log");
-    if (entries > run->nentry)
+    if (entries > run->nline)
         return fw_diag_error(
             diags, 280, place,
             "the log has %d entries, but its head says %d: lines were removed at its "
             "end",
-            run->nentry, entries);
-    if (entries == 0 && run->nentry == 0) return FW_OK; /* of a beginning that was interrupted */
-    const char *there = entries > 0 ? run->entry[entries - 1].chain : run->begun;
+            run->nline, entries);
+    if (entries == 0 && run->nline == 0) return FW_OK; /* of a beginning that was interrupted */
+    const char *there = entries > 0 ? run->link[entries - 1] : run->begun;
     if (strcmp(there, chain) != 0)
         return torn(diags, place,
                     "is of other entries: lines were changed, or it is of another log");
@@ -113,8 +113,8 @@ static fw_status read_wafers(const fw_recipe_asrun_reader *r, const char *list,
     return FW_OK;
 }
 
-static fw_status read_first(const fw_recipe_asrun_reader *r, const char *plan, const char *line,
-                            size_t n, fw_recipe_asrun *run) {
+static fw_status read_first(const fw_recipe_asrun_reader *r, const char *line, size_t n,
+                            fw_recipe_asrun *run) {
     size_t words;
     if (!fw_recipe_asrun_is_log(line, n))
         return damaged(r, "it does not begin with 'flexwright as-run 1'");
@@ -131,52 +131,91 @@ static fw_status read_first(const fw_recipe_asrun_reader *r, const char *plan, c
     FW_TRY(read_wafers(r, value_of(r->arena, line, words, "wafers"), run));
     const char *head = value_of(r->arena, line, words, "head");
     run->headed = head && strcmp(head, "kept") == 0;
-    if (plan && strcmp(run->plan, plan) != 0)
-        return fw_diag_error(r->diags, 281, r->place,
-                             "the log was begun for plan %.12s..., but this device and these packs "
-                             "now give %.12s...: use the files of that plan, or begin a new log",
-                             run->plan, plan);
     return FW_OK;
 }
 
-/* a line behind the first one, into the next of run->entry */
-static fw_status read_entry(fw_recipe_asrun_reader *r, const char *line, size_t length,
-                            fw_recipe_asrun *run) {
+/* plan=HASH start= by= note=: from here on the lot follows another plan */
+static fw_status read_replan(const fw_recipe_asrun_reader *r, const char *line, size_t n,
+                             fw_recipe_asrun *run) {
+    fw_recipe_replan *p = &run->replan[run->nreplan++];
+    const char *whole = fw_arena_printf(r->arena, "\t%.*s", (int)n, line);
+    FW_NEED(whole);
+    *p = (fw_recipe_replan){.plan = value_of(r->arena, whole, n + 1, "plan"),
+                            .start = value_of(r->arena, whole, n + 1, "start"),
+                            .by = value_of(r->arena, whole, n + 1, "by"),
+                            .note = value_of(r->arena, whole, n + 1, "note"),
+                            .line = r->place.line};
+    if (!p->plan || !p->start || !p->by)
+        return damaged(r, "a line that names another plan lacks its time or its initials");
+    run->plan = p->plan;
+    return FW_OK;
+}
+
+/* a line behind the first one, into the next of run->entry. It is held against the plan where it is of that one */
+static fw_status read_entry(fw_recipe_asrun_reader *r, const char *plan, const char *line,
+                            size_t length, fw_recipe_asrun *run) {
+    static const char replan[] = "plan=";
     size_t words = 0;
     FW_TRY(unchain(r, line, length, run->chain, &words));
+    memcpy(run->link[run->nline++], run->chain, sizeof run->chain);
+    if (words > sizeof replan && strncmp(line, replan, sizeof replan - 1) == 0)
+        return read_replan(r, line, words, run);
+    r->bound = plan && strcmp(run->plan, plan) == 0;
+    r->former = plan && !r->bound;
     FW_TRY(fw_recipe_asrun_entry_read(r, line, words, '\t', &run->entry[run->nentry]));
     memcpy(run->entry[run->nentry++].chain, run->chain, sizeof run->chain);
     return FW_OK;
 }
 
-fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
-                               const char *plan_sha256, const char *file, const char *text,
-                               size_t n, fw_diags *diags, fw_recipe_asrun *run) {
-    fw_recipe_asrun_reader r = {arena, flow, run, plan_sha256 != NULL, false, diags, {file, 1, 1}};
+fw_status fw_recipe_asrun_read_former(fw_arena *arena, const fw_process_flow *flow,
+                                      const char *plan_sha256, const char *file, const char *text,
+                                      size_t n, fw_diags *diags, fw_recipe_asrun *run) {
+    fw_recipe_asrun_reader r = {
+        .arena = arena, .flow = flow, .run = run, .diags = diags, .place = {file, 1, 1}};
     size_t lines = 1;
     *run = (fw_recipe_asrun){.flow = flow};
     for (size_t i = 0; i < n; i++)
         lines += text[i] == '\n';
     FW_NEED(run->entry = fw_arena_array(arena, fw_recipe_asrun_entry, lines));
+    FW_NEED(run->replan = fw_arena_array(arena, fw_recipe_replan, lines));
+    FW_NEED(run->link = fw_arena_alloc(arena, lines, sizeof *run->link));
     if (n == 0 || text[n - 1] != '\n') return damaged(&r, "its last line is not complete");
     if (memchr(text, '\0', n)) return damaged(&r, "it holds a NUL byte");
     for (const char *line = text; line < text + n; r.place.line++) {
         size_t length = strcspn(line, "\n");
         if (r.place.line == 1) {
-            FW_TRY(read_first(&r, plan_sha256, line, length, run));
+            FW_TRY(read_first(&r, line, length, run));
             memcpy(run->begun, run->chain, sizeof run->begun);
         } else {
-            FW_TRY(read_entry(&r, line, length, run));
+            FW_TRY(read_entry(&r, plan_sha256, line, length, run));
         }
         line += length + 1;
     }
     return FW_OK;
 }
 
+fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
+                               const char *plan_sha256, const char *file, const char *text,
+                               size_t n, fw_diags *diags, fw_recipe_asrun *run) {
+    FW_TRY(fw_recipe_asrun_read_former(arena, flow, plan_sha256, file, text, n, diags, run));
+    if (plan_sha256 && strcmp(run->plan, plan_sha256) != 0)
+        return fw_diag_error(
+            diags, 281, (fw_place){file, 1, 1},
+            "the log is of plan %.12s..., but this device and these packs now give %.12s...: use "
+            "the files of that plan; or, where the lot goes on by this one (a pack that was "
+            "calibrated meanwhile), log that: --entry \"plan; start=TIME; by=INITIALS; note=WHY\"",
+            run->plan, plan_sha256);
+    return FW_OK;
+}
+
 fw_status fw_recipe_asrun_read_next(fw_arena *arena, const fw_process_flow *flow, const char *file,
                                     const char *line, fw_diags *diags, fw_recipe_asrun *run) {
-    fw_recipe_asrun_reader r = {arena, flow, run, true, false, diags, {file, run->nentry + 2, 1}};
-    return read_entry(&r, line, strcspn(line, "\n"), run);
+    fw_recipe_asrun_reader r = {.arena = arena,
+                                .flow = flow,
+                                .run = run,
+                                .diags = diags,
+                                .place = {file, run->nline + 2, 1}};
+    return read_entry(&r, run->plan, line, strcspn(line, "\n"), run);
 }
 
 /* of one wafer, or one of them of the whole lot */
@@ -279,8 +318,8 @@ static void ask_place(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *ru
                       const fw_recipe_asrun_entry *e) {
     for (int i = 0; i < run->nentry && !fw_process_step_is_of_lot(e->step) && e->loads <= 1; i++) {
         const fw_recipe_asrun_entry *of = &run->entry[i];
-        if (of->fate != FW_FATE_RUN || of->step == e->step || fw_process_step_is_of_lot(of->step) ||
-            of->loads > 1 || !same_wafer(of, e) ||
+        if (of->fate != FW_FATE_RUN || of->step == e->step || fw_recipe_asrun_taken_back(run, of) ||
+            fw_process_step_is_of_lot(of->step) || of->loads > 1 || !same_wafer(of, e) ||
             !(e->start_s < of->end_s && of->start_s < e->end_s))
             continue;
         fw_diag_warning(r->diags, 283, r->place,
@@ -293,167 +332,6 @@ static void ask_place(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *ru
 
 static bool same_text(const char *a, const char *b) {
     return a == b || (a && b && strcmp(a, b) == 0);
-}
-
-/* ---- what a wafer waited ---- */
-
-/* of which entry of the step the wafer came to e: the last one, which takes the place of those before; one that was run again
-   after e is another run, where there was one for e already. NULL: it is not in the log */
-static const fw_recipe_asrun_entry *came_from(const fw_recipe_asrun *run, const char *step,
-                                              const fw_recipe_asrun_entry *e) {
-    const fw_recipe_asrun_entry *from = NULL;
-    for (const fw_recipe_asrun_entry *of = run->entry; of < run->entry + run->nentry; of++) {
-        if (!of->step || strcmp(of->step->id, step) != 0) continue;
-        /* what is done without a wafer is done for each of them */
-        if (!same_wafer(of, e) && (of->wafer || !fw_process_step_is_of_lot(of->step))) continue;
-        const bool again = from && of > e && of->start_s >= e->start_s;
-        if (!again) from = of;
-    }
-    return from;
-}
-
-/* what is looked at while what it will be a part of is made elsewhere: the second wafer of a bond, before it is there */
-static bool is_beside(const fw_process_step *step) {
-    for (int i = 0; i < step->nrequired; i++)
-        if (step->required[i].material && !step->required[i].present &&
-            strcmp(step->op, "inspect") == 0)
-            return true;
-    return fw_process_step_is_of_lot(step);
-}
-
-/* the step of the flow that the log has of this wafer before that of e; NULL: none, or e is beside the wafer */
-static const fw_process_step *step_before(const fw_recipe_asrun *run,
-                                          const fw_recipe_asrun_entry *e) {
-    const fw_process_step *before = NULL;
-    for (int i = 0; i < run->nentry && !is_beside(e->step); i++) {
-        const fw_recipe_asrun_entry *of = &run->entry[i];
-        if (of->step && of->step < e->step && same_wafer(of, e) && !is_beside(of->step) &&
-            (!before || of->step > before))
-            before = of->step;
-    }
-    return before;
-}
-
-/* of several loads in one entry, or in entries that share their time, one wafer is through while another is not */
-static bool in_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    int together;
-    return fw_recipe_asrun_loads(run, e, &together) > 1.0;
-}
-
-static void wait_since(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                       fw_recipe_wait *wait) {
-    const fw_recipe_asrun_entry *from = came_from(run, wait->since, e);
-    wait->from = from;
-    wait->waited_s = from ? e->start_s - from->end_s : (double)NAN;
-    if (wait->waited_s < 0.0 && (in_loads(run, e) || in_loads(run, from)))
-        wait->waited_s = (double)NAN;
-    wait->fine = !(wait->waited_s < wait->min_s) && !(wait->waited_s > wait->max_s);
-}
-
-/* An earlier run of e's step ended the wait already, and is judged by it. From there on the wafer may wait as long again before
-   it goes on; true: it did not wait longer */
-static bool is_over(const fw_recipe_asrun *run, fw_recipe_wait *wait,
-                    const fw_recipe_asrun_entry *e) {
-    const fw_recipe_asrun_entry *before = wait->from ? fw_recipe_asrun_run_before(run, e) : NULL;
-    if (!before || before->start_s < wait->from->end_s) return false;
-    wait->since = e->step->id;
-    wait->from = before;
-    wait->min_s = 0.0, wait->waited_s = e->start_s - before->end_s;
-    wait->fine = !(wait->waited_s > wait->max_s);
-    return wait->fine;
-}
-
-/* A chamber is seasoned for the wafer that comes first: another one was in it before e */
-static bool is_later_one(const fw_recipe_asrun *run, const fw_recipe_wait *wait,
-                         const fw_recipe_asrun_entry *e) {
-    for (const fw_recipe_asrun_entry *of = run->entry; of < run->entry + run->nentry; of++)
-        if (of->step == e->step && !same_wafer(of, e) && wait->from &&
-            of->start_s >= wait->from->end_s && of->start_s < e->start_s)
-            return true;
-    return false;
-}
-
-/* what the flow says of the wafer's state, which this step ends; false: nothing, or not of this wafer */
-static bool wait_in_state(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                          const fw_process_wait *w, fw_recipe_wait *wait) {
-    if (&run->flow->step[w->to] != e->step) return false;
-    *wait = (fw_recipe_wait){.since = run->flow->step[w->from].id, .is = w->is, .max_s = w->max_s};
-    wait_since(run, e, wait);
-    return !is_over(run, wait, e) && (!w->first_only || !is_later_one(run, wait, e));
-}
-
-bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                                 const fw_recipe_wait *wait) {
-    bool again = false;
-    if (strcmp(wait->since, e->step->id) == 0) return true; /* between two of its runs */
-    for (const fw_recipe_asrun_entry *later = e + 1; later < run->entry + run->nentry; later++)
-        if (later->step == e->step && fw_recipe_asrun_run_before(run, later) == e) {
-            if (came_from(run, wait->since, later) == wait->from) return true;
-            again = true;
-        }
-    return !again && fw_recipe_asrun_is_last(run, e);
-}
-
-bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, int *i,
-                          fw_recipe_wait *wait) {
-    const int nlag = e->step->nlag, nwait = run->flow->nwait;
-    int k;
-    while ((k = (*i)++) < nlag) {
-        const fw_process_lag *lag = &e->step->lag[k];
-        *wait = (fw_recipe_wait){
-            .since = lag->from, .min_s = isnan(lag->min_s) ? 0.0 : lag->min_s, .max_s = lag->max_s};
-        wait_since(run, e, wait);
-        if (!is_over(run, wait, e)) return true;
-    }
-    for (int n = k - nlag; n < nwait; n++, (*i)++)
-        if (wait_in_state(run, e, &run->flow->wait[n], wait)) return true;
-    const fw_process_step *before = *i == nlag + nwait + 1 ? step_before(run, e) : NULL;
-    if (!before) return false;
-    *wait = (fw_recipe_wait){.since = before->id, .max_s = (double)NAN};
-    for (int n = 0; n < nlag; n++) /* it has been told */
-        if (strcmp(e->step->lag[n].from, before->id) == 0) return false;
-    for (const fw_process_wait *w = run->flow->wait; w < run->flow->wait + nwait; w++)
-        if (w->from == before - run->flow->step && w->to == e->step - run->flow->step) return false;
-    wait_since(run, e, wait);
-    return wait->waited_s < 0.0;
-}
-
-static fw_status ask_wait(const fw_recipe_asrun_entry *e, const fw_recipe_wait *wait,
-                          fw_place place, fw_diags *diags) {
-    fw_text text = fw_text_new(diags->arena);
-    /* of one wafer at two steps at once ask_place has said it */
-    if (e->start_s < wait->from->end_s && wait->from->start_s < e->end_s &&
-        !fw_process_step_is_of_lot(e->step) && !fw_process_step_is_of_lot(wait->from->step))
-        return FW_OK;
-    fw_text_printf(&text, "step %s%s%s ", e->step->id, e->wafer ? " of wafer " : "",
-                   e->wafer ? e->wafer : "");
-    fw_recipe_put_waited(&text, wait);
-    if (wait->waited_s < 0.0) {
-        fw_text_printf(&text,
-                       " (%s to %s), and comes after it: one of these times is wrong; an entry "
-                       "with the right ones takes the place of the wrong one",
-                       wait->from->start, wait->from->end);
-    } else {
-        fw_text_add(&text, ", and allowed is ");
-        fw_recipe_put_wait_limits(&text, wait);
-        fw_text_add(&text, "; look at what that leaves before the next step");
-        fw_text_add(&text, e->deviation ? "" : ", and write down why (deviation=...)");
-    }
-    FW_TRY(fw_text_end(&text));
-    fw_diag_warning(diags, 648, place, "%s", text.data);
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                                    fw_place place, fw_diags *diags) {
-    for (const fw_recipe_asrun_entry *of = run->entry; of <= e; of++) {
-        int i = 0;
-        if (!of->step || (of != e && !fw_recipe_asrun_is_last(run, of))) continue;
-        for (fw_recipe_wait wait; fw_recipe_asrun_wait(run, of, &i, &wait);)
-            if (!wait.fine && (of == e || wait.from == e))
-                FW_TRY(ask_wait(of, &wait, place, diags));
-    }
-    return FW_OK;
 }
 
 /* an entry with nothing that the other does not say, too */
@@ -490,10 +368,18 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
     const fw_recipe_asrun_entry *last = run->nentry > 0 ? &run->entry[run->nentry - 1] : NULL;
-    bool before = index == 0;
-    for (int i = 0; i < run->nentry && !before; i++)
-        before = run->entry[i].step == e->step - 1 && same_wafer(&run->entry[i], e);
-    if (!before)
+    const fw_recipe_asrun_entry *before = NULL;
+    for (int i = 0; i < run->nentry; i++)
+        if (run->entry[i].step == e->step - 1 && same_wafer(&run->entry[i], e))
+            before = &run->entry[i];
+    const fw_recipe_asrun_entry *by =
+        before ? fw_recipe_asrun_overtaken(run, before, e->wafer) : NULL;
+    if (by)
+        fw_diag_warning(r->diags, 687, r->place,
+                        "step %s, which comes before it, is in the log from before step %s was run "
+                        "again (lines %d and %d): run it again, or log it where it was",
+                        before->step->id, by->step->id, before->line, by->line);
+    if (!before && index > 0)
         fw_diag_warning(r->diags, 283, r->place,
                         "step %s, which comes before it, is not in the log",
                         r->flow->step[index - 1].id);
@@ -527,7 +413,13 @@ static fw_status check_clock(const fw_recipe_asrun_reader *r, const fw_recipe_as
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
                               const fw_recipe_asrun *run, const char *words, fw_place place,
                               double now_s, fw_diags *diags, const char **line) {
-    fw_recipe_asrun_reader r = {arena, flow, run, true, true, diags, place};
+    fw_recipe_asrun_reader r = {.arena = arena,
+                                .flow = flow,
+                                .run = run,
+                                .bound = true,
+                                .fresh = true,
+                                .diags = diags,
+                                .place = place};
     fw_recipe_asrun_entry e;
     char chain[65];
     size_t n = strlen(words);
@@ -544,9 +436,9 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
     fw_text_printf(&out, "step=%s\tstart=%s\tend=%s\tby=%s", e.at->id, e.start, e.end, e.by);
     const struct {
         const char *name, *value;
-    } more[] = {{"wafer", e.wafer},           {"second", e.second}, {"tool", e.tool},
-                {"instrument", e.instrument}, {"bath", e.bath},     {"note", e.note},
-                {"deviation", e.deviation}};
+    } more[] = {{"wafer", e.wafer},           {"second", e.second},    {"tool", e.tool},
+                {"instrument", e.instrument}, {"bath", e.bath},        {"note", e.note},
+                {"deviation", e.deviation},   {"replaces", e.replaces}};
     for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
         if (more[i].value) fw_text_printf(&out, "\t%s=%s", more[i].name, more[i].value);
     if (e.fate != FW_FATE_RUN) fw_text_printf(&out, "\t%s=%s", fw_recipe_fate_word(e.fate), e.why);
@@ -556,9 +448,54 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
         fw_text_printf(&out, "\tset %s=%s", e.set[i].name, e.set[i].text);
     for (int i = 0; i < e.ncoupon; i++)
         fw_text_printf(&out, "\tcoupon=%s", e.coupon[i].text);
+    fw_recipe_asrun_put_planned(&e, &out);
     FW_TRY(fw_text_end(&out));
     link_of(arena, run->chain, out.data, out.length, chain);
     FW_NEED(chain[0]);
     FW_NEED(*line = fw_arena_printf(arena, "%s%s%s\n", out.data, chain_word, chain));
+    return FW_OK;
+}
+
+/* ---- another plan ---- */
+
+bool fw_recipe_asrun_is_plan(const char *words) {
+    words += strspn(words, " ");
+    return strncmp(words, "plan", 4) == 0 && (words[4] == ';' || words[4] == ' ' || !words[4]);
+}
+
+fw_status fw_recipe_asrun_add_plan(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const char *plan_sha256, const char *words, fw_place place,
+                                   fw_diags *diags, const char **line) {
+    enum { START, BY, NOTE, FIELDS };
+    static const char *const name[FIELDS] = {"start", "by", "note"};
+    const char *value[FIELDS] = {0}, *wrong = NULL;
+    char chain[65], *copy = fw_arena_strdup(arena, words);
+    double time_s;
+    FW_NEED(copy);
+    if (strlen(words) > LONGEST_WORDS || !fw_text_is_line(words)) wrong = "it is no line of text";
+    for (char *at = copy; at && !wrong;) {
+        const char *word = fw_recipe_asrun_word(&at, ';');
+        int k = 0;
+        while (k < FIELDS &&
+               (strncmp(word, name[k], strlen(name[k])) != 0 || word[strlen(name[k])] != '='))
+            k++;
+        if (k < FIELDS && !value[k])
+            value[k] = word + strlen(name[k]) + 1;
+        else if (word[0] && strcmp(word, "plan") != 0)
+            wrong = "it takes start=, by= and note=, each once";
+    }
+    if (!wrong && (!value[START] || !fw_recipe_asrun_time_read(value[START], &time_s)))
+        wrong = "start= is needed, such as start=2026-11-20T10:00";
+    if (!wrong && (!value[BY] || !value[BY][0])) wrong = "by= is needed: who says so";
+    if (!wrong && strcmp(run->plan, plan_sha256) == 0) wrong = "the log is of this plan already";
+    if (wrong)
+        return fw_diag_error(diags, 282, place, "an entry that names another plan: %s", wrong);
+    const char *text =
+        fw_arena_printf(arena, "plan=%s\tstart=%s\tby=%s%s%s", plan_sha256, value[START], value[BY],
+                        value[NOTE] ? "\tnote=" : "", value[NOTE] ? value[NOTE] : "");
+    FW_NEED(text);
+    link_of(arena, run->chain, text, strlen(text), chain);
+    FW_NEED(chain[0]);
+    FW_NEED(*line = fw_arena_printf(arena, "%s%s%s\n", text, chain_word, chain));
     return FW_OK;
 }

@@ -48,27 +48,40 @@ typedef enum fw_recipe_fate {
 typedef struct fw_recipe_asrun_entry {
     const fw_process_step *step; /* that was run; NULL: none was (fate) */
     const fw_process_step *at;   /* that one, or the one at which the fate was seen */
+    /* step as its law times it at what was set in this run; `step` where that is as planned, or the plan is not known */
+    const fw_process_step *as_set;
     fw_recipe_fate fate;
     const char *why;       /* of a fate, as written */
     double start_s, end_s; /* local time of the laboratory, seconds since 1970-01-01T00:00 there */
     /* as written; NULL: not given; wafer NULL: the whole lot */
     const char *start, *end, *by, *second, *tool, *bath, *note, *wafer, *instrument;
+    const char
+        *replaces; /* line of the entry in whose place this one stands, as written; NULL: none */
     const char *deviation; /* what was done otherwise than the sheet says, with its number there */
     fw_recipe_measured *measured;
     fw_recipe_set *set;
     fw_recipe_coupon *coupon;
     int nmeasured, nset, ncoupon, line;
+    bool former; /* of a plan before that of the last lines, and judged by the times of its line */
     int loads; /* of the step that the entry is of: of the whole lot several, one after the other */
     char chain[65]; /* of its line */
 } fw_recipe_asrun_entry;
 
+typedef struct fw_recipe_replan {         /* from here on the lot follows another plan */
+    const char *plan, *start, *by, *note; /* note NULL: none */
+    int line;
+} fw_recipe_replan;
+
 typedef struct fw_recipe_asrun {
     const fw_process_flow *flow; /* whose steps the entries are of */
-    const char *plan, *lot;
-    const char **wafer; /* (nwafer) ids of the lot; 0: the log was begun without */
+    const char *plan, *lot;      /* plan: that of its last lines */
+    const char **wafer;          /* (nwafer) ids of the lot; 0: the log was begun without */
     int nwafer;
     fw_recipe_asrun_entry *entry; /* (nentry) in the order of the log */
     int nentry;
+    fw_recipe_replan *replan; /* (nreplan) in the order of the log */
+    char (*link)[65];         /* (nline) chains of the lines behind the first one */
+    int nreplan, nline;
     char chain[65];             /* of the last line */
     char begun[65];             /* of the first one */
     const fw_mask_table *table; /* of the test die that coupons are on; NULL: not looked at */
@@ -83,6 +96,12 @@ bool fw_recipe_asrun_is_log(const char *text, size_t n);
 fw_status fw_recipe_asrun_read(fw_arena *arena, const fw_process_flow *flow,
                                const char *plan_sha256, const char *file, const char *text,
                                size_t n, fw_diags *diags, fw_recipe_asrun *run);
+
+/* the same without asking whether its last lines are of that plan, for an entry that says that they are from now on. Lines of
+   a former plan are judged by the times that stand in them */
+fw_status fw_recipe_asrun_read_former(fw_arena *arena, const fw_process_flow *flow,
+                                      const char *plan_sha256, const char *file, const char *text,
+                                      size_t n, fw_diags *diags, fw_recipe_asrun *run);
 
 /* one line more behind what was read, of the same plan; run->entry has room for it */
 fw_status fw_recipe_asrun_read_next(fw_arena *arena, const fw_process_flow *flow, const char *file,
@@ -106,6 +125,13 @@ fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
                               const fw_recipe_asrun *run, const char *words, fw_place place,
                               double now_s, fw_diags *diags, const char **line);
+
+/* "plan; start=2026-11-20T13:00; by=AB; note=with the pack of wafer 1": from then on the log is of this plan. is_plan: are the
+   words such an entry? FW-D282 */
+bool fw_recipe_asrun_is_plan(const char *words);
+fw_status fw_recipe_asrun_add_plan(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const char *plan_sha256, const char *words, fw_place place,
+                                   fw_diags *diags, const char **line);
 
 /* asrun.c: the line of the file beside the log that says how many entries it has; FW-D280 where the log has fewer, or
    others. A log that says of itself that a head is kept (`headed`) is not whole without one. */
@@ -139,8 +165,14 @@ fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recip
                                      fw_text *out);
 
 /* asrun_measured.c: the coupons of the log, wafer by wafer, for fw_process_calibrate_wafers. FW-D610: a reading that a later
-   one took the place of; FW-D611: readings of one run under something else; FW-D604: of a wafer that was scrapped or held by then, left out */
-fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
+   one took the place of; FW-D611: readings of one run under something else; FW-D604: of a wafer that was scrapped or held by then, left out; FW-D693: of a run that was not as
+   planned, left out where nothing else says under what it was read */
+typedef struct fw_recipe_counted { /* which readings of a log count */
+    bool all_runs;       /* those of runs out of their window, too, and those that were overtaken */
+    const char *without; /* ids of wafers with commas between; NULL: of all */
+} fw_recipe_counted;
+fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_counted *counted, fw_diags *diags,
                                    fw_process_readings *readings);
 typedef struct fw_recipe_read_again {
     const fw_recipe_asrun_entry *entry, *by;

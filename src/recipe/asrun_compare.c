@@ -7,158 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- what of a log is out of its limits ---- */
-
-static double booked_stop_s(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    int together;
-    return e->step->booked_stop_s * fw_recipe_asrun_loads(run, e, &together);
-}
-
-/* what is at the bench or the machine beside the step's own time, in every run of it */
-static double handling_s(const fw_process_step *s) {
-    return s->finish_s + s->booked_stop_s - s->booked_stop_own_s;
-}
-
-/* Runs that add up are to stop when one run is, with handling once more for each; *surely NULL, or where handling may be in
-   every run: so much is too long in any case. One run: its loads together */
-static double stop_by_s(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                        const fw_recipe_runs *runs, double *surely) {
-    const double one = runs->n > 1 ? e->step->booked_stop_s : booked_stop_s(run, e);
-    if (surely) *surely = one + (runs->n - 1) * handling_s(e->step);
-    return one;
-}
-
-/* what the entry took, or all of its runs */
-static double took_s(const fw_recipe_asrun_entry *e, const fw_recipe_runs *runs) {
-    return runs->n > 1 ? runs->time_s : e->end_s - e->start_s;
-}
-
-/* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
-   end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. */
-const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
-    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    const double actual_s = took_s(e, &runs), read_s = runs.n * fw_recipe_asrun_clock_s(e);
-    double surely;
-    if (!e->step->time.computable) return "no plan";
-    if (actual_s + read_s < e->step->time.first_look_s) return "short";
-    stop_by_s(run, e, &runs, &surely);
-    return actual_s - read_s > surely ? "long" : "in window";
-}
-
-static bool is_out_of_time(const char *judged) {
-    return strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0;
-}
-
-/* "45 min", "31 min in 2 runs" */
-static void put_took(fw_text *out, const fw_recipe_asrun_entry *e, const fw_recipe_runs *runs) {
-    fw_schedule_put_duration(out, took_s(e, runs));
-    if (runs->n > 1) fw_text_printf(out, " in %d runs", runs->n);
-}
-
-/* "it took 45 min, and is to stop by 26 min"; NULL: in its window, or there is no plan */
-static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
-                             const fw_recipe_asrun_entry *e, const char **how) {
-    const char *judged = fw_recipe_asrun_in_time(run, e);
-    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    const bool brief = strcmp(judged, "short") == 0;
-    double surely;
-    stop_by_s(run, e, &runs, &surely);
-    fw_text text = fw_text_new(arena);
-    *how = NULL;
-    if (!is_out_of_time(judged)) return FW_OK;
-    fw_text_add(&text, "it took ");
-    put_took(&text, e, &runs);
-    fw_text_add(&text, brief ? ", before the first look at " : ", and is to stop by ");
-    fw_schedule_put_duration(&text, brief ? e->step->time.first_look_s : surely);
-    FW_TRY(fw_text_end(&text));
-    *how = text.data;
-    return FW_OK;
-}
-
-/* FW-D680, where runs add up to more than one may take unless each has its handling in it, which the log does not tell */
-static fw_status ask_runs(fw_arena *arena, const fw_recipe_asrun *run,
-                          const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
-    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    double surely;
-    const double stop = stop_by_s(run, e, &runs, &surely),
-                 read_s = runs.n * fw_recipe_asrun_clock_s(e);
-    fw_text text = fw_text_new(arena);
-    if (runs.n < 2 || !e->step->time.computable || !(runs.time_s - read_s > stop) ||
-        runs.time_s - read_s > surely)
-        return FW_OK;
-    put_took(&text, e, &runs);
-    fw_text_add(&text, ", and one run is to stop by ");
-    fw_schedule_put_duration(&text, stop);
-    FW_TRY(fw_text_end(&text));
-    fw_diag_warning(diags, 680, place,
-                    "step %s%s%s: what it does adds up, and comes to %s: too long, unless what is "
-                    "finished at the bench is in each of them; look at what that leaves before the "
-                    "next step",
-                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", text.data);
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-/* "19.1 um (17.9 to 20.2), by t = d/R in 45 min"; *does: what was measured goes with it, or nothing was */
-static fw_status amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
-                               const fw_recipe_asrun_entry *e, fw_recipe_amount_in_time *a,
-                               fw_text *planned, fw_text *actual) {
-    int together;
-    const double loads = fw_recipe_asrun_loads(run, e, &together);
-    FW_TRY(fw_recipe_asrun_amount_in_time(arena, run, e, loads, fw_recipe_asrun_clock_s(e), a));
-    if (a->fits) return FW_OK;
-    const char *unit = fw_recipe_asrun_accept(e->step, a->measured->measure)->unit;
-    fw_quantity_unit in;
-    if (!fw_quantity_unit_parse(unit, strlen(unit), &in, NULL, NULL)) return FW_INTERNAL;
-    const double law = fw_quantity_unit_from_si(&in, a->law_m);
-    char value[3][32];
-    fw_text_printf(planned, "%s %s (%s to %s %s), by %s in ",
-                   fw_number_text(value[0], sizeof value[0], law, 3), unit,
-                   fw_number_text(value[1], sizeof value[1], law * fmax(0.0, 1.0 - a->off), 3),
-                   fw_number_text(value[2], sizeof value[2], law * (1.0 + a->off), 3), unit,
-                   a->formula);
-    fw_schedule_put_duration(planned, a->time_s);
-    if (a->time_s < a->took_s / loads) fw_text_add(planned, " (the rest of it may be handling)");
-    fw_recipe_put_value(actual, a->measured->number);
-    fw_text_printf(actual, " %s", unit);
-    FW_TRY(fw_text_end(planned));
-    return fw_text_end(actual);
-}
-
-/* FW-D654, where the law of the step contradicts what was measured after it */
-static fw_status ask_amount(fw_arena *arena, const fw_recipe_asrun *run,
-                            const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
-    fw_text planned = fw_text_new(arena), actual = fw_text_new(arena);
-    fw_recipe_amount_in_time a;
-    FW_TRY(amount_by_law(arena, run, e, &a, &planned, &actual));
-    if (a.fits) return FW_OK;
-    fw_diag_warning(
-        diags, 654, place,
-        "step %s: %s = %s does not go with the time that it took: that makes %s. One of "
-        "time, setting and reading is not what is written: give what was set otherwise "
-        "(set NAME=VALUE), or measure again",
-        e->at->id, a.measured->measure, actual.data, planned.data);
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
-                                   const fw_recipe_asrun_entry *e, fw_place place,
-                                   fw_diags *diags) {
-    const char *how;
-    if (e->fate != FW_FATE_RUN || !e->step)
-        return FW_OK; /* what became of a wafer is no step that was run */
-    FW_TRY(ask_amount(arena, run, e, place, diags));
-    FW_TRY(fw_recipe_asrun_ask_waits(run, e, place, diags));
-    FW_TRY(ask_runs(arena, run, e, place, diags));
-    FW_TRY(fw_recipe_asrun_ask_at_once(arena, run, e, place, diags));
-    FW_TRY(out_of_time(arena, run, e, &how));
-    if (!how) return FW_OK;
-    fw_diag_warning(diags, 283, place,
-                    "step %s went otherwise than planned: %s; look at what that leaves before the "
-                    "next step%s",
-                    e->at->id, how, e->deviation ? "" : ", and write down why (deviation=...)");
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
     if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
     for (int i = 0; i < FW_RECIPE_SITES; i++)
@@ -212,19 +60,21 @@ static fw_status durations_of(builder *b, const fw_recipe_asrun *run,
     const double loads = runs.n > 1 ? 1.0 : fw_recipe_asrun_loads(run, e, &together);
     const char *judged = fw_recipe_asrun_in_time(run, e);
     double surely;
-    if (!is_out_of_time(judged) ||
-        (strcmp(judged, "short") == 0 && fw_recipe_asrun_is_gone_on(run, e)))
+    const bool brief = strcmp(judged, "short") == 0;
+    if ((!brief && strcmp(judged, "long") != 0) || (brief && fw_recipe_asrun_is_gone_on(run, e)))
         return FW_OK;
-    stop_by_s(run, e, &runs, &surely);
+    fw_recipe_asrun_stop_by(run, e, &runs, &surely);
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
-    fw_schedule_put_duration(&planned, e->step->booked_s * loads);
+    fw_schedule_put_duration(&planned, e->as_set->booked_s * loads);
     fw_text_add(&planned, " at the machine; from the first look at ");
-    fw_schedule_put_duration(&planned, e->step->time.first_look_s);
+    fw_schedule_put_duration(&planned, e->as_set->time.first_look_s);
     fw_text_add(&planned, " to ");
     fw_schedule_put_duration(&planned, surely);
     fw_text_add(&planned, ", with the stop time");
     if (runs.n > 1) fw_text_add(&planned, " and the handling of each run");
-    put_took(&is, e, &runs);
+    if (e->as_set != e->step)
+        fw_text_add(&planned, e->former ? ", by the plan of its line" : ", at what was set");
+    fw_recipe_asrun_put_took(&is, e, &runs);
     return add(b, e, "duration", &planned, &is);
 }
 
@@ -268,7 +118,7 @@ static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
 static fw_status amount_of(builder *b, const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
     fw_recipe_amount_in_time a;
-    FW_TRY(amount_by_law(b->arena, run, e, &a, &planned, &is));
+    FW_TRY(fw_recipe_asrun_amount_by_law(b->arena, run, e, &a, &planned, &is));
     if (a.fits ||
         !fw_recipe_asrun_accepted(fw_recipe_asrun_accept(e->step, a.measured->measure), a.measured))
         return FW_OK; /* what is not accepted is in the list already */
@@ -315,6 +165,25 @@ static fw_status waits_of(builder *b, const fw_recipe_asrun *run, const fw_recip
     return FW_OK;
 }
 
+/* what was gone on without, though an earlier step was run again: is a later one in the log? */
+static fw_status overtaken_of(builder *b, const fw_recipe_asrun *run,
+                              const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
+    bool gone_on = false;
+    for (int i = 0; by && i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[i];
+        gone_on = gone_on || (o->step && o->step > e->step && o->start_s >= by->end_s &&
+                              !fw_process_step_is_of_lot(o->step) &&
+                              (!o->wafer || !e->wafer || fw_text_same(o->wafer, e->wafer)));
+    }
+    if (!gone_on) return FW_OK;
+    fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+    fw_text_printf(&planned, "once more after %s at %s (line %d)", by->step->id, by->start,
+                   by->line);
+    fw_text_printf(&is, "last at %s (line %d)", e->start, e->line);
+    return add(b, e, "not run again", &planned, &is);
+}
+
 /* is a later entry of the same run, with what was read afterwards? Then that one has its times */
 static bool goes_on(const fw_recipe_asrun *run, int i) {
     const fw_recipe_asrun_entry *e = &run->entry[i];
@@ -334,7 +203,7 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
     for (int s = 0; s < flow->nstep; s++)
         for (int i = 0; i < run->nentry; i++) {
             const fw_recipe_asrun_entry *e = &run->entry[i];
-            if (e->step != &flow->step[s]) continue;
+            if (e->step != &flow->step[s] || fw_recipe_asrun_taken_back(run, e)) continue;
             const bool last = fw_recipe_asrun_is_last(run, e), added = !last && goes_on(run, i);
             b.repeated = !last && !added;
             if (!added) FW_TRY(durations_of(&b, run, e));
@@ -343,6 +212,7 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
             FW_TRY(amount_of(&b, run, e));
             FW_TRY(settings_of(&b, e));
             if (!added) FW_TRY(waits_of(&b, run, e));
+            if (last) FW_TRY(overtaken_of(&b, run, e));
         }
     *list = b.item;
     *n = b.n;
@@ -362,6 +232,18 @@ static void put_cell(fw_text *out, double seconds, int width) {
         return;
     }
     fw_text_printf(out, "%*s", width, cell.data);
+}
+
+/* what was accepted of a wafer that was worked on again since */
+static void put_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          fw_text *out) {
+    const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
+    if (by)
+        fw_text_printf(out,
+                       "      overtaken: %s%s%s was run again at %s (line %d); run and log this "
+                       "step again\n",
+                       by->step->id, by->wafer ? " of wafer " : "", by->wafer ? by->wafer : "",
+                       by->start, by->line);
 }
 
 static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e,
@@ -412,6 +294,28 @@ static void put_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e
     }
 }
 
+/* the times that it is judged by, where they are others than those in the line above */
+static void put_times_as_set(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             fw_text *out) {
+    const fw_process_step *s = e->as_set;
+    if (s == e->step) return;
+    fw_text_add(out, e->former ? "      by the plan of its line: " : "      at what was set: ");
+    if (!s->time.computable) {
+        fw_text_add(out, "the law has no time\n");
+        return;
+    }
+    fw_schedule_put_duration(out, s->time.nominal_s);
+    fw_text_add(out, ", first look ");
+    fw_schedule_put_duration(out, s->time.first_look_s);
+    fw_text_add(out, ", stop ");
+    fw_schedule_put_duration(out, s->time.stop_s);
+    fw_text_add(out, ", at the machine ");
+    fw_schedule_put_duration(out, s->booked_s);
+    if (fw_recipe_asrun_is_late_as_set(run, e))
+        fw_text_add(out, "; it took longer, which may be what is finished at the bench");
+    fw_text_add(out, "\n");
+}
+
 static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
     for (int i = 0; i < e->nmeasured; i++)
         put_measured(out, e, &e->measured[i]);
@@ -420,12 +324,15 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
     for (int i = 0; i < e->ncoupon; i++)
         fw_text_printf(out, "      coupon %s\n", e->coupon[i].text);
     put_waits(run, e, out);
+    put_times_as_set(run, e, out);
+    put_overtaken(run, e, out);
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     if (runs.n > 1) {
-        const double stop = stop_by_s(run, e, &runs, NULL);
+        const double stop = fw_recipe_asrun_stop_by(run, e, &runs, NULL);
         fw_text_add(out, "      adds up to ");
-        put_took(out, e, &runs);
-        if (e->step->time.computable && runs.time_s - runs.n * fw_recipe_asrun_clock_s(e) > stop) {
+        fw_recipe_asrun_put_took(out, e, &runs);
+        if (e->as_set->time.computable &&
+            runs.time_s - runs.n * fw_recipe_asrun_clock_s(e) > stop) {
             fw_text_add(out, ", and one run is to stop by ");
             fw_schedule_put_duration(out, stop);
         }
@@ -462,7 +369,7 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
             any = true;
             if (fw_recipe_asrun_is_last(run, e))
                 sum_runs(run, e, t);
-            else if (!fw_recipe_asrun_is_gone_on(run, e))
+            else if (!fw_recipe_asrun_is_gone_on(run, e) && !fw_recipe_asrun_taken_back(run, e))
                 t->repeated++;
         }
         t->logged += any;
@@ -478,7 +385,8 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
 static int times_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last) {
     int times = 0;
     for (const fw_recipe_asrun_entry *e = run->entry; e <= last; e++)
-        times += e->step == last->step && fw_text_same(e->wafer, last->wafer);
+        times += e->step == last->step && fw_text_same(e->wafer, last->wafer) &&
+                 !fw_recipe_asrun_taken_back(run, e);
     return times;
 }
 
@@ -494,7 +402,12 @@ static void put_step(const fw_recipe_asrun *run, const fw_process_step *s,
     fw_text_printf(out, "%-5s", s->id);
     for (int k = 0; k < 5; k++)
         put_cell(out, cell[k], 15);
-    fw_text_printf(out, "  %-9s %s", e ? fw_recipe_asrun_in_time(run, e) : "open", s->title);
+    const bool overtaken = e && fw_recipe_asrun_overtaken(run, e, e->wafer);
+    fw_text_printf(out, "  %-9s %s",
+                   !e          ? "open"
+                   : overtaken ? "overtaken"
+                               : fw_recipe_asrun_in_time(run, e),
+                   s->title);
     if (e && e->wafer) fw_text_printf(out, ", wafer %s", e->wafer);
     if (e && times_of(run, e) > 1) fw_text_printf(out, " (run %d times)", times_of(run, e));
     fw_text_add(out, "\n");
@@ -553,8 +466,17 @@ static void put_read_again(const fw_recipe_asrun *run, fw_text *out) {
 
 fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out) {
-    fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n\n", flow->id, run->lot ? ", lot " : "",
+    fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n", flow->id, run->lot ? ", lot " : "",
                    run->lot ? run->lot : "", run->plan);
+    for (int i = 0; i < run->nreplan; i++)
+        fw_text_printf(out, "from line %d on plan %.12s: %s, by %s%s%s\n", run->replan[i].line,
+                       run->replan[i].plan, run->replan[i].start, run->replan[i].by,
+                       run->replan[i].note ? ": " : "",
+                       run->replan[i].note ? run->replan[i].note : "");
+    if (run->nreplan > 0)
+        fw_text_add(out, "lines before are judged by the times that stand in them, and values by "
+                         "the limits of the last plan\n");
+    fw_text_add(out, "\n");
     fw_text_printf(out, "%-5s %14s %14s %14s %14s %14s  %-9s %s\n", "step", "planned", "first look",
                    "stop", "at the machine", "actual", "judged", "title");
     for (int i = 0; i < flow->nstep; i++) {
@@ -594,4 +516,56 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
     fw_recipe_asrun_put_declared(run, out);
     put_read_again(run, out);
     return fw_text_end(out);
+}
+
+/* ---- what somebody wrote down as a deviation, of every entry, in the order of the log ---- */
+
+void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        fw_text_printf(out, "%s%s, %s%s, by %s: %s\n", n++ ? "" : "\ndeviations written down:\n",
+                       e->at->id, e->wafer ? "wafer " : "lot", e->wafer ? e->wafer : "", e->by,
+                       e->deviation);
+    }
+}
+
+void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        if (n++ == 0)
+            fw_text_add(out, "<h3>Written down</h3>\n<table><thead><tr><th>Step</th><th>Wafer</th>"
+                             "<th>When</th><th>What was done otherwise, and why</th><th>Who</th>"
+                             "</tr></thead><tbody>\n");
+        const char *cell[] = {e->at->id, e->wafer ? e->wafer : "lot", e->start, e->deviation,
+                              e->by};
+        fw_text_add(out, "<tr>");
+        for (size_t k = 0; k < sizeof cell / sizeof cell[0]; k++) {
+            fw_text_add(out, "<td>");
+            fw_text_escaped(out, cell[k]);
+            fw_text_add(out, "</td>");
+        }
+        fw_text_add(out, "</tr>\n");
+    }
+    if (n) fw_text_add(out, "</tbody></table>\n");
+}
+
+void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out) {
+    fw_json_list(out, "written_down");
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        fw_json_object(out, NULL);
+        fw_json_text(out, "step", e->at->id);
+        if (e->wafer) fw_json_text(out, "wafer", e->wafer);
+        fw_json_text(out, "at", e->start);
+        fw_json_text(out, "by", e->by);
+        fw_json_text(out, "deviation", e->deviation);
+        fw_json_whole(out, "line", e->line);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
 }

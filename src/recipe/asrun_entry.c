@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One entry of an as-run log, checked against the plan that the log is bound to. */
 #include "base/text.h"
+#include "process/process_law.h"
 #include "recipe/asrun_parts.h"
 #include "recipe/recipe_words.h"
 #include "schedule/schedule.h"
@@ -16,8 +17,7 @@ static bool digits(const char *s, int n, int *value) {
     return true;
 }
 
-/* YYYY-MM-DDTHH:MM or with :SS behind, of the years 1 to 9999 */
-static bool read_time(const char *s, double *time_s) {
+bool fw_recipe_asrun_time_read(const char *s, double *time_s) {
     int hour, minute, second = 0;
     long day;
     size_t n = strlen(s);
@@ -54,9 +54,10 @@ static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const cha
     return NULL;
 }
 
-static const char *const own_words[] = {"start", "end",     "by",       "second",     "tool",
-                                        "bath",  "note",    "wafer",    "instrument", "scrapped",
-                                        "held",  "resumed", "deviation"};
+static const char *const own_words[] = {"start", "end",     "by",        "second",     "tool",
+                                        "bath",  "note",    "wafer",     "instrument", "scrapped",
+                                        "held",  "resumed", "deviation", "replaces"};
+static const char planned_word[] = "planned";
 enum { OWN_WORDS = sizeof own_words / sizeof own_words[0], MOST_NAMES = 60 };
 
 /* how many times yes or no stands there; 0: something else stands there, too */
@@ -87,8 +88,9 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     const fw_process_accept *a = measure_named(e->step, name);
     fw_recipe_measured m = {
         .measure = a ? a->measure : name, .value = value, .number = (double)NAN};
-    /* without its plan, whose values may stand in the name of a measure, only coupons are wanted */
-    if (!r->bound) return FW_OK;
+    /* without its plan, whose values may stand in the name of a measure, only coupons are wanted; of a former plan what has a
+       name in this one */
+    if (!r->bound && (!r->former || !a)) return FW_OK;
     if (!a) {
         const char *known[MOST_NAMES];
         int n = 0;
@@ -301,6 +303,56 @@ static fw_status check_there(const fw_recipe_asrun_reader *r, const fw_recipe_as
                          out->fate == FW_FATE_HELD ? "; where it goes on, log resumed= first" : "");
 }
 
+/* ---- the times that the entry is judged by ----
+   They stand in its line, in seconds: whoever reads the log without its device and packs, as calibrate does, judges by them,
+   too. planned=TIME FIRST-LOOK STOP MACHINE MACHINE-AT-STOP THE-SAME-WITHOUT-HANDLING FINISHES, at what was set. */
+enum { PLANNED = 7 };
+
+void fw_recipe_asrun_put_planned(const fw_recipe_asrun_entry *e, fw_text *out) {
+    const fw_process_step *s = e->as_set;
+    if (e->fate != FW_FATE_RUN || !s->time.computable) return;
+    const double value[PLANNED] = {s->time.nominal_s, s->time.first_look_s, s->time.stop_s,
+                                   s->booked_s,       s->booked_stop_s,     s->booked_stop_own_s,
+                                   s->finish_s};
+    fw_text_printf(out, "\t%s=", planned_word);
+    for (int i = 0; i < PLANNED; i++) {
+        fw_text_add(out, i ? " " : "");
+        fw_text_number(out, value[i], 6);
+    }
+}
+
+static fw_status read_planned(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
+                              const char *text) {
+    double value[PLANNED];
+    int n = 0;
+    if (r->fresh)
+        return fw_diag_error(r->diags, 282, r->place,
+                             "planned= is written by the program, from the plan and what was set");
+    fw_word word;
+    for (const char *at = text; fw_word_next(&at, " ", &word); n++)
+        if (n == PLANNED || !fw_number_parse(word.at, word.length, &value[n]))
+            return fw_diag_error(r->diags, 282, r->place, "planned=%s is not %d numbers", text,
+                                 PLANNED);
+    if (n != PLANNED)
+        return fw_diag_error(r->diags, 282, r->place, "planned=%s is not %d numbers", text,
+                             PLANNED);
+    fw_process_step *s = fw_arena_array(r->arena, fw_process_step, 1);
+    FW_NEED(s);
+    *s = *e->step;
+    s->time = (fw_process_time){.computable = true,
+                                .nominal_s = value[0],
+                                .first_look_s = value[1],
+                                .stop_s = value[2],
+                                .slowed = 1.0};
+    s->booked_s = value[3], s->booked_stop_s = value[4];
+    s->booked_stop_own_s = value[5], s->finish_s = value[6];
+    const bool alike = e->step->time.computable &&
+                       fabs(s->time.stop_s - e->step->time.stop_s) <= 1e-5 * s->time.stop_s &&
+                       fabs(s->booked_stop_s - e->step->booked_stop_s) <= 1e-5 * s->booked_stop_s;
+    e->as_set = alike ? e->step : s;
+    return FW_OK;
+}
+
 static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                            const char *name, const char *value) {
     const struct {
@@ -316,13 +368,14 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
                  {"note", &e->note, NULL},
                  {"wafer", &e->wafer, NULL},
                  {"instrument", &e->instrument, NULL},
-                 {"deviation", &e->deviation, NULL}};
+                 {"deviation", &e->deviation, NULL},
+                 {"replaces", &e->replaces, NULL}};
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         if (strcmp(field[i].name, name) != 0) continue;
         if (*field[i].text)
             return fw_diag_error(r->diags, 282, r->place, "%s is given twice", name);
         *field[i].text = value;
-        if (field[i].time_s && !read_time(value, field[i].time_s))
+        if (field[i].time_s && !fw_recipe_asrun_time_read(value, field[i].time_s))
             return fw_diag_error(r->diags, 282, r->place,
                                  "%s=%s is not a time; write 2026-11-20T10:00, local time of the "
                                  "laboratory",
@@ -331,6 +384,8 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
     }
     for (fw_recipe_fate fate = FW_FATE_HELD; fate <= FW_FATE_SCRAPPED; fate++)
         if (strcmp(name, fw_recipe_fate_word(fate)) == 0) return read_fate(r, e, fate, value);
+    if (strcmp(name, planned_word) == 0 && !fw_recipe_asrun_accept(e->step, name))
+        return read_planned(r, e, value);
     if (strncmp(name, "set ", 4) == 0) return read_setting(r, e, name + 4, value);
     if (strcmp(name, "coupon") == 0) return read_coupon(r, e, value);
     return read_measure(r, e, name, value);
@@ -350,6 +405,23 @@ static fw_status check_alone(const fw_recipe_asrun_reader *r, const fw_recipe_as
     return r->fresh ? check_fate(r, e) : FW_OK;
 }
 
+/* the entry that it takes the place of is one of the same step and wafer before it, which no other one took the place of */
+static fw_status check_replaced(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun_entry *of = NULL;
+    for (int i = 0; i < r->run->nentry; i++)
+        if (fw_recipe_asrun_replaces(e, &r->run->entry[i])) of = &r->run->entry[i];
+    const char *wrong = !of                                  ? "no entry of the log stands there"
+                        : of->step != e->step                ? "it is of another step"
+                        : !fw_text_same(of->wafer, e->wafer) ? "it is not of the same wafer"
+                        : fw_recipe_asrun_taken_back(r->run, of)
+                            ? "another entry took its place already"
+                            : NULL;
+    if (!wrong) return FW_OK;
+    return fw_diag_error(r->diags, 282, r->place,
+                         "replaces=%s: %s; give the line of the log that this entry stands for",
+                         e->replaces, wrong);
+}
+
 /* what no entry may lack */
 static fw_status check_entry(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
     const char *lacks = !e->start ? "start" : !e->end ? "end" : !e->by ? "by" : NULL;
@@ -362,6 +434,7 @@ static fw_status check_entry(const fw_recipe_asrun_reader *r, const fw_recipe_as
     if (e->end_s < e->start_s)
         return fw_diag_error(r->diags, 282, r->place, "step %s ends before it starts", e->step->id);
     if (e->fate != FW_FATE_RUN) return check_alone(r, e);
+    if (e->replaces) FW_TRY(check_replaced(r, e));
     if (e->step->second_signature && (!e->second || strcmp(e->second, e->by) == 0))
         return fw_diag_error(r->diags, 282, r->place,
                              "step %s is never done alone: add second= with the initials of the "
@@ -397,12 +470,54 @@ static char *equal_of(const fw_recipe_asrun_reader *r, const fw_process_step *st
     return first;
 }
 
+/* ---- a step as it was set ---- */
+
+/* what an entry sets, SI; of what was not known as exactly as it is written, else as what was planned */
+static bool read_set(const fw_recipe_set *set, fw_process_set *as) {
+    fw_quantity_unit unit;
+    if (!set->q || isnan(set->value) ||
+        !fw_quantity_unit_parse(set->q->unit, strlen(set->q->unit), &unit, NULL, NULL))
+        return false;
+    *as = (fw_process_set){.planned = set->q,
+                           .value = fw_quantity_unit_to_si(&unit, set->value),
+                           .uncertainty = set->q->uncertainty};
+    unit.offset = 0.0;
+    if (set->q->unknown)
+        as->uncertainty = fw_quantity_unit_to_si(&unit, fw_process_written_uncertainty(set->text));
+    return true;
+}
+
+/* an entry of the same run, which says what was read of it afterwards, or puts it right */
+static bool same_run(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return a->step == b->step && fw_text_same(a->wafer, b->wafer) && a->start_s == b->start_s;
+}
+
+/* the step as it was set in this run, of which earlier entries may be */
+static fw_status take_settings(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e) {
+    const fw_recipe_asrun *run = r->run;
+    int n = 0, most = e->nset;
+    if (!r->bound && e->as_set) return FW_OK; /* by its line */
+    e->as_set = e->step;
+    if (!r->bound || !e->step) return FW_OK;
+    for (int i = 0; i < run->nentry; i++)
+        if (same_run(&run->entry[i], e)) most += run->entry[i].nset;
+    if (most == 0) return FW_OK;
+    fw_process_set *set = fw_arena_array(r->arena, fw_process_set, (size_t)most);
+    FW_NEED(set);
+    for (int i = 0; i <= run->nentry; i++) { /* the last one says how it was */
+        const fw_recipe_asrun_entry *of = i < run->nentry ? &run->entry[i] : e;
+        for (int k = 0; k < of->nset && (of == e || same_run(of, e)); k++)
+            n += read_set(&of->set[k], &set[n]);
+    }
+    return fw_process_step_as_set(r->arena, e->step, set, n, &e->as_set);
+}
+
 fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,
                                      char separator, fw_recipe_asrun_entry *e) {
     char *copy = fw_arena_strndup(r->arena, words, n);
     FW_NEED(copy);
     *e = (fw_recipe_asrun_entry){
-        .start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line};
+        .start_s = (double)NAN, .end_s = (double)NAN, .line = r->place.line, .former = r->former};
     size_t most = 1;
     for (const char *s = copy; *s; s++)
         most += *s == separator;
@@ -438,126 +553,16 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
     int there = 0;
     for (int i = 0; i < r->run->nwafer; i++)
         there += !fw_recipe_asrun_out(r->run, r->run->wafer[i], e->start_s);
-    e->loads = e->wafer || fw_process_step_is_of_lot(e->step)
-                   ? 1
-                   : (there + e->step->batch - 1) / e->step->batch;
+    e->loads = fw_process_step_is_of_lot(e->step)
+                   ? fw_process_step_times(r->flow, e->step, r->run->nwafer)
+               : e->wafer ? 1
+                          : (there + e->step->batch - 1) / e->step->batch;
     if (e->loads < 1) e->loads = 1; /* a log of before there were wafers */
     FW_TRY(check_entry(r, e));
+    FW_TRY(take_settings(r, e));
     if (e->fate != FW_FATE_RUN)
         e->step = NULL;
     else if (r->fresh)
         return check_there(r, e, there);
     return FW_OK;
-}
-
-/* ---- waits, in words ---- */
-
-void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait) {
-    fw_schedule_put_duration(out, wait->min_s);
-    fw_text_add(out, isnan(wait->max_s) ? " or more" : " to ");
-    if (!isnan(wait->max_s)) fw_schedule_put_duration(out, wait->max_s);
-}
-
-void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait) {
-    const bool early = wait->waited_s < 0.0;
-    fw_text_add(out, early ? "began " : "waited ");
-    fw_schedule_put_duration(out, fabs(wait->waited_s));
-    fw_text_printf(out, early ? " before %s ended" : " since %s", wait->since);
-    if (wait->is && !early) fw_text_printf(out, ", %s", wait->is);
-}
-
-/* ---- what somebody wrote down as a deviation, of every entry, in the order of the log ---- */
-
-void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        fw_text_printf(out, "%s%s, %s%s, by %s: %s\n", n++ ? "" : "\ndeviations written down:\n",
-                       e->at->id, e->wafer ? "wafer " : "lot", e->wafer ? e->wafer : "", e->by,
-                       e->deviation);
-    }
-}
-
-void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        if (n++ == 0)
-            fw_text_add(out, "<h3>Written down</h3>\n<table><thead><tr><th>Step</th><th>Wafer</th>"
-                             "<th>When</th><th>What was done otherwise, and why</th><th>Who</th>"
-                             "</tr></thead><tbody>\n");
-        const char *cell[] = {e->at->id, e->wafer ? e->wafer : "lot", e->start, e->deviation,
-                              e->by};
-        fw_text_add(out, "<tr>");
-        for (size_t k = 0; k < sizeof cell / sizeof cell[0]; k++) {
-            fw_text_add(out, "<td>");
-            fw_text_escaped(out, cell[k]);
-            fw_text_add(out, "</td>");
-        }
-        fw_text_add(out, "</tr>\n");
-    }
-    if (n) fw_text_add(out, "</tbody></table>\n");
-}
-
-void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out) {
-    fw_json_list(out, "written_down");
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        fw_json_object(out, NULL);
-        fw_json_text(out, "step", e->at->id);
-        if (e->wafer) fw_json_text(out, "wafer", e->wafer);
-        fw_json_text(out, "at", e->start);
-        fw_json_text(out, "by", e->by);
-        fw_json_text(out, "deviation", e->deviation);
-        fw_json_whole(out, "line", e->line);
-        fw_json_end(out);
-    }
-    fw_json_end(out);
-}
-
-/* ---- what a coupon was etched at ---- */
-
-static bool of_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
-    return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
-}
-
-static void condition_of_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                             const char *rate, fw_process_condition which,
-                             fw_process_measurement *row) {
-    const fw_recipe_asrun_entry *of =
-        NULL; /* the run; what is read later of it has its start, too */
-    fw_quantity_unit unit;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[i];
-        if (o->step && fw_process_step_corrects(o->step, which, rate) && of_wafer(o, e) &&
-            o->start_s <= e->start_s && (!of || o->start_s > of->start_s))
-            of = o;
-    }
-    for (int i = 0; of && i < run->nentry && !(row->condition[which] > 0.0); i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
-        if (o->step != of->step || !of_wafer(o, of) || o->start_s != of->start_s) continue;
-        for (int k = 0; k < o->nset; k++) {
-            const fw_recipe_set *s = &o->set[k];
-            if (!s->q || isnan(s->value) ||
-                s->q != fw_process_step_corrects(o->step, which, rate) ||
-                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
-                continue;
-            row->condition[which] = fw_quantity_unit_to_si(&unit, s->value);
-            unit.offset = 0.0;
-            row->condition_uncertainty[which] =
-                s->q->unknown
-                    ? fw_quantity_unit_to_si(&unit, fw_process_written_uncertainty(s->text))
-                    : s->q->uncertainty;
-        }
-    }
-}
-
-void fw_recipe_asrun_etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                               fw_process_measurement *row) {
-    const char *rate = fw_process_coupon_rate(run->flow, row);
-    for (int k = 0; rate && k < FW_CONDITIONS; k++)
-        condition_of_run(run, e, rate, (fw_process_condition)k, row);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the measurements of a log say: control charts, with limits by the ranges within subgroups, and their picture; the
-   coupons as calibrate takes them; a thickness against the time that it took. */
+   coupons as calibrate takes them. */
 #include "base/svg.h"
-#include "process/process_law.h"
 #include "recipe/asrun_parts.h"
 #include "recipe/recipe_words.h"
 #include <math.h>
@@ -296,6 +295,53 @@ void fw_recipe_chart_svg(const fw_recipe_chart *c, fw_text *out) {
     fw_svg_end(out);
 }
 
+/* ---- what a coupon was etched at ---- */
+
+static bool of_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
+    return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
+}
+
+static void condition_of_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             const char *rate, fw_process_condition which,
+                             fw_process_measurement *row) {
+    const fw_recipe_asrun_entry *of =
+        NULL; /* the run; what is read later of it has its start, too */
+    fw_quantity_unit unit;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[i];
+        if (o->step && fw_process_step_corrects(o->step, which, rate) && of_wafer(o, e) &&
+            !fw_recipe_asrun_taken_back(run, o) && o->start_s <= e->start_s &&
+            (!of || o->start_s > of->start_s))
+            of = o;
+    }
+    for (int i = 0; of && i < run->nentry && !(row->condition[which] > 0.0); i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
+        if (o->step != of->step || !of_wafer(o, of) || o->start_s != of->start_s) continue;
+        for (int k = 0; k < o->nset; k++) {
+            const fw_recipe_set *s = &o->set[k];
+            if (!s->q || isnan(s->value) ||
+                s->q != fw_process_step_corrects(o->step, which, rate) ||
+                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
+                continue;
+            row->condition[which] = fw_quantity_unit_to_si(&unit, s->value);
+            unit.offset = 0.0;
+            row->condition_uncertainty[which] =
+                s->q->unknown
+                    ? fw_quantity_unit_to_si(&unit, fw_process_written_uncertainty(s->text))
+                    : s->q->uncertainty;
+        }
+    }
+}
+
+/* the temperature and the open area of a rate that was read in this entry and does not say them: what was set of the run that it
+   is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else they stay not said */
+static void etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                      fw_process_measurement *row) {
+    const char *rate = fw_process_coupon_rate(run->flow, row);
+    for (int k = 0; rate && k < FW_CONDITIONS; k++)
+        condition_of_run(run, e, rate, (fw_process_condition)k, row);
+}
+
 /* ---- the coupons of a log, as calibrate takes them ---- */
 
 /* Is b, which comes later, in the place of a? It reads the same feature of the same drawn size again. A rate is read off
@@ -405,16 +451,96 @@ static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, fw_diags *diags,
+/* ---- readings of runs that were not as planned ----
+   What says under what it was read (at=: a time, a depth, a charge) goes with that, however long it took. A line or a space
+   is taken to be of a wafer that went through its steps as planned: by a wet etch of twice the time it would tell of that
+   run alone, and of no next wafer. */
+
+/* the run of the reading's wafer, up to the step of the reading, that was out of its window in the end, and what it is made
+   of; NULL: none is known to be. A log of before its lines had their times tells nothing */
+static const fw_recipe_asrun_entry *out_of_window(const fw_recipe_asrun *run,
+                                                  const fw_recipe_asrun_entry *of) {
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++) {
+        if (!e->step || e->step > of->step || fw_process_step_is_of_lot(e->step) ||
+            e->start_s > of->start_s || e->step->nchange == 0 ||
+            !fw_process_step_adds_up(e->step) || !of_wafer(e, of) ||
+            !fw_recipe_asrun_is_last(run, e) || fw_recipe_asrun_overtaken(run, e, of->wafer))
+            continue;
+        const char *judged = fw_recipe_asrun_in_time(run, e);
+        if (strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0) return e;
+    }
+    return NULL;
+}
+
+/* FW-D693, once for the entry; true: its readings that say nothing of what they were read under do not count */
+static bool is_of_bad_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          const fw_recipe_counted *counted, fw_diags *diags) {
+    const fw_recipe_asrun_entry *by = e->step ? fw_recipe_asrun_overtaken(run, e, e->wafer) : NULL,
+                                *bad = by || !e->step ? NULL : out_of_window(run, e);
+    const fw_recipe_coupon *first = NULL;
+    int n = 0;
+    for (int i = 0; i < e->ncoupon; i++) {
+        fw_recipe_read_again again;
+        if (!isnan(e->coupon[i].row.at) || read_again(run, (int)(e - run->entry), i, &again))
+            continue;
+        if (n++ == 0) first = &e->coupon[i];
+    }
+    if (n == 0 || (!by && !bad)) return false;
+    const fw_recipe_asrun_entry *of = by ? by : bad;
+    fw_text why = fw_text_new(diags->arena);
+    fw_text_printf(&why, "%s%s (line %d, %s)", of->step->id, by ? ", run again after it" : "",
+                   of->line, of->start);
+    if (!by) fw_text_printf(&why, " was %s", fw_recipe_asrun_in_time(run, of));
+    if (fw_text_end(&why) != FW_OK) return false;
+    fw_diag_warning(
+        diags, 693, first->row.place, "%d reading%s of %s at step %s%s%s %s: %s%s", n,
+        n > 1 ? "s" : "", first->row.coupon, e->step->id, e->wafer ? " of wafer " : "",
+        e->wafer ? e->wafer : "",
+        counted->all_runs ? (n > 1 ? "count" : "counts")
+                          : (n > 1 ? "do not count" : "does not count"),
+        why.data, counted->all_runs ? ", and --all-runs asks for all" : "; --all-runs counts all");
+    return !counted->all_runs;
+}
+
+/* is the wafer in the list? */
+static bool is_among(const char *list, const char *wafer) {
+    fw_word word;
+    while (list && wafer && fw_word_next(&list, ", ", &word))
+        if (fw_word_is(word, wafer)) return true;
+    return false;
+}
+
+/* every wafer that is to be left out is one of the lot */
+static fw_status check_without(const fw_recipe_asrun *run, const fw_recipe_counted *counted,
+                               fw_diags *diags) {
+    const char *list = counted->without;
+    fw_word word;
+    while (list && fw_word_next(&list, ", ", &word)) {
+        bool known = false;
+        for (int i = 0; i < run->nwafer; i++)
+            known = known || fw_word_is(word, run->wafer[i]);
+        if (!known)
+            return fw_diag_error(diags, 282, (fw_place){0},
+                                 "--without %s: the log has no wafer '%.*s'", counted->without,
+                                 (int)word.length, word.at);
+    }
+    return FW_OK;
+}
+
+fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_counted *counted, fw_diags *diags,
                                    fw_process_readings *readings) {
     int most = 0;
     for (int i = 0; i < run->nentry; i++)
         most += run->entry[i].ncoupon;
     *readings = (fw_process_readings){.lot = run->lot};
+    FW_TRY(check_without(run, counted, diags));
     FW_NEED(readings->item = fw_arena_array(arena, fw_process_reading, (size_t)most + 1));
     for (int i = 0; i < run->nentry; i++) {
         const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (is_among(counted->without, e->wafer) || fw_recipe_asrun_taken_back(run, e)) continue;
         FW_TRY(tell_otherwise(arena, e, diags));
+        const bool bad = is_of_bad_run(run, e, counted, diags);
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
             fw_recipe_read_again again;
@@ -423,12 +549,13 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, 
                 warn_again(&again, diags);
                 continue;
             }
+            if (bad && isnan(c->row.at)) continue;
             fw_process_reading *r = &readings->item[readings->n++];
             *r = (fw_process_reading){.row = c->row,
                                       .wafer = e->wafer ? e->wafer : "",
                                       .step = e->step->id,
                                       .nsite = c->nsite};
-            fw_recipe_asrun_etched_at(run, e, &r->row);
+            etched_at(run, e, &r->row);
             FW_NEED(r->date = fw_arena_strndup(arena, e->end, 10));
             for (int s = 0; s < FW_RECIPE_SITES; s++) {
                 double off = c->site[s] - c->row.value;
@@ -438,151 +565,4 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run, 
         }
     }
     return FW_OK;
-}
-
-/* ---- does what was measured go with the time that it took? ----
-   Where the step's own law has the time of a thickness that the step adds or takes away, and what is accepted holds that
-   thickness from both sides, time and reading say one thing twice. */
-
-/* the amount that the law takes; NULL: its time is not that of an outcome (a bake, a spin) */
-static const fw_process_argument *amount_of_law(const fw_process_step *s) {
-    for (int i = 0; i < s->nargument; i++) {
-        const fw_process_argument *a = &s->argument[i];
-        if (strcmp(a->name, "thickness") != 0 && strcmp(a->name, "depth") != 0) continue;
-        for (int k = 0; k < s->nchange; k++)
-            if (s->change[k].thickness == a->q) return a;
-    }
-    return NULL;
-}
-
-/* what was measured of it, SI; NaN: nothing */
-static double amount_measured(const fw_recipe_asrun_entry *e, const fw_quantity *planned,
-                              const fw_recipe_measured **as) {
-    for (int i = 0; i < e->nmeasured; i++) {
-        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, e->measured[i].measure);
-        fw_quantity_unit unit;
-        if (!a || isnan(e->measured[i].number) || !a->low[0] || !a->high[0] ||
-            !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
-            !fw_quantity_dimension_equal(unit.dimension, planned->dimension) ||
-            !fw_recipe_asrun_inside(a->low, a->high,
-                                    fw_quantity_unit_from_si(&unit, planned->value)))
-            continue;
-        *as = &e->measured[i];
-        return fw_quantity_unit_to_si(&unit, e->measured[i].number);
-    }
-    return (double)NAN;
-}
-
-typedef struct timing { /* the law of a step as it was run */
-    fw_arena *arena;
-    const fw_process_step *step;
-    fw_process_argument argument[FW_LAW_ARGUMENTS];
-    fw_quantity
-        q[FW_LAW_ARGUMENTS]; /* those that were set otherwise; of the amount, what is asked of */
-    int amount;
-} timing;
-
-static bool as_run(fw_arena *arena, const fw_recipe_asrun_entry *e,
-                   const fw_process_argument *amount, timing *t) {
-    const fw_process_step *s = e->step;
-    if (s->nargument > FW_LAW_ARGUMENTS) return false;
-    *t = (timing){.arena = arena, .step = s, .amount = (int)(amount - s->argument)};
-    for (int i = 0; i < s->nargument; i++) {
-        fw_quantity_unit unit;
-        t->argument[i] = s->argument[i];
-        if (!s->argument[i].q) continue;
-        t->q[i] = *s->argument[i].q;
-        t->argument[i].q = &t->q[i];
-        for (int k = 0; k < e->nset; k++) {
-            const fw_quantity *set = e->set[k].q;
-            if (set != s->argument[i].q || isnan(e->set[k].value)) continue;
-            if (!fw_quantity_unit_parse(set->unit, strlen(set->unit), &unit, NULL, NULL))
-                return false;
-            t->q[i].value = fw_quantity_unit_to_si(&unit, e->set[k].value);
-            t->q[i].unknown = false;
-        }
-    }
-    t->q[t->amount].uncertainty = 0.0; /* it is what is asked */
-    t->q[t->amount].unknown = false;
-    return true;
-}
-
-static fw_status time_for(timing *t, double amount_m, fw_process_law_answer *answer) {
-    const fw_process_step *s = t->step;
-    t->q[t->amount].value = amount_m;
-    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
-                                    .shape = s->shape,
-                                    .expression = s->expression,
-                                    .wanted = FW_DIM_TIME,
-                                    .argument = t->argument,
-                                    .nargument = s->nargument};
-    return fw_process_law_evaluate(t->arena, &use, answer);
-}
-
-/* the amount of so much time, from one nearby: times rise with it, not far from in proportion */
-static fw_status amount_in(timing *t, double time_s, double *amount_m) {
-    enum { ROUNDS = 12 };
-    for (int i = 0; i < ROUNDS; i++) {
-        fw_process_law_answer answer;
-        FW_TRY(time_for(t, *amount_m, &answer));
-        if (!answer.computable || !(answer.value > 0)) break;
-        *amount_m *= time_s / answer.value;
-    }
-    return FW_OK;
-}
-
-/* The runs that e goes on from, in the time that they would have taken at what is set in e: t_o T_e/T_o, T the time of the
-   law for the amount that was measured; *n how many. NaN: one of them had no such time */
-static fw_status earlier(fw_arena *arena, const fw_recipe_asrun *run,
-                         const fw_recipe_asrun_entry *e, const fw_process_argument *amount,
-                         double measured, double time_s, int *n, double *earlier_s) {
-    *n = 0, *earlier_s = 0.0;
-    for (const fw_recipe_asrun_entry *o = fw_recipe_asrun_goes_on_from(run, e); o;
-         o = fw_recipe_asrun_goes_on_from(run, o), ++*n) {
-        timing t;
-        fw_process_law_answer answer = {0};
-        int together;
-        const bool known = as_run(arena, o, amount, &t);
-        if (known) FW_TRY(time_for(&t, measured, &answer));
-        *earlier_s += answer.computable && answer.value > 0
-                          ? (o->end_s - o->start_s) / fw_recipe_asrun_loads(run, o, &together) *
-                                time_s / answer.value
-                          : (double)NAN;
-    }
-    return FW_OK;
-}
-
-fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
-                                         const fw_recipe_asrun_entry *e, double loads,
-                                         double read_s, fw_recipe_amount_in_time *out) {
-    const fw_process_step *s = e->step;
-    timing t;
-    fw_process_law_answer answer;
-    *out = (fw_recipe_amount_in_time){.fits = true};
-    const fw_process_argument *amount = s && e->fate == FW_FATE_RUN ? amount_of_law(s) : NULL;
-    if (!amount || amount->q->unknown || !s->time.computable) return FW_OK;
-    const double measured = amount_measured(e, amount->q, &out->measured);
-    if (!(measured > 0) || !as_run(arena, e, amount, &t)) return FW_OK;
-    FW_TRY(time_for(&t, measured, &answer));
-    if (!answer.computable || !(answer.value > 0)) return FW_OK;
-    /* handling, pauses and what is finished at the machine may be in it or not */
-    int before;
-    double earlier_s;
-    FW_TRY(earlier(arena, run, e, amount, measured, answer.value, &before, &earlier_s));
-    if (isnan(earlier_s)) return FW_OK;
-    const double handling = s->finish_s + s->booked_stop_s - s->booked_stop_own_s,
-                 more = s->booked_stop_s - s->time.stop_s + before * handling,
-                 off = s->k * answer.uncertainty / answer.value,
-                 actual_s = e->end_s - e->start_s + loads * earlier_s;
-    read_s *= before + 1;
-    out->took_s = actual_s;
-    const bool brief = actual_s + read_s < answer.value * (1.0 - off);
-    const double longest = answer.value * (1.0 + off) * (1.0 + s->overrun) + more;
-    if (!brief && actual_s - read_s <= loads * longest) return FW_OK;
-    out->fits = false;
-    out->law_m = measured;
-    out->time_s = brief ? actual_s : actual_s / loads - more;
-    out->off = off;
-    out->formula = fw_process_law_find(s->law)->formula;
-    return amount_in(&t, out->time_s, &out->law_m);
 }

@@ -13,7 +13,8 @@ typedef struct fw_recipe_asrun_reader {
     const fw_recipe_asrun *run; /* whose wafers there are */
     /* the flow is the computed one of the log's own plan: what a step sets is all known */
     bool bound;
-    bool fresh; /* somebody writes it now; lines of a log that stand are read as they are */
+    bool former; /* the line is of a plan before that, and the flow is that of the last one */
+    bool fresh;  /* somebody writes it now; lines of a log that stand are read as they are */
     fw_diags *diags;
     fw_place place;
 } fw_recipe_asrun_reader;
@@ -21,6 +22,11 @@ typedef struct fw_recipe_asrun_reader {
 /* asrun_entry.c: cuts a copy of the words at `separator`; the first is the step, the others are name=value */
 fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,
                                      char separator, fw_recipe_asrun_entry *e);
+
+/* YYYY-MM-DDTHH:MM or with :SS behind, of the years 1 to 9999 */
+bool fw_recipe_asrun_time_read(const char *s, double *time_s);
+/* the times that it is judged by, as a word of its line; nothing where it has none */
+void fw_recipe_asrun_put_planned(const fw_recipe_asrun_entry *e, fw_text *out);
 
 /* asrun_values.c: "50.1 50.0 49.9 50.2 50.1 um", "centre:50.1 left:49.9 um" or "0.4" */
 typedef struct fw_recipe_asrun_values {
@@ -43,10 +49,6 @@ char *fw_recipe_asrun_word(char **at, char separator);
 /* FW-D282 with the names (n) that there are, and the one that was probably meant */
 fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *what,
                                   const char *name, const char *const *known, int n);
-/* asrun_entry.c: the temperature and the open area of a rate that was read in this entry and does not say them: what was set
-   of the run that it is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else they stay not said */
-void fw_recipe_asrun_etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                               fw_process_measurement *row);
 /* the value of a word coupon= */
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
@@ -61,7 +63,17 @@ bool fw_recipe_asrun_inside(const char *low, const char *high, double value);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
 
-/* ---- runs of one step on one wafer, one after the other: asrun_values.c ---- */
+/* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set */
+typedef struct fw_recipe_amount_in_time {
+    bool fits;                          /* or there is nothing to hold against each other */
+    const fw_recipe_measured *measured; /* in the unit of what is accepted */
+    double
+        took_s; /* by the log, the runs that it goes on from included, at what is set in this one */
+    double time_s, law_m, off; /* what the law makes of that time, and relatively how surely */
+    const char *formula;
+} fw_recipe_amount_in_time;
+
+/* ---- runs of one step on one wafer, one after the other: asrun_runs.c ---- */
 
 /* the run of e's step and wafer before that of e, which a later entry did not take the place of; NULL: e is the first */
 const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *run,
@@ -70,21 +82,49 @@ const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *r
    away what it works on */
 const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun *run,
                                                           const fw_recipe_asrun_entry *e);
+/* asrun_runs.c: does e say that it stands in the place of o? did any entry say so of o? Then o never was */
+bool fw_recipe_asrun_replaces(const fw_recipe_asrun_entry *e, const fw_recipe_asrun_entry *o);
+bool fw_recipe_asrun_taken_back(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o);
 /* asrun_compare.c: does a later run go on from this one? Then it is neither short nor repeated: both come to one */
 bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+/* The run of an earlier step that was done again after e, of the wafer (NULL: of any): what e found, or did, is no longer so.
+   NULL: it stands. FW-D687 says it of the entry that overtakes others */
+const fw_recipe_asrun_entry *fw_recipe_asrun_overtaken(const fw_recipe_asrun *run,
+                                                       const fw_recipe_asrun_entry *e,
+                                                       const char *wafer);
+fw_status fw_recipe_asrun_ask_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                        fw_place place, fw_diags *diags);
 typedef struct fw_recipe_runs { /* that come to one longer run */
     int n;
-    double time_s; /* of all; of one load where there are several */
+    double took_s; /* of all; of one load where there are several */
+    double
+        time_s; /* the same, each as long as it would have been at what was set in the last one */
 } fw_recipe_runs;
 fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 
 /* "short", "in window", "long" or "no plan": an entry's duration, with the runs that it goes on from */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+/* as members "overtaken_by" and "as_set", where it was */
+void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 fw_json *out);
+/* Runs that add up are to stop when one run is, with handling once more for each; *surely NULL, or where handling may be in
+   every run: so much is too long in any case. One run: its loads together */
+double fw_recipe_asrun_stop_by(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                               const fw_recipe_runs *runs, double *surely);
+/* "45 min", "31 min in 2 runs" */
+void fw_recipe_asrun_put_took(fw_text *out, const fw_recipe_asrun_entry *e,
+                              const fw_recipe_runs *runs);
+/* is it in its window, but would not be were what is finished at the bench no part of its time, because of what was set? */
+bool fw_recipe_asrun_is_late_as_set(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+/* FW-D654: "19.1 um (17.9 to 20.2), by t = d/R in 45 min"; a->fits: what was measured goes with it, or nothing was */
+fw_status fw_recipe_asrun_amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
+                                        const fw_recipe_asrun_entry *e, fw_recipe_amount_in_time *a,
+                                        fw_text *planned, fw_text *actual);
 /* loads one after the other that share the time of the entry, and how many entries do (*together) */
 double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                              int *together);
 
-/* asrun_values.c: were more wafers in the machine of the entry at one time than its step, or the machine, takes? *is NULL:
+/* asrun_runs.c: were more wafers in the machine of the entry at one time than its step, or the machine, takes? *is NULL:
    no, or no machine is known; else "3 wafers", and "1 in hotplate" are allowed. FW-D659 says it of an entry */
 fw_status fw_recipe_asrun_too_many(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, const char **is,
@@ -95,7 +135,7 @@ fw_status fw_recipe_asrun_ask_at_once(fw_arena *arena, const fw_recipe_asrun *ru
 /* how far its times may be off: a clock that was read to the minute leaves up to a minute */
 double fw_recipe_asrun_clock_s(const fw_recipe_asrun_entry *e);
 
-/* ---- what a wafer waited before an entry: asrun.c ---- */
+/* ---- what a wafer waited before an entry: asrun_runs.c ---- */
 
 typedef struct fw_recipe_wait {
     const char *since; /* id of the step from whose end on */
@@ -112,7 +152,7 @@ bool fw_recipe_asrun_wait(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
 /* does it stand, of a run that others follow on: did the wafer come to the next one from the same? */
 bool fw_recipe_asrun_wait_stands(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                  const fw_recipe_wait *wait);
-/* asrun_entry.c: "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water" or "began 5 min
+/* "0 s to 10 min"; "waited 21 min since C20", "waited 21 min since C20, wet with water" or "began 5 min
    before C20 ended" */
 void fw_recipe_put_wait_limits(fw_text *out, const fw_recipe_wait *wait);
 void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);
@@ -120,19 +160,6 @@ void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);
 fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                     fw_place place, fw_diags *diags);
 
-/* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set:
-   asrun_measured.c. loads: that may share its time, one after the other; read_s: how far a clock may be off */
-typedef struct fw_recipe_amount_in_time {
-    bool fits;                          /* or there is nothing to hold against each other */
-    const fw_recipe_measured *measured; /* in the unit of what is accepted */
-    double
-        took_s; /* by the log, the runs that it goes on from included, at what is set in this one */
-    double time_s, law_m, off; /* what the law makes of that time, and relatively how surely */
-    const char *formula;
-} fw_recipe_amount_in_time;
-fw_status fw_recipe_asrun_amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
-                                         const fw_recipe_asrun_entry *e, double loads,
-                                         double read_s, fw_recipe_amount_in_time *out);
 typedef struct fw_recipe_asrun_total {
     int logged, out, repeated;
     /* of the steps in the log that have a planned time; what several wafers share counts once. earlier_s: what of actual_s
@@ -144,12 +171,12 @@ typedef struct fw_recipe_asrun_total {
 fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                  fw_arena *arena, fw_recipe_asrun_total *total);
 
-/* what somebody wrote down as a deviation, of every entry: asrun_entry.c */
+/* what somebody wrote down as a deviation, of every entry: asrun_compare.c */
 void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out);
 
-/* ---- what became of wafers: asrun_values.c ---- */
+/* ---- what became of wafers: asrun_runs.c ---- */
 
 /* "scrapped", "held", "resumed" */
 const char *fw_recipe_fate_word(fw_recipe_fate fate);

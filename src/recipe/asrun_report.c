@@ -260,21 +260,25 @@ static void put_values(const fw_recipe_asrun_entry *e, fw_text *out) {
 }
 
 static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
-    fw_text_add(out, "<h2>Entries</h2>\n<table><thead><tr><th>Step</th><th>Wafer</th><th>Start</th>"
-                     "<th>At the machine, planned</th><th>Actual</th><th>By; tool; "
-                     "instrument</th><th>Values and "
-                     "settings</th></tr></thead><tbody>\n");
+    fw_text_add(out,
+                "<h2>Entries</h2>\n<table><thead><tr><th>Step</th><th>Wafer</th><th>Start</th>"
+                "<th>At the machine, planned for what was set</th><th>Actual</th><th>By; tool; "
+                "instrument</th><th>Values and "
+                "settings</th></tr></thead><tbody>\n");
     for (int s = 0; s < flow->nstep; s++)
         for (int i = 0; i < run->nentry; i++) {
             const fw_recipe_asrun_entry *e = &run->entry[i];
             if (e->step != &flow->step[s]) continue;
+            const bool last = fw_recipe_asrun_is_last(run, e);
             fw_text_printf(out, "<tr><td>%s%s</td>", e->step->id,
-                           fw_recipe_asrun_is_last(run, e)      ? ""
+                           last && fw_recipe_asrun_overtaken(run, e, e->wafer)
+                               ? " (overtaken, to be run again)"
+                           : last                               ? ""
                            : fw_recipe_asrun_is_gone_on(run, e) ? " (gone on with later)"
                                                                 : " (repeated later)");
             cell(out, e->wafer ? e->wafer : "lot");
             cell(out, e->start);
-            duration(out, e->step->booked_s, e->step->time.computable);
+            duration(out, e->as_set->booked_s, e->as_set->time.computable);
             duration(out, e->end_s - e->start_s, true);
             fw_text_add(out, "<td>");
             fw_text_escaped(out, e->by);
@@ -325,7 +329,8 @@ static void sites_json(const fw_recipe_measured *m, fw_json *out) {
     fw_json_end(out);
 }
 
-static void measured_json(const fw_recipe_asrun_entry *e, fw_json *out) {
+/* what an inspection found that was overtaken is accepted no more, and not refused */
+static void measured_json(const fw_recipe_asrun_entry *e, bool overtaken, fw_json *out) {
     fw_json_list(out, "measured");
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_recipe_measured *m = &e->measured[i];
@@ -337,7 +342,10 @@ static void measured_json(const fw_recipe_asrun_entry *e, fw_json *out) {
             put_number(out, "value", m->number);
         const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
         put_text(out, "unit", a->unit);
-        fw_json_truth(out, "accepted", fw_recipe_asrun_accepted(a, m));
+        if (overtaken)
+            fw_json_null(out, "accepted");
+        else
+            fw_json_truth(out, "accepted", fw_recipe_asrun_accepted(a, m));
         sites_json(m, out);
         fw_json_end(out);
     }
@@ -399,8 +407,9 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_number(out, "actual_s", e->end_s - e->start_s);
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     if (runs.n > 1) fw_json_whole(out, "runs", runs.n);
-    if (runs.n > 1) put_number(out, "runs_s", runs.time_s);
+    if (runs.n > 1) put_number(out, "runs_s", runs.took_s);
     put_text(out, "judged", fw_recipe_asrun_in_time(run, e));
+    fw_recipe_asrun_as_set_json(run, e, out);
     put_text(out, "by", e->by);
     put_text(out, "second", e->second);
     put_text(out, "tool", e->tool);
@@ -408,7 +417,7 @@ static void entry_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     put_text(out, "bath", e->bath);
     put_text(out, "note", e->note);
     put_text(out, "deviation", e->deviation);
-    measured_json(e, out);
+    measured_json(e, fw_recipe_asrun_overtaken(run, e, e->wafer), out);
     settings_json(e, out);
     waited_json(run, e, out);
 }

@@ -541,6 +541,7 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     fw_text_add(out, "</div>\n");
     drives(s, header->wiring, out);
     holds(s, out);
+    fw_recipe_html_fillings(flow, s, header, out);
     exposures(flow, s, out);
     if (slicer && changes && section_notes(flow, index, out) != FW_OK) out->failed = 1;
     if (changes && endpoints(s, out) != FW_OK)

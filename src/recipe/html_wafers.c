@@ -213,6 +213,24 @@ static void planned_count(const fw_process_flow *flow, int index, int wafers, fw
 }
 
 /* what to do where it went wrong and, of several wafers, what became of them, in one line */
+void fw_recipe_html_fillings(const fw_process_flow *flow, const fw_process_step *s,
+                             const fw_recipe_header *header, fw_text *out) {
+    const fw_process_bath *mixed = fw_process_step_mixes(flow, s);
+    const int wafers = fw_recipe_wafers(header);
+    for (int k = -1; k < s->nuse; k++) {
+        const fw_process_bath *b = k < 0 ? mixed : s->use[k].bath;
+        const int n = b ? fw_process_bath_fillings(flow, b, wafers) : 0;
+        if (n < 2 || !b->serves) continue;
+        fw_text_add(out, "<p class=\"note\"><b>Fillings:</b> ");
+        fw_text_escaped(out, b->name);
+        fw_text_printf(out, ", %d for the %d wafer%s of this lot, ", n, wafers,
+                       wafers > 1 ? "s" : "");
+        fw_text_add(out, "each of which serves ");
+        fw_text_number(out, b->serves->value, 4);
+        fw_text_add(out, b == mixed ? "; amounts and times here are of one.</p>\n" : ".</p>\n");
+    }
+}
+
 void fw_recipe_html_outcome(const fw_process_flow *flow, int index, const fw_recipe_header *header,
                             fw_text *out) {
     const fw_process_step *s = &flow->step[index];

@@ -278,6 +278,7 @@ static void tasks(fw_json *out, const fw_schedule *s) {
         words(out, "equipment", shop->machine[t->machine].id);
         fw_json_number(out, "duration_s", t->duration_s, FW_PLAIN_DIGITS);
         fw_json_number(out, "attended_s", t->attended_s, FW_PLAIN_DIGITS);
+        fw_json_truth(out, "attended_at_end", t->at_end);
         fw_json_whole(out, "load", t->load);
         words(out, "time", t->unknown ? "unknown" : t->stated ? "planned" : "computed");
         bool last = i + 1 == shop->ntask, known = s->pause_s && !last;

@@ -65,6 +65,9 @@ const char *fw_recipe_finish_words(fw_arena *arena, const fw_process_finish *fin
    deviated */
 void fw_recipe_html_wafers(const fw_process_step *step, bool of_dies,
                            const fw_recipe_header *header, fw_text *out);
+/* how many fillings of its baths the lot takes, as the table of baths has them; nothing where one does */
+void fw_recipe_html_fillings(const fw_process_flow *flow, const fw_process_step *step,
+                             const fw_recipe_header *header, fw_text *out);
 void fw_recipe_html_outcome(const fw_process_flow *flow, int index, const fw_recipe_header *header,
                             fw_text *out);
 void fw_recipe_html_hazard_line(const fw_process_flow *flow, const fw_process_step *step,
@@ -76,7 +79,7 @@ void fw_recipe_wafer_rows(const fw_process_flow *flow, const fw_recipe_header *h
 void fw_recipe_html_deviations(const fw_process_flow *flow, const fw_recipe_header *header,
                                fw_text *out);
 
-/* recipe_bill.c: what the lot uses up */
+/* recipe_tables.c: what the lot uses up */
 struct fw_json;
 fw_status fw_recipe_html_bill(const fw_process_flow *flow, const fw_recipe_header *header,
                               fw_text *out);

@@ -212,14 +212,15 @@ static void draw_row(const picture *p, const row *r) {
     for (int i = 0; i < p->s->nrun; i++) {
         const fw_schedule_run *run = &p->s->run[i];
         const fw_schedule_task *t = &p->s->shop->task[run->task];
-        double end = r->kind == PERSON ? run->start_s + t->attended_s : run->end_s;
+        const double lead = r->kind == PERSON ? fw_schedule_task_attended_from_s(t) : 0.0,
+                     start = run->start_s + lead;
+        double end = r->kind == PERSON ? start + t->attended_s : run->end_s;
         bool here = r->kind == PERSON ? run->operator_ == r->index : t->machine == r->index;
-        if (!here || !meets(p, run->start_s, end)) continue;
+        if (!here || !meets(p, start, end)) continue;
         if (lanes_of(p, r))
-            bar(p, run, run->start_s, end, r->y + 2.0 + LANE * run->first,
-                (double)LANE * run->count);
+            bar(p, run, start, end, r->y + 2.0 + LANE * run->first, (double)LANE * run->count);
         else
-            bar(p, run, run->start_s, end, r->y + 2.0, r->height - 4.0);
+            bar(p, run, start, end, r->y + 2.0, r->height - 4.0);
     }
 }
 

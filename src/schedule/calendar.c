@@ -373,13 +373,31 @@ double fw_schedule_machine_worked(const fw_schedule_machine *m, double from_s, d
     }
 }
 
+/* Test: test_schedule.c, who_ends_it */
+double fw_schedule_people_fit(const fw_schedule_calendar *calendar, const fw_schedule_task *task,
+                              double from_s) {
+    static const double put_in_s = 1.0;
+    const double there = fw_schedule_task_there_s(task),
+                 lead = fw_schedule_task_attended_from_s(task);
+    if (!(there > 0.0)) return from_s;
+    if (!task->at_end || task->by_day || task->in_parts)
+        return fw_schedule_calendar_fit(calendar, from_s, there);
+    for (double t = from_s;;) {
+        const double before = t;
+        t = fw_schedule_calendar_fit(calendar, t, put_in_s);
+        if (!(t <= from_s + FW_HORIZON_S)) return (double)INFINITY; /* it takes longer than a day */
+        t = fmax(t, fw_schedule_calendar_fit(calendar, t + lead, there) - lead);
+        if (t <= before + 1e-6) return t;
+    }
+}
+
 double fw_schedule_alone_fit(const fw_schedule_shop *shop, int task, double from_s) {
     const fw_schedule_task *k = &shop->task[task];
-    double there = fw_schedule_task_there_s(k), t = from_s;
+    double t = from_s;
     for (double before = -(double)INFINITY; t > before;) {
         if (!(t <= from_s + FW_HORIZON_S)) return (double)INFINITY; /* hours that never meet */
         before = t;
-        if (there > 0.0) t = fw_schedule_calendar_fit(&shop->calendar, t, there);
+        t = fw_schedule_people_fit(&shop->calendar, k, t);
         t = fw_schedule_machine_fit(&shop->machine[k->machine], t, k->duration_s);
     }
     return t;

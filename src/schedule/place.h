@@ -59,6 +59,10 @@ fw_status fw_schedule_placing_new(fw_arena *arena, const fw_schedule_shop *shop,
 /* false: no schedule was found with this order (and no smaller loads) */
 bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule);
 
+/* gives every attended run of these (n) an operator */
+fw_status fw_schedule_name_operators(fw_arena *arena, const fw_schedule_shop *shop,
+                                     fw_schedule_run *run, int n);
+
 /* ---- what occupies a machine or the operators ---- */
 
 double fw_schedule_line_fit(const fw_schedule_line *line, double t, double length);

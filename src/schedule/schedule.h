@@ -39,7 +39,8 @@ typedef struct fw_schedule_task { /* a step of the flow as it is planned */
     int machine;
     double duration_s; /* planned time, at least attended_s */
     double latest_s;   /* the same at the stop time of the step */
-    double attended_s; /* an operator stands there from the start on for this long */
+    double attended_s; /* an operator stands there for this long, from the start on */
+    bool at_end;       /* ... or up to the end, since somebody must end it: it goes on by itself */
     int load;          /* most wafers of one run */
     bool lot;          /* once for all wafers together */
     bool alone;        /* a hold: every wafer by itself, up to the machine's places */
@@ -54,6 +55,14 @@ typedef struct fw_schedule_task { /* a step of the flow as it is planned */
 static inline double fw_schedule_task_there_s(const fw_schedule_task *t) {
     return t->by_day || t->in_parts ? t->duration_s : t->attended_s;
 }
+/* from when on after its start an operator's hands are taken */
+static inline double fw_schedule_task_attended_from_s(const fw_schedule_task *t) {
+    return t->at_end ? t->duration_s - t->attended_s : 0.0;
+}
+/* earliest t >= from at which a run of the task may start because people are in the house then: where it is ended by hand both
+   when it is put in and when it is ended; INFINITY: never */
+double fw_schedule_people_fit(const fw_schedule_calendar *calendar, const fw_schedule_task *task,
+                              double from_s);
 
 typedef struct fw_schedule_hold { /* min <= start of `to` - end of `from` <= max, for every wafer */
     int from, to;                 /* tasks */

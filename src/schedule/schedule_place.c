@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/sort.h"
 #include "schedule/place.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double tiny_s = 1e-6;
@@ -167,7 +169,8 @@ static double earliest(const fw_schedule_placing *p, int task, int first, int co
                        fw_schedule_wait *why) {
     const fw_schedule_shop *shop = p->shop;
     const fw_schedule_task *t = &shop->task[task];
-    double start = p->start_s, there = fw_schedule_task_there_s(t);
+    const double lead = fw_schedule_task_attended_from_s(t);
+    double start = p->start_s;
     *why = FW_WAIT_NOTHING;
     for (int w = first; w < first + count; w++) {
         double ready = task > 0 ? p->finish_s[at(p, task - 1, w)] : p->start_s;
@@ -182,13 +185,13 @@ static double earliest(const fw_schedule_placing *p, int task, int first, int co
             start = p->release_s[at(p, task, w)], *why = FW_WAIT_HOLD;
     for (;;) {
         double before = start, next = start;
-        if (there > 0.0) next = fw_schedule_calendar_fit(&shop->calendar, start, there);
+        next = fw_schedule_people_fit(&shop->calendar, t, start);
         if (next > start + tiny_s) start = next, *why = FW_WAIT_DAY;
         next = fw_schedule_machine_fit(&shop->machine[t->machine], start, t->duration_s);
         if (next > start + tiny_s) start = next, *why = FW_WAIT_TOOL;
         next = fw_schedule_line_fit(&p->machine[t->machine], start, t->duration_s);
         if (next > start + tiny_s) start = next, *why = FW_WAIT_MACHINE;
-        next = fw_schedule_line_fit(&p->people, start, t->attended_s);
+        next = fw_schedule_line_fit(&p->people, start + lead, t->attended_s) - lead;
         if (next > start + tiny_s) start = next, *why = FW_WAIT_OPERATOR;
         if (start <= before || start > p->start_s + FW_HORIZON_S) return start;
     }
@@ -204,7 +207,8 @@ static void place_run(fw_schedule_placing *p, int task, int first, int count) {
         p->finish_s[at(p, task, w)] = end;
     }
     fw_schedule_line_add(&p->machine[t->machine], start, end);
-    fw_schedule_line_add(&p->people, start, start + t->attended_s);
+    const double from = start + fw_schedule_task_attended_from_s(t);
+    fw_schedule_line_add(&p->people, from, from + t->attended_s);
     p->work++;
 }
 
@@ -213,7 +217,8 @@ static void undo_to(fw_schedule_placing *p, int nrun) {
         const fw_schedule_run *r = &p->run[--p->nrun];
         const fw_schedule_task *t = &p->shop->task[r->task];
         line_remove(&p->machine[t->machine], r->start_s, r->end_s);
-        line_remove(&p->people, r->start_s, r->start_s + t->attended_s);
+        const double from = r->start_s + fw_schedule_task_attended_from_s(t);
+        line_remove(&p->people, from, from + t->attended_s);
     }
 }
 
@@ -395,4 +400,40 @@ const char *fw_schedule_rule_text(fw_schedule_rule rule) {
                                        "step by step",
                                        "improved order"};
     return text[rule];
+}
+
+/* ---- who stands there ---- */
+
+typedef struct attended { /* of a run */
+    double from_s;
+    int run;
+} attended;
+
+static int by_from(const void *a, const void *b) {
+    const attended *p = a, *q = b;
+    const int order = fw_order_doubles(p->from_s, q->from_s);
+    return order ? order : fw_order_wholes(p->run, q->run);
+}
+
+/* spans that overlap at most K times can always be given to K people, first come first served */
+fw_status fw_schedule_name_operators(fw_arena *arena, const fw_schedule_shop *shop,
+                                     fw_schedule_run *run, int n) {
+    double *free_s = fw_arena_array(arena, double, (size_t)shop->operators);
+    attended *span = fw_arena_array(arena, attended, (size_t)n + 1);
+    int spans = 0;
+    FW_NEED(free_s ? span : NULL);
+    for (int i = 0; i < n; i++) {
+        const fw_schedule_task *t = &shop->task[run[i].task];
+        if (t->attended_s > 0.0)
+            span[spans++] = (attended){run[i].start_s + fw_schedule_task_attended_from_s(t), i};
+    }
+    qsort(span, (size_t)spans, sizeof *span, by_from);
+    for (int i = 0; i < spans; i++) {
+        int who = 0;
+        while (who < shop->operators - 1 && free_s[who] > span[i].from_s + 2e-6)
+            who++;
+        run[span[i].run].operator_ = who;
+        free_s[who] = span[i].from_s + shop->task[run[span[i].run].task].attended_s;
+    }
+    return FW_OK;
 }

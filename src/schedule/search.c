@@ -67,14 +67,14 @@ static double operator_bound(const fw_schedule_shop *shop, const double *earlies
         const fw_schedule_task *t = &shop->task[i];
         if (!(t->attended_s > 0.0)) continue;
         work += ceil((double)shop->wafers / t->load) * t->attended_s;
-        from = fmin(from, earliest_s[i]);
+        from = fmin(from, earliest_s[i] + fw_schedule_task_attended_from_s(t));
     }
     if (work <= 0.0) return 0.0;
     double t = fw_schedule_calendar_worked(&shop->calendar, from, work / shop->operators);
     for (int i = 0; i < shop->ntask; i++) {
         const fw_schedule_task *k = &shop->task[i];
-        if (k->attended_s > 0.0)
-            least = fmin(least, rest_after(shop, i + 1, t + k->duration_s - k->attended_s));
+        const double behind = k->at_end ? 0.0 : k->duration_s - k->attended_s;
+        if (k->attended_s > 0.0) least = fmin(least, rest_after(shop, i + 1, t + behind));
     }
     return least;
 }
@@ -266,23 +266,6 @@ static int by_start(const void *a, const void *b) {
     return order ? order : fw_order_wholes(r->first, s->first);
 }
 
-/* spans that overlap at most K times can always be given to K people, first come first served */
-static fw_status name_operators(fw_arena *arena, const fw_schedule_shop *shop, fw_schedule_run *run,
-                                int n) {
-    double *free_s = fw_arena_array(arena, double, (size_t)shop->operators);
-    FW_NEED(free_s);
-    for (int i = 0; i < n; i++) {
-        const fw_schedule_task *t = &shop->task[run[i].task];
-        if (!(t->attended_s > 0.0)) continue;
-        int who = 0;
-        while (who < shop->operators - 1 && free_s[who] > run[i].start_s + 2e-6)
-            who++;
-        run[i].operator_ = who;
-        free_s[who] = run[i].start_s + t->attended_s;
-    }
-    return FW_OK;
-}
-
 /* ---- wafers in their order ----
    One wafer is as good as another, so that the order in which a search has found them means nothing. Two wafers exchange
    all their runs from a step on, until one that is done to several at once, where the one with the larger number is the
@@ -419,7 +402,7 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
     qsort(s.best.run, (size_t)s.best.nrun, sizeof *s.best.run, by_start);
     out->run = s.best.run;
     FW_TRY(wafers_in_order(arena, shop, s.best.run, s.best.nrun));
-    return name_operators(arena, shop, s.best.run, s.best.nrun);
+    return fw_schedule_name_operators(arena, shop, s.best.run, s.best.nrun);
 }
 
 /* Least shift, from `shift` on, by which all runs of a schedule lie inside the working day and the hours of the machines;
@@ -536,7 +519,8 @@ static fw_status day_too_short(fw_arena *arena, const fw_schedule_shop *shop, co
         const fw_schedule_task *t = &shop->task[i];
         double there = fw_schedule_task_there_s(t);
         fw_text text = fw_text_new(arena);
-        if (isinf(fw_schedule_calendar_fit(&shop->calendar, 0.0, there)))
+        if (isinf(fw_schedule_calendar_fit(&shop->calendar, 0.0, there)) ||
+            isinf(fw_schedule_people_fit(&shop->calendar, t, 0.0)))
             fw_text_printf(&text, "%s %s longer than the working day", t->id,
                            t->by_day ? "must not run without people, and takes"
                                      : "needs somebody for");

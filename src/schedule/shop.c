@@ -47,14 +47,19 @@ static void make_task(making *m, int index) {
                             .lot = fw_process_step_is_of_lot(s),
                             .by_day = never_alone(s),
                             .in_parts = s->pulse && s->pause && s->attended_s > 0.0,
+                            .at_end = s->attended_s > 0.0 && fw_process_step_is_ended(s),
                             .unknown = !s->time.computable};
     t->alone = strcmp(s->op, "hold") == 0 && s->attended_s <= 0.0 && !t->lot;
     t->load = t->alone ? 1 : t->lot ? m->shop->wafers : fw_process_step_load(s);
     t->load = t->load > m->shop->wafers ? m->shop->wafers : t->load;
     if (t->alone && s->equipment) m->machine[t->machine].places = s->equipment->capacity;
+    const int times =
+        fw_process_step_times(m->flow, s, m->shop->wafers); /* a filling after another */
+    t->attended_s *= times;
+    t->duration_s = t->latest_s = t->attended_s;
     if (t->unknown) return;
-    t->duration_s = s->booked_s;
-    t->latest_s = s->booked_stop_s;
+    t->duration_s = s->booked_s * times;
+    t->latest_s = s->booked_stop_s * times;
 }
 
 static fw_status wrong(making *m, const char *part, size_t n, const char *what) {

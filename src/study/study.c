@@ -8,7 +8,6 @@
 #include "xml/xml.h"
 #include <math.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 
 enum { FILE_MOST = 8 << 20 };
@@ -465,7 +464,8 @@ fw_status fw_study_run(fw_study *study) {
             .least = (double)NAN, .largest = (double)NAN, .least_at = -1, .largest_at = -1};
     if (study->options.shards > 0) FW_TRY(fw_study_check_apart(study));
     if (study->options.output && !study->store) {
-        mkdir(study->options.output, 0777); /* what is wrong with it, the store will say */
+        bool made;
+        FW_TRY(fw_output_directory(study->arena, study->options.output, &made));
         FW_TRY(fw_study_store_open(study, &study->store));
     }
     fw_status status = FW_INTERNAL;
@@ -518,7 +518,8 @@ fw_status fw_study_open_merge(const fw_study_options *options, const char *direc
 }
 
 fw_status fw_study_merge(fw_study *study, const char *const *directory, int n) {
-    mkdir(study->options.output, 0777); /* what is wrong with it, the store will say */
+    bool made;
+    FW_TRY(fw_output_directory(study->arena, study->options.output, &made));
     FW_TRY(fw_study_store_open(study, &study->store));
     FW_TRY(fw_study_store_merge(study->store, directory, n));
     study->stored_only = true;

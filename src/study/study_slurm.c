@@ -12,7 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -211,11 +210,12 @@ static fw_status check(fw_study *study, const fw_study_cluster *c) {
 
 fw_status fw_study_slurm(fw_study *study, fw_study_cluster *cluster) {
     static const char *const part[] = {"", "/shards", "/slurm"};
+    bool made;
     FW_TRY(check(study, cluster));
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         const char *path = fw_arena_printf(study->arena, "%s%s", study->options.output, part[i]);
         FW_NEED(path);
-        mkdir(path, 0777); /* what is wrong with it, the first file will say */
+        FW_TRY(fw_output_directory(study->arena, path, &made));
     }
     FW_TRY(write_script(study, cluster, "array.sh", array_script));
     FW_TRY(write_script(study, cluster, "merge.sh", merge_script));

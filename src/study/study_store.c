@@ -39,19 +39,19 @@ static int reason_of(const fw_study_store *store) {
     const int code = sqlite3_errcode(store->db);
     if (code != SQLITE_CANTOPEN && code != SQLITE_READONLY) return sqlite3_system_errno(store->db);
     const int at = open(store->path, O_RDWR | O_CLOEXEC);
-    if (at >= 0) close(at);
-    if (at >= 0 || (errno == ENOENT && access(store->study->options.output, W_OK) == 0)) return 0;
-    return errno;
+    if (at >= 0) return close(at), 0;
+    return errno == ENOENT && access(store->study->options.output, W_OK) == 0 ? 0 : errno;
 }
 
 /* what SQLite has to say, and the system's reason where it knows one: a full disk, no permission */
 static fw_status failed(const fw_study_store *store, const char *doing) {
     if (!store->db || sqlite3_errcode(store->db) == SQLITE_NOMEM) return FW_NOMEM;
     const int number = reason_of(store);
+    const char *kept = "; what was kept before is whole, and --resume goes on from it";
+    if (access(store->path, F_OK) != 0) kept = "";
     const fw_status status = fw_diag_error(
-        &store->study->diags, 496, (fw_place){.file = store->path},
-        "%s: %s%s%s; what was kept before is whole, and --resume goes on from it", doing,
-        sqlite3_errmsg(store->db), number ? ": " : "", number ? strerror(number) : "");
+        &store->study->diags, 496, (fw_place){.file = store->path}, "%s: %s%s%s%s", doing,
+        sqlite3_errmsg(store->db), number ? ": " : "", number ? strerror(number) : "", kept);
     return status == FW_NOMEM ? FW_NOMEM : FW_IO;
 }
 

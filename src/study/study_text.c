@@ -223,6 +223,19 @@ static void say_elsewhere(fw_text *out, const fw_study *study) {
     }
 }
 
+/* with the ends that its samples leave it */
+static void say_part(fw_text *out, double value, double low, double high, const char *of) {
+    fw_text_number(out, value, 2);
+    if (!isnan(low) && !isnan(high)) {
+        fw_text_add(out, " (");
+        fw_text_number(out, low, 2);
+        fw_text_add(out, " to ");
+        fw_text_number(out, high, 2);
+        fw_text_add(out, ")");
+    }
+    fw_text_add(out, of);
+}
+
 static void say_sensitivity(fw_text *out, const fw_study *study) {
     const fw_study_result *result = study->result;
     say_elsewhere(out, study);
@@ -234,16 +247,15 @@ static void say_sensitivity(fw_text *out, const fw_study *study) {
         for (int k = 0; k < study->ninput; k++) {
             size_t at = (size_t)r * (size_t)study->ninput + (size_t)k;
             const fw_study_derivative *d = &result->derivative[at];
+            const fw_study_index *x = result->index ? &result->index[at] : NULL;
             fw_text_printf(out, "    %-22s half its range changes it by ", study->input[k].what);
             fw_study_change_text(out, q, d->spread);
-            if (result->index && isnan(result->index[at].total)) {
+            if (x && isnan(x->total)) {
                 fw_text_add(out, "; at the accuracy asked it does not vary over the ranges");
-            } else if (result->index) {
+            } else if (x) {
                 fw_text_add(out, "; share of its variance ");
-                fw_text_number(out, result->index[at].first, 2);
-                fw_text_add(out, " alone, ");
-                fw_text_number(out, result->index[at].total, 2);
-                fw_text_add(out, " with others");
+                say_part(out, x->first, x->first_low, x->first_high, " alone, ");
+                say_part(out, x->total, x->total_low, x->total_high, " with others");
             }
             fw_text_add(out, "\n");
         }

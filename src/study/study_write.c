@@ -5,7 +5,6 @@
 #include "study/study.h"
 #include "study/study_parts.h"
 #include <math.h>
-#include <sys/stat.h>
 
 /* ---- JSON ---- */
 
@@ -474,7 +473,8 @@ static fw_status write_pictures(fw_study *study, const fw_study_picture *picture
         file[i] = member(name, &svg);
     }
     if (n == 0) return FW_OK;
-    mkdir(directory, 0777); /* what is wrong with it, writing will say */
+    bool made;
+    FW_TRY(fw_output_directory(study->arena, directory, &made));
     return fw_output_members(study->arena, directory, file, (size_t)n, &study->diags);
 }
 

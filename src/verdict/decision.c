@@ -513,10 +513,10 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                r->probe, of, isnan(r->min) ? "most" : "least",
                                fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
                                r->why);
-    if (r->open)
+    if (r->open && r->decision != FW_REJECT)
         return fw_arena_printf(arena,
-                               "%s (%s) is %s, and at %s %s is required, but by how much the model "
-                               "of the hinges is off there is not known: %s",
+                               "%s (%s) is %s, and at %s %s is required, but what that may be off "
+                               "by is not known: %s",
                                r->probe, of, fw_probe_text(value, r->value, r->unit),
                                below ? "least" : "most", bound, r->open);
     fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);

@@ -6,7 +6,7 @@
    its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
    comes behind it. Test: test_program.py, EndsEarly
 
-   The last part of the file are scenes in which nothing moves (FW-D655). */
+   Behind that: where a motion comes to rest, and scenes in which nothing moves (FW-D655). */
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
@@ -23,8 +23,9 @@ static const double hardly_moves = 0.05;                             /* of the f
 
 /* s; 0: nothing swings */
 static fw_status longest_period(fw_arena *arena, const fw_mechanism *m,
-                                const fw_device_scene *scene, double *period_s) {
-    const fw_statics_mode_options o = {.accuracy = 1e-3};
+                                const fw_device_scene *scene, bool at_equilibrium,
+                                double *period_s) {
+    const fw_statics_mode_options o = {.accuracy = 1e-3, .at_equilibrium = at_equilibrium};
     const fw_statics_modes *modes = NULL;
     fw_diags own = fw_diags_new(arena);
     *period_s = 0;
@@ -111,7 +112,7 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
     if (x->loads->quasi_static || x->ended || x->nsample < 1) return FW_OK;
     fw_dynamics_motion_rows(x, x->nsample - 1, 1);
     if (goes_on(m, x, (double)INFINITY) == FW_NONE) return FW_OK;
-    FW_TRY(longest_period(arena, m, scene, &period_s));
+    FW_TRY(longest_period(arena, m, scene, false, &period_s));
     const int k = goes_on(m, x, period_s);
     if (k == FW_NONE) return FW_OK;
     FW_TRY(last_longer(arena, m, scene, x, period_s, options, &longer));
@@ -374,6 +375,15 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
         fw_number_text(off, sizeof off, 100 * e, 2), fw_number_text(fewest, sizeof fewest, down, 3),
         fw_number_text(most, sizeof most, up, 3));
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *m, int scene,
+                               double *period_s) {
+    double loaded_s;
+    FW_TRY(longest_period(arena, m, &m->device->scene[scene], false, period_s));
+    FW_TRY(longest_period(arena, m, &m->device->scene[scene], true, &loaded_s));
+    *period_s = fmax(*period_s, loaded_s);
+    return FW_OK;
 }
 
 /* ---- what the layer's own strain presses ----

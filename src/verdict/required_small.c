@@ -275,6 +275,21 @@ int fw_verdict_instants(const fw_mechanism *m, const fw_device_scene *scene, boo
     return n;
 }
 
+double fw_verdict_laws_go_on_s(const fw_mechanism *m, const fw_device_scene *scene) {
+    laws l;
+    double longest = 0;
+    laws_of(m, scene, &l);
+    for (int i = 0; i < l.n; i++) {
+        const double f_Hz = fw_quantity_law_wave_of(l.of[i]).fastest_Hz;
+        bool alike = true;
+        for (int k = 1; k <= 8; k++) /* no period of a sine has all of these */
+            alike = alike && are_alike(&(laws){.of = {l.of[i]}, .n = 1, .end_s = l.end_s}, l.end_s,
+                                       l.end_s * (1 - 1e-3 * k * (1 + 0.07 * k)));
+        if (!alike) longest = fmax(longest, fmax(0.25 * l.end_s, f_Hz > 0 ? 1 / f_Hz : 0));
+    }
+    return l.more ? l.end_s : fmin(longest, l.end_s);
+}
+
 /* by how much of its value a bound is missed; what is not known there is not known */
 static double worst_share(const fw_verdict_requirement *r) {
     if (r->why || isnan(r->value)) return HUGE_VAL;
@@ -326,5 +341,68 @@ fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
         if (!v->requirement[k].measure && v->requirement[k].scene_index == scene)
             v->requirement[k].why = "loads are at an extreme at more instants of its scene than "
                                     "are looked at; put parts of it into scenes of their own";
+    return FW_OK;
+}
+
+/* ---- where a motion comes to rest ----
+   In: the course of a probe that was kept, the loads as they are at the scene's end. Out: the equilibrium under these, where
+   the course ends about it; where loads go on, friction holds it anywhere within a range, or none is found, the middle of what the
+   course goes over in the last period of the slowest mode, off by half of that. The value at the last instant is neither:
+   where a scene ends it may be anywhere in its ring. Cost: modes and an equilibrium. Test: test_probe.py,
+   test_a_settling_time_does_not_go_with_the_length_of_a_scene */
+
+/* least and largest of the last span of a course, its last two instants at the least */
+static void range_of(const fw_probe_course *c, double from_s, double *low, double *high) {
+    *low = *high = c->final;
+    for (size_t i = c->kept; i-- > 0 && (c->time[i] >= from_s || i + 2 >= c->kept);)
+        *low = fmin(*low, c->value[i]), *high = fmax(*high, c->value[i]);
+}
+
+/* NaN: none is found, or it is one of many */
+static fw_status equilibrium_at(fw_arena *arena, const fw_mechanism *m, int scene,
+                                const fw_dynamics_motion *motion, int probe, double *at) {
+    const fw_device_scene *s = &m->device->scene[scene];
+    const fw_statics_static_options o = {.effects.hinge = motion->ledger.hinge.used,
+                                         .effects.untold = true};
+    const fw_statics *found = NULL;
+    fw_diags own = fw_diags_new(arena);
+    fw_probe *bound;
+    *at = (double)NAN;
+    const fw_status status = fw_statics_solve(arena, m, s, &o, &own, &found);
+    if (status == FW_CANCELLED || status == FW_NOMEM) return status;
+    if (status != FW_OK || !found || found->negative > 0 || found->loose ||
+        (found->friction && !found->friction->why))
+        return FW_OK;
+    FW_TRY(fw_probe_bind(arena, m, s, found->loads, &bound));
+    *at = fw_probe_at_equilibrium(&bound[probe], s, found);
+    return FW_OK;
+}
+
+fw_status fw_verdict_rests_at(const fw_mechanism *m, int scene, const fw_dynamics_motion *motion,
+                              const fw_probe_monitor *monitor, const fw_device_requirement *q,
+                              fw_verdict_rest *rest) {
+    const fw_probe_course *c = &monitor->course[q->probe];
+    double low, high, at;
+    *rest = (fw_verdict_rest){.at = c->final};
+    if (motion->loads && motion->loads->quasi_static) return FW_OK;
+    FW_TRY(fw_verdict_slowest_s(monitor->arena, m, scene, &rest->period_s));
+    if (!(rest->period_s > 0))
+        rest->period_s = motion->end_s; /* nothing says how slowly it swings */
+    const double goes_on_s = fw_verdict_laws_go_on_s(m, &m->device->scene[scene]);
+    rest->period_s = fmax(rest->period_s, goes_on_s);
+    range_of(c, motion->end_s - rest->period_s, &low, &high);
+    if (goes_on_s > 0)
+        at = (double)NAN; /* no one instant's equilibrium is where it comes to rest */
+    else
+        FW_TRY(equilibrium_at(monitor->arena, m, scene, motion, q->probe, &at));
+    const double beyond = fmax(0, fmax(low - at, at - high));
+    if (isnan(at)) {
+        rest->at = 0.5 * (low + high), rest->off = 0.5 * (high - low);
+    } else if (beyond <= fmax(high - low, 0.1 * q->band)) {
+        rest->at = at, rest->off = beyond > high - low ? beyond : 0;
+    } else {
+        rest->why = "the scene ends away from the equilibrium under its last loads, and not about "
+                    "another one that is known: give the scene a longer duration";
+    }
     return FW_OK;
 }

@@ -142,6 +142,17 @@ fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechani
 
 /* ---- decision.c: what speaks against a scene; resonance.c: where a mode may lie elsewhere ---- */
 
+/* moved_again.c: where what a requirement's probe is of comes to rest under the loads that a scene ends with */
+typedef struct fw_verdict_rest {
+    double at, off;  /* SI of the probe; it may be off by that */
+    double period_s; /* of the slowest mode; 0: a sequence of equilibria, which does not ring */
+    const char *why; /* it is not known: why; NULL: it is */
+} fw_verdict_rest;
+fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                               double *period_s); /* at rest or as loaded; 0: nothing swings */
+fw_status fw_verdict_rests_at(const fw_mechanism *mechanism, int scene,
+                              const fw_dynamics_motion *motion, const fw_probe_monitor *monitor,
+                              const fw_device_requirement *requirement, fw_verdict_rest *rest);
 /* moved_again.c: nothing moves in a scene; of v->used what is filled so far */
 bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene);
 /* moved_again.c: warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
@@ -297,6 +308,9 @@ bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why);
 enum { FW_VERDICT_INSTANTS = 24 };
 int fw_verdict_instants(const fw_mechanism *mechanism, const fw_device_scene *scene, bool between,
                         double at_s[FW_VERDICT_INSTANTS]);
+/* required_small.c: how long one must look to see what laws do that still change where the scene ends: a period, and no less
+   than a quarter of the scene; 0: loads have stayed as they are. Test: test_probe.py */
+double fw_verdict_laws_go_on_s(const fw_mechanism *mechanism, const fw_device_scene *scene);
 /* judges what is required about one equilibrium, that of `s` where it ends */
 typedef fw_status fw_verdict_judge_small(fw_arena *arena, const fw_mechanism *mechanism,
                                          const fw_dynamics_motion_options *options,

@@ -182,20 +182,36 @@ static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, 
                                                                     : computed;
 }
 
-/* What the model is off by scales the departure from the final value, and where that is as large as the band it is off by
-   that part of it. Frequencies, and so all times, go with the root of a stiffness */
-static void put_settling(fw_verdict_requirement *r, const fw_probe_course *course, double band,
-                         double numeric, double model, double lasting, double end_s) {
-    double off = numeric + model * band;
-    double low = fw_probe_settling_s(course, band + off),
-           high = band > off ? fw_probe_settling_s(course, band - off) : end_s;
-    double exact = band > numeric ? fw_probe_settling_s(course, band - numeric) : end_s;
-    r->value = fw_probe_settling_s(course, band);
-    r->low = low * (1 - 0.5 * model);
+/* What the model is off by scales the departure from where it comes to rest, and where that is as large as the band it is off by
+   that part of it. Frequencies, and so all times, go with the root of a stiffness. What was out within the last period of
+   the slowest mode may be so again behind the end */
+static fw_status put_settling(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                              const fw_probe_monitor *monitor, const fw_probe_result *p,
+                              fw_verdict_requirement *r) {
+    const fw_device_requirement *q = &m->device->requirement[r->asked];
+    const fw_probe_course *course = &monitor->course[q->probe];
+    const double band = q->band,
+                 model = model_of(m, motion, p->level) +
+                         fw_verdict_places_error(motion, &m->device->probe[q->probe]);
+    fw_verdict_rest rest;
+    FW_TRY(fw_verdict_rests_at(m, r->scene_index, motion, monitor, q, &rest));
+    const double off = p->final_numeric + model * band + rest.off;
+    const double exact = band > p->final_numeric
+                             ? fw_probe_settling_s(course, rest.at, band - p->final_numeric)
+                             : motion->end_s;
+    double high = band > off ? fw_probe_settling_s(course, rest.at, band - off) : motion->end_s;
+    r->value = fw_probe_settling_s(course, rest.at, band);
+    r->low = fw_probe_settling_s(course, rest.at, band + off) * (1 - 0.5 * model);
     r->high = high * (1 + 0.5 * model);
     r->numeric = fmax(0, exact - r->value);
-    r->lasting = lasting;
+    r->lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
+    r->open = rest.why;
+    if (!r->open && high > motion->end_s - rest.period_s)
+        r->open = "it has not settled where the scene ends: give the scene a longer duration";
+    if (r->open) r->high = HUGE_VAL;
+    if (rest.why) r->low = 0;
     decide(r);
+    return FW_OK;
 }
 
 /* of what the errors of a model are shares: what the value is beyond the drawn one; of a gap, whose
@@ -206,15 +222,20 @@ static double departure(const fw_probe_result *p, double value) {
 
 /* Where a motion still rings at its end, its phase there goes by frequencies that are known to some per cent alone: the final
    value may be anywhere within the ring, however little that is, and no tolerance changes it; of a fiftieth of the way on it is
-   told. What laws shake is known by them, and by modes that lie elsewhere (resonance.c) */
+   told. What laws still shake there is known by them, and by modes that lie elsewhere (resonance.c) */
 static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motion,
                           const fw_probe_monitor *monitor, const fw_probe_result *p,
                           fw_verdict_requirement *r) {
-    const fw_probe_ring ring =
-        fw_probe_rings(&monitor->probe[m->device->requirement[r->asked].probe], motion);
+    const fw_probe *of = &monitor->probe[m->device->requirement[r->asked].probe];
     const double off = 0.5 * (r->high - r->low);
+    fw_probe_ring ring;
+    double slowest_s;
     bool shaken;
+    if (motion->loads && motion->loads->quasi_static) return FW_OK; /* equilibria do not ring */
+    FW_TRY(fw_verdict_slowest_s(monitor->arena, m, r->scene_index, &slowest_s));
+    FW_TRY(fw_probe_rings(monitor->arena, of, motion, slowest_s, &ring));
     FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
+    shaken = shaken && fw_verdict_laws_go_on_s(m, &m->device->scene[r->scene_index]) > 0;
     if (ring.amplitude > 0.02 * fabs(p->final - p->origin)) r->rings = ring.amplitude;
     if (shaken || !(ring.amplitude > 0)) return FW_OK;
     const double low = fmin(r->low, ring.low - off), high = fmax(r->high, ring.high + off);
@@ -225,9 +246,8 @@ static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motio
 }
 
 /* still: nothing moves, and shares of that are round-off over round-off */
-static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
-                  const fw_probe_monitor *monitor, const fw_probe_result *p, bool still,
-                  fw_verdict_requirement *r) {
+static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion, const fw_probe_result *p,
+                  bool still, fw_verdict_requirement *r) {
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const double model = still ? 0
                                : model_of(m, motion, p->level) +
@@ -262,9 +282,7 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion,
         put(r, p->maximum - p->minimum, 2 * p->numeric, model, lasting,
             gap ? 2 * p->moved : p->maximum - p->minimum, true);
         return;
-    case FW_MEASURE_SETTLING:
-        put_settling(r, &monitor->course[q->probe], q->band, p->final_numeric, model, lasting,
-                     motion->end_s);
+    case FW_MEASURE_SETTLING: /* put_settling */
         return;
     case FW_MEASURE_PARASITIC:
         break;
@@ -315,17 +333,16 @@ static fw_status take_in(const fw_mechanism *m, const fw_dynamics_motion *motion
                         fw_verdict_motion_lasting_error(m) -
                         (gives ? fw_verdict_bending_share(motion) : 0);
     fw_verdict_requirement then = *r;
-    judge(m, other, monitor, now, false, &then);
-    fw_probe_ring ring = {0, then.value, then.value};
-    if (measure == FW_MEASURE_FINAL) { /* where it still rings, as put_ring */
-        bool shaken;
-        FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
-        if (!shaken) ring = fw_probe_rings(&monitor->probe[probe], other);
-    }
+    if (time)
+        FW_TRY(put_settling(m, other, monitor, now, &then));
+    else
+        judge(m, other, now, false, &then);
     const double off = r->numeric + (time ? 0 : fmax(0, left) * then.swing),
-                 least = r->low >= 0 && r->value >= 0 && isnan(r->origin) ? 0 : -HUGE_VAL,
-                 low = fmin(r->low, fmax(least, fmin(then.value, ring.low) - off)),
-                 high = fmax(r->high, fmax(then.value, ring.high) + off);
+                 least = r->low >= 0 && r->value >= 0 && isnan(r->origin) ? 0 : -HUGE_VAL;
+    then.low = then.value - off, then.high = then.open ? HUGE_VAL : then.value + off;
+    if (measure == FW_MEASURE_FINAL) FW_TRY(put_ring(m, other, monitor, now, &then));
+    if (time && then.open) r->open = then.open;
+    const double low = fmin(r->low, fmax(least, then.low)), high = fmax(r->high, then.high);
     if (r->value != 0) r->lasting += fmax(r->low - low, high - r->high) / fabs(r->value);
     r->low = low, r->high = high;
     decide(r);
@@ -365,10 +382,12 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         const fw_device_requirement *q = &m->device->requirement[r->asked];
         const fw_probe_result *p = &v->probed[scene * n + q->probe];
         const char *of = m->device->probe[q->probe].of;
-        if (p->known) judge(m, v->motion[scene], monitor, p, still, r);
+        if (p->known) judge(m, v->motion[scene], p, still, r);
         if (fw_verdict_places_lower(v->motion[scene], of, &r->low, &r->high)) decide(r);
         if (p->known && q->measure == FW_MEASURE_FINAL)
             FW_TRY(put_ring(m, v->motion[scene], monitor, p, r));
+        if (p->known && q->measure == FW_MEASURE_SETTLING && !v->motion[scene]->ended)
+            FW_TRY(put_settling(m, v->motion[scene], monitor, p, r));
         if (p->known && v->motion[scene]->ended) judge_ended(q->measure, r);
         if (!p->known && monitor->within)
             r->why =

@@ -124,6 +124,19 @@ class Limits(unittest.TestCase):
         arguments = [part for s in sets for part in ("--set", s)]
         self.assertIn("FW-D236", run("check", LEAF, *arguments).stderr)
 
+    def test_a_probability_of_what_yields(self):
+        """a distribution that was stated of copper, and the probability asked for, were left out without a word"""
+        asked = "limits/@failure-probability=1e-6"
+        said = run("check", NODDER, "--set", asked, "--corners", "none", "--advice", "none")
+        self.assertIn("failure-probability has no meaning for material 'copper-plated'", " ".join(said.stderr.split()))
+        own = NODDER.read_text().replace('ref="copper-plated"', 'ref="copper-plated" weibull-strength="0.2 GPa" weibull-modulus="10" weibull-area="0.01 mm^2"')
+        known = json.loads(run("check", "-", "--set", asked, "--corners", "none", "--advice", "none", "--json", input=own).stdout)
+        self.assertEqual(known["governing"]["criterion"], "fracture")
+        self.assertGreater(known["failure_probability"], 0)
+        tough = own.replace('"0.2 GPa"', '"20 GPa"')
+        known = json.loads(run("check", "-", "--set", asked, "--corners", "none", "--advice", "none", "--json", input=tough).stdout)
+        self.assertNotEqual(known["governing"]["criterion"], "fracture")
+
     def test_what_has_no_data_is_an_error(self):
         text = NODDER.read_text().replace("copper-plated", "porous-silicon")
         self.assertIn("FW-D225", run("check", "-", input=text).stderr)

@@ -284,9 +284,10 @@ class Study(unittest.TestCase):
         self.assertTrue(all(r["why"] and not r["U"] for r in failed))
 
     def test_hinges_alone_are_said(self):
+        """in a directory that is made with those above it"""
         rows = ('<vary what="arc" values="230 deg; 240 deg"/>'
                 '<respond name="U" value="governing.utilisation"/>')
-        file, place = self.write(study("alone", "sweep", rows, **{"as": "hinges"})), self.place / "alone"
+        file, place = self.write(study("alone", "sweep", rows, **{"as": "hinges"})), self.place / "further/down/alone"
         plan = run("study", file, "--plan", *FLOW)
         self.assertIn("nothing of clearances", plan.stdout)
         done = run("study", file, "-o", place, *FLOW)

@@ -32,6 +32,7 @@ static const struct {
     {"entries", {"lot.txt"}, {""}},
     {"lot", {"L", "a lot of 1"}, {"", "two\nlines", "\033[2J"}},
     {"wafer", {"3", "1-4"}, {""}},
+    {"without", {"3", "A1,B7"}, {""}},
     {"site", {"thickness=9.1 um"}, {"thickness", "a=1;b=2", ""}},
     {"setting", {"power=251 W"}, {"power", "a=1;b=2", ""}},
     {"coupon", {"arde-slots, drawn=10 um"}, {"", "a;b"}},

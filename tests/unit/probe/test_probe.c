@@ -83,8 +83,8 @@ static void settles_at_the_last_crossing(void **state) {
         double t = 1e-5 * i;
         if (fabs(exp(-t) * cos(10 * t)) > 0.1) last = t;
     }
-    assert_true(fabs(fw_probe_settling_s(f.monitor.course, 0.1) - last) < 1e-4);
-    assert_true(fw_probe_settling_s(f.monitor.course, 2) == 0);
+    assert_true(fabs(fw_probe_settling_s(f.monitor.course, 0, 0.1) - last) < 1e-4);
+    assert_true(fw_probe_settling_s(f.monitor.course, 0, 2) == 0);
     fw_arena_free(f.arena);
 }
 

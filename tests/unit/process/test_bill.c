@@ -47,6 +47,27 @@ static void amounts(void **state) {
     }
 }
 
+/* a bath that serves two wafers is mixed as often as the bill has fillings: by the step that sets its volume, once for the lot */
+static void fillings_are_mixed(void **state) {
+    (void)state;
+    fw_process_flow *f = computed_pack("copper-on-porous-silicon", NULL, NULL);
+    const fw_process_step *mix = NULL, *other = NULL;
+    for (int i = 0; i < f->nstep; i++)
+        if (strcmp(f->step[i].id, "C03") == 0) mix = &f->step[i], other = &f->step[i + 1];
+    assert_non_null(mix);
+    assert_string_equal(fw_process_step_mixes(f, mix)->id, "anodising");
+    assert_null(fw_process_step_mixes(f, other));
+    assert_int_equal(fw_process_step_times(f, mix, 4), 1); /* nobody has said how many one serves */
+    for (int i = 0; i < f->nquantity; i++)
+        if (strcmp(f->quantity[i]->id, "bath.serves") == 0) f->quantity[i]->value = 2.0, f->quantity[i]->unknown = false;
+    for (int n = 1; n <= 5; n++) {
+        fw_process_bill b = bill_of(f, n);
+        assert_int_equal(bath(&b, "anodising")->fillings, (n + 1) / 2);
+        assert_int_equal(fw_process_step_times(f, mix, n), (n + 1) / 2);
+        assert_int_equal(fw_process_step_times(f, other, n), 1);
+    }
+}
+
 /* A small source h above the wafer sends pi h2 d of what it coats to a thickness of d: 40 cm, twice 0.3 um of gold for the
    glass and once 0.3 um for pads, 19.3 g/cm3; a run takes up to four wafers, and one takes no less */
 static void metals(void **state) {
@@ -203,6 +224,7 @@ static void bad_packs(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(fillings_are_mixed, setup, teardown),
         cmocka_unit_test_setup_teardown(amounts, setup, teardown),
         cmocka_unit_test_setup_teardown(metals, setup, teardown),
         cmocka_unit_test_setup_teardown(loads_and_fillings, setup, teardown),

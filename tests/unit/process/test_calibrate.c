@@ -1058,9 +1058,33 @@ static void columns_that_nothing_takes(void **state) {
     }
 }
 
+/* spreadsheets of half of Europe part fields by semicolons and write 3,64: the same table, the same numbers; a comma within a
+   table that has commas between its fields is none of a number */
+static void semicolons(void **state) {
+    (void)state;
+    static const char *const text[] = {"coupon,feature,drawn_um,measured,u,unit\ncd-lines,line,6,3.64,0.02,um\n",
+                                       "coupon;feature;drawn_um;measured;u;unit\ncd-lines;line;6;3,64;0,02;um\n;;;;;\n",
+                                       "coupon;feature;drawn_um;measured;u;unit\ncd-lines;line;6,0;3.64;\"0,02\";um\n"};
+    for (size_t i = 0; i < sizeof text / sizeof text[0]; i++) {
+        fw_process_measurement *row;
+        int n;
+        fw_diags said = fw_diags_new(arena);
+        assert_int_equal(fw_process_measurements_read(arena, "t.csv", text[i], strlen(text[i]), &said, &row, &n), FW_OK);
+        assert_int_equal(n, 1);
+        assert_near(row[0].value, 3.64e-6, 1e-15);
+        assert_near(row[0].uncertainty, 0.02e-6, 1e-15);
+        assert_near(row[0].drawn_m, 6e-6, 1e-15);
+    }
+    fw_process_measurement *row;
+    int n;
+    fw_diags said = fw_diags_new(arena);
+    static const char two[] = "coupon;feature;drawn_um;measured;u;unit\ncd-lines;line;6;1,364,5;0,02;um\n";
+    assert_int_equal(fw_process_measurements_read(arena, "t.csv", two, strlen(two), &said, &row, &n), FW_INPUT);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coverage),        cmocka_unit_test(two_slots),
+        cmocka_unit_test(coverage),        cmocka_unit_test(two_slots), cmocka_unit_test(semicolons),
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
         cmocka_unit_test(wrong_tables), cmocka_unit_test(tables_with_temperatures), cmocka_unit_test(rows_that_read_the_same),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),

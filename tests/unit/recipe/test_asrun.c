@@ -17,6 +17,7 @@ static fw_process_flow *flow;
 static const char plan[] = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
 
 static double now = (double)NAN;      /* of the clock; NaN: there is none */
+static const fw_recipe_counted all_count = {0};
 static const char *lot_wafers = NULL; /* of logs that begin */
 static int setup(void **state) {
     (void)state;
@@ -394,6 +395,58 @@ static void planned_against_actual(void **state) {
     assert_true(holds(&text, "waited 21 min since C20: OUT of 0 s to 15 min"));
 }
 
+/* What was set reaches the law of the step: a time that is right as planned is wrong at half the current, or in a bath that
+   etches faster, and the other way round. What is asked of the step is not replaced; a later entry of the same run goes by
+   what an earlier one says; a run before counts as long as it would have been at what was set in the last one. */
+static void what_was_set_counts(void **state) {
+    (void)state;
+#define AT(step, from, to) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; "
+    static const struct {
+        bool silicon;
+        const char *before, *words, *judged;
+        double nominal_min; /* at what was set */
+        int told;           /* FW-D684 */
+    } of[] = {
+        {false, NULL, AT("C22", "10:00", "10:21") "note=-", "in window", 21.038, 0},
+        {false, NULL, AT("C22", "10:00", "10:21") "set current density=10 mA/cm2", "short", 42.076, 0},
+        {false, NULL, AT("C22", "10:00", "10:41") "set current density=10 mA/cm2", "in window", 42.076, 0},
+        {false, NULL, AT("C22", "10:00", "10:41") "note=-", "long", 21.038, 0},
+        {false, NULL, AT("C22", "10:00", "10:21") "set copper thickness=18 um", "in window", 21.038, 0},
+        {false, AT("C22", "10:00", "10:21") "set current density=10 mA/cm2", AT("C22", "10:00", "10:21") "thickness=4.6 um", "short", 42.076, 0},
+        {false, AT("C22", "09:30", "09:52") "set current density=10 mA/cm2", AT("C22", "10:00", "10:10") "note=-", "in window", 21.038, 0},
+        {false, AT("C22", "09:30", "09:52") "note=-", AT("C22", "10:00", "10:10") "note=-", "long", 21.038, 0},
+        {true, NULL, AT("S14", "10:00", "10:17") "note=-", "in window", 16.667, 0},
+        {true, NULL, AT("S14", "10:00", "10:17") "set etch rate=20 Ao/s", "long", 8.333, 0},
+        {true, NULL, AT("S14", "10:00", "10:15") "set etch rate=20 Ao/s", "in window", 8.333, 1},
+        {true, NULL, AT("S14", "10:00", "10:08") "set etch rate=20 Ao/s", "in window", 8.333, 0},
+        {true, NULL, AT("S14", "10:00", "10:08") "note=-", "short", 16.667, 0},
+        {true, NULL, AT("S14", "10:00", "10:15") "set temperature=35 Cel", "in window", 7.4, 1},
+        {true, NULL, AT("S14", "10:00", "10:40") "set temperature=35 Cel", "long", 7.4, 0},
+    };
+    fw_process_flow *both[2] = {flow, read_pack(arena, SILICON, NULL, NULL, &diags)};
+    assert_int_equal(fw_process_flow_compute(arena, both[1], &plain_facts, &diags), FW_OK);
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_recipe_asrun run;
+        fw_text json = fw_text_new(arena);
+        int told = 0;
+        flow = both[of[i].silicon];
+        const char *log = of[i].before ? with(begun(), of[i].before, 0) : begun();
+        log = with(log, of[i].words, 0);
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        const fw_recipe_asrun_entry *e = &run.entry[run.nentry - 1];
+        if (strcmp(fw_recipe_asrun_in_time(&run, e), of[i].judged) != 0) fail_msg("%zu: %s", i, fw_recipe_asrun_in_time(&run, e));
+        assert_near(e->as_set->time.nominal_s / 60.0, of[i].nominal_min, 0.03 * of[i].nominal_min);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            told += diags.item[k].number == 684;
+        assert_int_equal(told, of[i].told);
+        assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+        assert_int_equal(holds(&json, "\"as_set\":{\"planned_s\":"), e->as_set != e->step);
+        assert_int_equal(holds(&json, "\"longer_unless_finished\":true"), of[i].told);
+    }
+#undef AT
+}
+
 /* ---- wafers, sites, settings, coupons ---- */
 
 static const char of_C22[] =
@@ -475,7 +528,7 @@ static void readings(void **state) {
     diags = fw_diags_new(arena);
     assert_int_equal(
         fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     assert_int_equal(r.n, 5); /* of eight, three are read again */
     assert_near(r.item[3].row.at, 49e-6, 1e-12);
     assert_near(r.item[3].row.drawn_m, 8e-6, 1e-12);
@@ -530,7 +583,7 @@ static void readings_of_warm_baths(void **state) {
             log = with(log, fw_arena_printf(arena, "S14; start=2026-11-20T10:30; end=2026-11-20T10:32; by=AB; second=CD; wafer=1%s", of[i].again), 0);
         log = with(log, fw_arena_printf(arena, later, of[i].wafer, rate, of[i].more), 0);
         assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
         assert_int_equal(r.n, 1);
         assert_near(r.item[0].row.condition[FW_CONDITION_TEMPERATURE], of[i].T, 1e-9);
         assert_near(r.item[0].row.condition_uncertainty[FW_CONDITION_TEMPERATURE], of[i].u, 1e-6);
@@ -539,7 +592,7 @@ static void readings_of_warm_baths(void **state) {
     fw_process_readings open;
     const char *log = with(begun(), fw_arena_printf(arena, "%s; %s, open-area=176.7 cm2, u-open-area=2 cm2", etch, rate), 0);
     assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &open), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &open), FW_OK);
     assert_near(open.item[0].row.condition[FW_CONDITION_OPEN_AREA], 176.7e-4, 1e-12);
     assert_near(open.item[0].row.condition_uncertainty[FW_CONDITION_OPEN_AREA], 2e-4, 1e-12);
     with(begun(), fw_arena_printf(arena, "%s; %s, open-area=35 um", etch, rate), 282);
@@ -845,13 +898,164 @@ static void readings_of_what_is_out(void **state) {
     log = fate(log, "1", "11:30", "scrapped", 0);
     diags = fw_diags_new(arena);
     assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     assert_int_equal(r.n, 2);
     run.entry[2].start_s -= 3600.0; /* as if it had been scrapped at 10:30 */
-    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &diags, &r), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     assert_int_equal(r.n, 1);
     assert_near(r.item[0].row.drawn_m, 10e-6, 1e-12);
     assert_int_equal(diags.item[diags.count - 1].number, 604);
+}
+
+/* Lines and spaces of a wafer whose wet etch was too long, or was gone on with after they were read, do not count, and that is
+   told once; the log is judged without its plan, by the times that stand in its lines. What says under what it was read
+   counts; --all-runs counts all, --without leaves a wafer out. */
+static void readings_of_bad_runs(void **state) {
+    (void)state;
+#define AT(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
+    static const char lines[] = "; coupon=cd-lines, line, drawn=6 um, value=3.64 3.65 3.63 um, u=0.02 um; coupon=cd-lines, space, drawn=6 um, value=8.34 8.35 8.36 um, u=0.02 um";
+    static const char step[] = "; coupon=al-step, value=0.6 um, u=0.01 um, at=50 um";
+    static const struct {
+        const char *entry[4];
+        int n;
+        fw_recipe_counted counted;
+        int read, told;
+    } log[] = {
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 2, 0},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.all_runs = true}, 2, 1},
+        {{AT("S14", "10:00", "10:40", "2"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 2, 0},
+        {{AT("S14", "10:00", "10:05", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:05", "1"), AT("S14", "10:30", "10:42", "1"), AT("S15", "11:00", "11:07", "1")}, 3, {0}, 2, 0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:02", "1")}, 3, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S18", "11:00", "12:50", "1")}, 2, {0}, 1, 0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.without = "1"}, 0, 0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.without = "2"}, 2, 0},
+    };
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
+        fw_recipe_asrun run;
+        fw_process_readings r;
+        int told = 0;
+        const char *text = begun();
+        for (int k = 0; k < log[i].n; k++) {
+            const char *e = log[i].entry[k];
+            const char *more = strncmp(e, "S15", 3) == 0 ? lines : strncmp(e, "S18", 3) == 0 ? step : "";
+            text = with(text, fw_arena_printf(arena, "%s%s", e, more), 0);
+        }
+        assert_non_null(strstr(text, "\tplanned=1000 "));
+        /* as calibrate has it: the flow as the pack gives it, without a device */
+        fw_process_flow *computed = flow;
+        flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+        diags = fw_diags_new(arena);
+        assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", text, strlen(text), &diags, &run), FW_OK);
+        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &log[i].counted, &diags, &r), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            told += diags.item[k].number == 693;
+        if (r.n != log[i].read || told != log[i].told) fail_msg("%zu: %d readings, told %d times", i, r.n, told);
+        flow = computed;
+    }
+    fw_recipe_asrun run;
+    fw_process_readings r;
+    const fw_recipe_counted without = {.without = "1, 9"};
+    const char *text = with(begun(), log[0].entry[0], 0);
+    assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_readings(arena, &run, &without, &diags, &r), FW_INPUT);
+    with(begun(), AT("S14", "10:00", "10:17", "1") "; planned=1 2 3 4 5 6 7", 282);
+#undef AT
+}
+
+/* A lot goes on by another plan where its log says so: what a pack that was calibrated meanwhile makes of it. Lines before are
+   judged by the times that stand in them, those behind by the plan; head and chain hold the line that says it, too. */
+static void a_log_goes_on_by_another_plan(void **state) {
+    (void)state;
+    static const char other[] = "ffeeddccbbaa99887766554433221100ffeeddccbbaa99887766554433221100";
+    static const struct {
+        const char *words;
+        bool taken;
+    } of[] = {{"plan; by=AB", false}, {"plan; start=2026-11-20T12:00", false}, {"plan; start=noon; by=AB", false},
+              {"plan; start=2026-11-20T12:00; by=AB; wafer=1", false}, {"plan; start=2026-11-20T12:00; by=AB; note=pack of wafer 1", true}};
+    fw_recipe_asrun run;
+    const char *line = NULL, *head;
+    const char *log = with(begun(), "C22; start=2026-11-20T10:00:00; end=2026-11-20T10:21:00; by=AB; second=CD; thickness=9.1", 0);
+    assert_true(fw_recipe_asrun_is_plan(of[0].words));
+    assert_false(fw_recipe_asrun_is_plan("planarise; start=2026-11-20T12:00"));
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_INPUT);
+    assert_int_equal(diags.item[diags.count - 1].number, 281);
+    assert_non_null(strstr(diags.item[diags.count - 1].message, "--entry \"plan; start=TIME; by=INITIALS; note=WHY\""));
+    assert_int_equal(fw_recipe_asrun_read_former(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
+        assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, other, of[i].words, (fw_place){"entry", 1, 1}, &diags, &line), of[i].taken ? FW_OK : FW_INPUT);
+    assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, plan, of[4].words, (fw_place){"entry", 1, 1}, &diags, &head), FW_INPUT);
+    log = fw_arena_printf(arena, "%s%s", log, line);
+    /* at half of the rate the same times are short: of the line before they are not */
+    measured(flow, "cu.J", 100.0, 1.0);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, "C22; start=2026-11-20T13:00:00; end=2026-11-20T13:21:00; by=AB; second=CD; thickness=4.6; wafer=1", (fw_place){"entry", 1, 1}, now, &diags, &line), FW_INPUT);
+    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, "C20; start=2026-11-20T13:00:00; end=2026-11-20T13:09:00; by=AB", (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+    log = fw_arena_printf(arena, "%s%s", log, line);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(run.nentry, 2);
+    assert_int_equal(run.nline, 3);
+    assert_int_equal(run.nreplan, 1);
+    assert_int_equal(run.replan[0].line, 3);
+    assert_true(run.entry[0].former && !run.entry[1].former);
+    assert_int_equal(run.entry[1].line, 4);
+    assert_string_equal(fw_recipe_asrun_in_time(&run, &run.entry[0]), "in window");
+    assert_string_equal(fw_recipe_asrun_in_time(&run, &run.entry[1]), "in window");
+    assert_int_equal(run.entry[0].nmeasured, 1);
+    fw_text text = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_true(holds(&text, "from line 3 on plan ffeeddccbbaa: 2026-11-20T12:00, by AB: pack of wafer 1"));
+    assert_true(holds(&text, "by the plan of its line: "));
+    for (int n = 3; n >= 2; n--) { /* also where the head ends with the line of the plan */
+        assert_int_equal(fw_recipe_asrun_head(arena, n, run.link[n - 1], &head), FW_OK);
+        assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags), FW_OK);
+    }
+    assert_int_equal(fw_recipe_asrun_head(arena, 4, run.chain, &head), FW_OK);
+    assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags), FW_INPUT);
+}
+
+/* An entry whose times were mistyped cannot be taken back, and one with later times is another run, which adds up; what says that it
+   replaces the line does not: neither times nor coupons of the former count, nor what a wafer waited by it */
+static void a_line_is_replaced(void **state) {
+    (void)state;
+#define AT(step, from, to) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=1"
+    static const char rate[] = "; coupon=etch-rate, pan.R, value=%s um, u=0.01 um, at=%d min";
+    static const struct {
+        const char *more;
+        const char *judged;
+        int readings;
+    } of[] = {{"", "long", 2}, {"; replaces=2", "in window", 1}};
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    const char *first = with(begun(), fw_arena_printf(arena, "%s%s", AT("S14", "08:00", "08:17"), fw_arena_printf(arena, rate, "0.62", 5)), 0);
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_recipe_asrun run;
+        fw_process_readings r;
+        fw_recipe_asrun_total total;
+        const char *log = with(first, fw_arena_printf(arena, "%s%s%s", AT("S14", "10:00", "10:17"), fw_arena_printf(arena, rate, "0.64", 6), of[i].more), 0);
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        assert_string_equal(fw_recipe_asrun_in_time(&run, &run.entry[1]), of[i].judged);
+        assert_int_equal(fw_recipe_asrun_taken_back(&run, &run.entry[0]), i);
+        assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
+        assert_int_equal(r.n, of[i].readings);
+        assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+        assert_int_equal(total.repeated, 0);
+        assert_near(total.actual_s, i ? 1020.0 : 2040.0, 1e-9);
+        if (i == 0) continue;
+        with(log, AT("S14", "11:00", "11:17") "; replaces=2", 282); /* another one stands there */
+        with(log, AT("S15", "11:00", "11:07") "; replaces=3", 282);
+        with(log, AT("S14", "11:00", "11:17") "; replaces=9", 282);
+        with(log, "S14; start=2026-11-20T11:00; end=2026-11-20T11:17; by=AB; second=CD; wafer=2; replaces=3", 282);
+        with(log, AT("S14", "11:00", "11:17") "; replaces=that", 282);
+    }
+#undef AT
 }
 
 /* a load that was typed with one start and end took that long for all of its wafers, one after the other where the machine takes
@@ -1075,6 +1279,60 @@ static void runs_add_up(void **state) {
 #undef E
 }
 
+/* What was found before an earlier step was run again is not passed: it is asked for with the entry of the rework, expected in the
+   table, told once more where the next step follows, and a deviation where somebody went on. A resist that was coated again has
+   its bakes to see again. Times that are put right, a first run that was entered late, and another wafer overtake nothing. */
+static void inspections_are_overtaken(void **state) {
+    (void)state;
+#define E(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
+    static const struct {
+        const char *entry[5];
+        int n, told; /* FW-D687 of the last one */
+        const char *expected, *step, *deviation;
+    } log[] = {
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1")}, 3, 1, "not yet: wafer 1", "S15", NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1"), E("S16", "13:00", "13:15", "1")}, 4, 1, "not yet: wafer 1", "S15", "not run again"},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1"), E("S15", "12:30", "12:37", "1"), E("S16", "13:00", "13:15", "1")}, 5, 0, NULL, NULL, NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "09:59", "10:16", "1")}, 3, 0, NULL, NULL, NULL},
+        {{E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:17", "1")}, 2, 0, NULL, NULL, NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:17", "2")}, 3, 0, NULL, NULL, NULL},
+        {{E("S07", "10:00", "10:03", "1"), E("S08", "10:05", "10:07", "1"), E("S07", "12:00", "12:03", "1")}, 3, 1, "not yet: wafer 1", "S08", NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S15", "12:00", "12:07", "1")}, 3, 0, NULL, NULL, NULL},
+    };
+    flow = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    lot_wafers = "1,2";
+    for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
+        fw_recipe_asrun run;
+        fw_recipe_deviation *list;
+        fw_text table = fw_text_new(arena), json = fw_text_new(arena);
+        const char *text = begun();
+        int told = 0, n, without = 0;
+        for (int k = 0; k < log[i].n; k++)
+            text = with(text, log[i].entry[k], 0);
+        for (size_t k = 0; k < diags.count; k++)
+            told += diags.item[k].number == 687;
+        assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        for (size_t k = 0; k < diags.count; k++)
+            told += diags.item[k].number == 687;
+        if (told != log[i].told) fail_msg("%zu: told %d times", i, told);
+        assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
+        assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+        assert_int_equal(holds(&table, "overtaken: "), log[i].step != NULL);
+        assert_int_equal(holds(&json, "\"overtaken_by\":{\"step\":"), log[i].step != NULL);
+        if (log[i].step) {
+            assert_true(holds(&table, log[i].expected));
+            assert_true(fw_recipe_asrun_expects(&run, step_of(flow, log[i].step), "1"));
+        }
+        assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+        for (int k = 0; k < n; k++)
+            without += strcmp(list[k].what, "not run again") == 0;
+        assert_int_equal(without, log[i].deviation != NULL);
+    }
+#undef E
+}
+
 /* what calibrate could make nothing of is not written */
 static void coupons_of_other_flows(void **state) {
     (void)state;
@@ -1244,6 +1502,11 @@ int main(void) {
         cmocka_unit_test_setup_teardown(another_plan, setup, teardown),
         cmocka_unit_test_setup_teardown(clocks_are_read_to_the_minute, setup, teardown),
         cmocka_unit_test_setup_teardown(planned_against_actual, setup, teardown),
+        cmocka_unit_test_setup_teardown(what_was_set_counts, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_line_is_replaced, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_log_goes_on_by_another_plan, setup, teardown),
+        cmocka_unit_test_setup_teardown(readings_of_bad_runs, setup, teardown),
+        cmocka_unit_test_setup_teardown(inspections_are_overtaken, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
         cmocka_unit_test_setup_teardown(no_room, setup, teardown),
         cmocka_unit_test_setup_teardown(sites_and_settings, setup, teardown),

@@ -361,9 +361,48 @@ static void longer_hours_are_never_later(void **state) {
     assert_true(compared > rounds);
 }
 
+/* Of a bath or a current the end needs somebody: hands are taken for the last part of the run, and people are in the house when it
+   is put in and when it is ended. So two short etches may begin together and end one after the other; one that would end after
+   the day waits for the next, and one of a night goes on over it. */
+static void who_ends_it(void **state) {
+    (void)state;
+    static const struct {
+        double from_h, run_min, attended_min, start_h; /* by the fit */
+    } of[] = {{8, 24, 6, 8},     {17, 24, 6, 17},   {16, 180, 30, 32},   {15, 180, 30, 15},
+              {17, 960, 30, 17}, {12, 960, 30, 16.5}, {19, 24, 6, 32}, {8, 24, 24, 8}};
+    fw_schedule_calendar day;
+    assert_true(fw_schedule_calendar_parse("08:00-18:00", &day));
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        const fw_schedule_task t = {.id = "A", .duration_s = 60.0 * of[i].run_min, .attended_s = 60.0 * of[i].attended_min, .at_end = true};
+        assert_near(fw_schedule_people_fit(&day, &t, 3600.0 * of[i].from_h), 3600.0 * of[i].start_h, 1.0);
+    }
+    fw_arena *own = fw_arena_new(0);
+    for (int at_end = 0; at_end < 2; at_end++) {
+        const fw_schedule_task task[] = {
+            {.id = "A", .title = "etch", .duration_s = 1440.0, .latest_s = 1440.0, .attended_s = 360.0, .load = 1, .at_end = at_end},
+            {.id = "B", .title = "look", .machine = 1, .duration_s = 300.0, .latest_s = 300.0, .attended_s = 300.0, .load = 1}};
+        const fw_schedule_machine machine[] = {{.id = "bath", .title = "bath", .places = 2}, {.id = "bench", .title = "bench", .places = 1}};
+        const fw_schedule_shop shop = {.task = task, .machine = machine, .ntask = 2, .nmachine = 2, .wafers = 2, .operators = 1, .calendar = day};
+        fw_schedule s;
+        assert_int_equal(fw_schedule_solve(own, &shop, 0, &s), FW_OK);
+        assert_true(s.feasible);
+        assert_true(s.makespan_s >= s.bound.best_s - 1e-6);
+        for (int i = 0; i < s.nrun; i++)
+            for (int k = 0; k < i; k++) {
+                const fw_schedule_task *t = &task[s.run[i].task], *u = &task[s.run[k].task];
+                const double from = s.run[i].start_s + fw_schedule_task_attended_from_s(t), other = s.run[k].start_s + fw_schedule_task_attended_from_s(u);
+                assert_true(from >= other + u->attended_s - 1e-5 || other >= from + t->attended_s - 1e-5);
+                assert_int_equal(s.run[i].operator_, 0);
+            }
+        for (int i = 0; i < s.nrun && at_end; i++)
+            if (s.run[i].task == 0) assert_near(fw_schedule_task_attended_from_s(&task[0]), 1080.0, 0.0);
+    }
+    fw_arena_free(own);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(greedy_reference), cmocka_unit_test(brute_force),
+        cmocka_unit_test(who_ends_it), cmocka_unit_test(greedy_reference), cmocka_unit_test(brute_force),
         cmocka_unit_test(random_shops),     cmocka_unit_test(line),
         cmocka_unit_test(repeatable),       cmocka_unit_test(never_worse_than_its_relaxations),
         cmocka_unit_test(longer_hours_are_never_later)};

@@ -1,0 +1,404 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How long a step took against its window, at what was set; a thickness against the time that it took. */
+#include "base/text.h"
+#include "process/process_law.h"
+#include "recipe/asrun_parts.h"
+#include "recipe/recipe_words.h"
+#include <math.h>
+#include <string.h>
+
+/* "temperature = 32 Cel" of whatever the entry says that was set otherwise */
+static void put_settings(fw_text *out, const fw_recipe_asrun_entry *e) {
+    const char *between = "";
+    for (int i = 0; i < e->nset; i++) {
+        const fw_recipe_set *s = &e->set[i];
+        if (!s->q || isnan(s->value) || (!s->q->unknown && s->value == fw_quantity_in_unit(s->q)))
+            continue;
+        fw_text_printf(out, "%s%s = ", between, s->name);
+        fw_recipe_put_value(out, s->value);
+        if (strcmp(s->q->unit, "1") != 0) fw_text_printf(out, " %s", s->q->unit);
+        between = ", ";
+    }
+}
+
+/* what is at the bench or the machine beside the step's own time, in every run of it */
+static double handling_s(const fw_process_step *s) {
+    return s->finish_s + s->booked_stop_s - s->booked_stop_own_s;
+}
+
+/* ---- does what was measured go with the time that it took? ----
+   Where the step's own law has the time of a thickness that the step adds or takes away, and what is accepted holds that
+   thickness from both sides, time and reading say one thing twice. */
+
+/* the amount that the law takes; NULL: its time is not that of an outcome (a bake, a spin) */
+static const fw_process_argument *amount_of_law(const fw_process_step *s) {
+    for (int i = 0; i < s->nargument; i++) {
+        const fw_process_argument *a = &s->argument[i];
+        if (strcmp(a->name, "thickness") != 0 && strcmp(a->name, "depth") != 0) continue;
+        for (int k = 0; k < s->nchange; k++)
+            if (s->change[k].thickness == a->q) return a;
+    }
+    return NULL;
+}
+
+/* what was measured of it, SI; NaN: nothing */
+static double amount_measured(const fw_recipe_asrun_entry *e, const fw_quantity *planned,
+                              const fw_recipe_measured **as) {
+    for (int i = 0; i < e->nmeasured; i++) {
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, e->measured[i].measure);
+        fw_quantity_unit unit;
+        if (!a || isnan(e->measured[i].number) || !a->low[0] || !a->high[0] ||
+            !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
+            !fw_quantity_dimension_equal(unit.dimension, planned->dimension) ||
+            !fw_recipe_asrun_inside(a->low, a->high,
+                                    fw_quantity_unit_from_si(&unit, planned->value)))
+            continue;
+        *as = &e->measured[i];
+        return fw_quantity_unit_to_si(&unit, e->measured[i].number);
+    }
+    return (double)NAN;
+}
+
+typedef struct timing { /* the law of a step as it was set, for another amount */
+    fw_arena *arena;
+    const fw_process_step *step;
+    fw_process_argument argument[FW_LAW_ARGUMENTS];
+    fw_quantity amount;
+} timing;
+
+static bool as_run(fw_arena *arena, const fw_recipe_asrun_entry *e,
+                   const fw_process_argument *amount, timing *t) {
+    const fw_process_step *s = e->as_set;
+    const ptrdiff_t of = amount - e->step->argument;
+    if (s->nargument > FW_LAW_ARGUMENTS) return false;
+    *t = (timing){.arena = arena, .step = s, .amount = *amount->q};
+    for (int i = 0; i < s->nargument; i++)
+        t->argument[i] = s->argument[i];
+    t->argument[of].q = &t->amount;
+    t->amount.uncertainty = 0.0; /* it is what is asked */
+    t->amount.unknown = false;
+    return true;
+}
+
+static fw_status time_for(timing *t, double amount_m, fw_process_law_answer *answer) {
+    const fw_process_step *s = t->step;
+    t->amount.value = amount_m;
+    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
+                                    .shape = s->shape,
+                                    .expression = s->expression,
+                                    .wanted = FW_DIM_TIME,
+                                    .argument = t->argument,
+                                    .nargument = s->nargument};
+    return fw_process_law_evaluate(t->arena, &use, answer);
+}
+
+/* the amount of so much time, from one nearby: times rise with it, not far from in proportion */
+static fw_status amount_in(timing *t, double time_s, double *amount_m) {
+    enum { ROUNDS = 12 };
+    for (int i = 0; i < ROUNDS; i++) {
+        fw_process_law_answer answer;
+        FW_TRY(time_for(t, *amount_m, &answer));
+        if (!answer.computable || !(answer.value > 0)) break;
+        *amount_m *= time_s / answer.value;
+    }
+    return FW_OK;
+}
+
+/* The runs that e goes on from, in the time that they would have taken at what is set in e: t_o T_e/T_o, T the time of the
+   law for the amount that was measured; *n how many. NaN: one of them had no such time */
+static fw_status earlier(fw_arena *arena, const fw_recipe_asrun *run,
+                         const fw_recipe_asrun_entry *e, const fw_process_argument *amount,
+                         double measured, double time_s, int *n, double *earlier_s) {
+    *n = 0, *earlier_s = 0.0;
+    for (const fw_recipe_asrun_entry *o = fw_recipe_asrun_goes_on_from(run, e); o;
+         o = fw_recipe_asrun_goes_on_from(run, o), ++*n) {
+        timing t;
+        fw_process_law_answer answer = {0};
+        int together;
+        const bool known = as_run(arena, o, amount, &t);
+        if (known) FW_TRY(time_for(&t, measured, &answer));
+        *earlier_s += answer.computable && answer.value > 0
+                          ? (o->end_s - o->start_s) / fw_recipe_asrun_loads(run, o, &together) *
+                                time_s / answer.value
+                          : (double)NAN;
+    }
+    return FW_OK;
+}
+
+/* loads: that may share its time, one after the other; read_s: how far a clock may be off */
+static fw_status amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                const fw_recipe_asrun_entry *e, double loads, double read_s,
+                                fw_recipe_amount_in_time *out) {
+    const fw_process_step *s = e->step;
+    timing t;
+    fw_process_law_answer answer;
+    *out = (fw_recipe_amount_in_time){.fits = true};
+    const fw_process_argument *amount = s && e->fate == FW_FATE_RUN ? amount_of_law(s) : NULL;
+    if (!amount || amount->q->unknown || !e->as_set->time.computable) return FW_OK;
+    const double measured = amount_measured(e, amount->q, &out->measured);
+    if (!(measured > 0) || !as_run(arena, e, amount, &t)) return FW_OK;
+    FW_TRY(time_for(&t, measured, &answer));
+    if (!answer.computable || !(answer.value > 0)) return FW_OK;
+    /* handling, pauses and what is finished at the machine may be in it or not */
+    int before;
+    double earlier_s;
+    FW_TRY(earlier(arena, run, e, amount, measured, answer.value, &before, &earlier_s));
+    if (isnan(earlier_s)) return FW_OK;
+    const fw_process_step *set = e->as_set;
+    const double handling = handling_s(set),
+                 more = set->booked_stop_s - set->time.stop_s + before * handling,
+                 off = s->k * answer.uncertainty / answer.value,
+                 actual_s = e->end_s - e->start_s + loads * earlier_s;
+    read_s *= before + 1;
+    out->took_s = actual_s;
+    const bool brief = actual_s + read_s < answer.value * (1.0 - off);
+    const double longest = answer.value * (1.0 + off) * (1.0 + s->overrun) + more;
+    if (!brief && actual_s - read_s <= loads * longest) return FW_OK;
+    out->fits = false;
+    out->law_m = measured;
+    out->time_s = brief ? actual_s : actual_s / loads - more;
+    out->off = off;
+    out->formula = fw_process_law_find(s->law)->formula;
+    return amount_in(&t, out->time_s, &out->law_m);
+}
+
+/* ---- how long it took ---- */
+
+static double booked_stop_s(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    int together;
+    return e->as_set->booked_stop_s * fw_recipe_asrun_loads(run, e, &together);
+}
+
+double fw_recipe_asrun_stop_by(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                               const fw_recipe_runs *runs, double *surely) {
+    const double one = runs->n > 1 ? e->as_set->booked_stop_s : booked_stop_s(run, e);
+    if (surely) *surely = one + (runs->n - 1) * handling_s(e->as_set);
+    return one;
+}
+
+/* what the entry took, or all of its runs at what was set in it */
+static double took_s(const fw_recipe_asrun_entry *e, const fw_recipe_runs *runs) {
+    return runs->n > 1 ? runs->time_s : e->end_s - e->start_s;
+}
+
+/* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
+   end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. */
+const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    const double actual_s = took_s(e, &runs), read_s = runs.n * fw_recipe_asrun_clock_s(e);
+    double surely;
+    if (!e->as_set->time.computable) return "no plan";
+    if (actual_s + read_s < e->as_set->time.first_look_s) return "short";
+    fw_recipe_asrun_stop_by(run, e, &runs, &surely);
+    return actual_s - read_s > surely ? "long" : "in window";
+}
+
+/* As the planned settings judge it, it may have ended with its etch; as it was set, that was to stop before */
+bool fw_recipe_asrun_is_late_as_set(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const fw_process_time *planned = &e->step->time, *set = &e->as_set->time;
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    int together;
+    const double loads = runs.n > 1 ? 1.0 : fw_recipe_asrun_loads(run, e, &together),
+                 actual_s = took_s(e, &runs) - runs.n * fw_recipe_asrun_clock_s(e);
+    return e->as_set != e->step && !e->former && set->computable &&
+           actual_s > loads * set->stop_s &&
+           (!planned->computable || actual_s <= loads * planned->stop_s) &&
+           strcmp(fw_recipe_asrun_in_time(run, e), "in window") == 0;
+}
+
+static bool is_out_of_time(const char *judged) {
+    return strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0;
+}
+
+void fw_recipe_asrun_put_took(fw_text *out, const fw_recipe_asrun_entry *e,
+                              const fw_recipe_runs *runs) {
+    fw_schedule_put_duration(out, runs->n > 1 ? runs->took_s : e->end_s - e->start_s);
+    if (runs->n < 2) return;
+    fw_text_printf(out, " in %d runs", runs->n);
+    if (fabs(runs->took_s - runs->time_s) < 0.5) return;
+    fw_text_add(out, ", which are ");
+    fw_schedule_put_duration(out, runs->time_s);
+    fw_text_add(out, " at what was set in the last");
+}
+
+/* ", at what was set (temperature = 32 Cel; planned 19 min 31 s)"; nothing where it was set as planned */
+static void put_as_set(fw_text *out, const fw_recipe_asrun_entry *e, double planned_s) {
+    fw_text set = fw_text_new(out->arena);
+    if (e->as_set == e->step) return;
+    put_settings(&set, e);
+    out->failed = out->failed || fw_text_end(&set) != FW_OK;
+    fw_text_printf(out, ", at what was set (%s%s", set.data ? set.data : "",
+                   set.length > 0 ? "; planned " : "planned ");
+    if (e->step->time.computable)
+        fw_schedule_put_duration(out, planned_s);
+    else
+        fw_text_add(out, "was no time");
+    fw_text_add(out, ")");
+}
+
+/* "it took 45 min, and is to stop by 26 min"; NULL: in its window, or there is no plan */
+static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
+                             const fw_recipe_asrun_entry *e, const char **how) {
+    const char *judged = fw_recipe_asrun_in_time(run, e);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    const bool brief = strcmp(judged, "short") == 0;
+    double surely;
+    fw_recipe_asrun_stop_by(run, e, &runs, &surely);
+    fw_text text = fw_text_new(arena);
+    *how = NULL;
+    if (!is_out_of_time(judged)) return FW_OK;
+    fw_text_add(&text, "it took ");
+    fw_recipe_asrun_put_took(&text, e, &runs);
+    fw_text_add(&text, brief ? ", before the first look at " : ", and is to stop by ");
+    fw_schedule_put_duration(&text, brief ? e->as_set->time.first_look_s : surely);
+    put_as_set(&text, e, brief ? e->step->time.first_look_s : e->step->booked_stop_s);
+    FW_TRY(fw_text_end(&text));
+    *how = text.data;
+    return FW_OK;
+}
+
+/* what is beyond its limits and changes no time that the program knows of */
+static void ask_unknown_to_law(const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
+    for (int i = 0; i < e->nset; i++) {
+        const fw_recipe_set *s = &e->set[i];
+        if (e->as_set != e->step || fw_recipe_asrun_allowed(s)) continue;
+        fw_diag_warning(diags, 283, place,
+                        "step %s: set %s = %s is not what the sheet allows, and the law of its "
+                        "time does not know what that changes: it is judged by the time as planned",
+                        e->step->id, s->name, s->text);
+    }
+}
+
+/* FW-D684, where the time goes with the planned settings alone, unless what is finished at the bench is in it */
+static fw_status ask_as_set(fw_arena *arena, const fw_recipe_asrun *run,
+                            const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    fw_text text = fw_text_new(arena);
+    ask_unknown_to_law(e, place, diags);
+    if (!fw_recipe_asrun_is_late_as_set(run, e)) return FW_OK;
+    fw_recipe_asrun_put_took(&text, e, &runs);
+    fw_text_add(&text, ", and is to stop by ");
+    fw_schedule_put_duration(&text, e->as_set->time.stop_s);
+    put_as_set(&text, e, e->step->time.stop_s);
+    FW_TRY(fw_text_end(&text));
+    fw_diag_warning(diags, 684, place,
+                    "step %s%s%s took %s: too long, unless what is finished at the bench is in "
+                    "it; look at what that leaves before the next step",
+                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", text.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* FW-D680, where runs add up to more than one may take unless each has its handling in it, which the log does not tell */
+static fw_status ask_runs(fw_arena *arena, const fw_recipe_asrun *run,
+                          const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    double surely;
+    const double stop = fw_recipe_asrun_stop_by(run, e, &runs, &surely),
+                 read_s = runs.n * fw_recipe_asrun_clock_s(e);
+    fw_text text = fw_text_new(arena);
+    if (runs.n < 2 || !e->as_set->time.computable || !(runs.time_s - read_s > stop) ||
+        runs.time_s - read_s > surely)
+        return FW_OK;
+    fw_recipe_asrun_put_took(&text, e, &runs);
+    fw_text_add(&text, ", and one run is to stop by ");
+    fw_schedule_put_duration(&text, stop);
+    FW_TRY(fw_text_end(&text));
+    fw_diag_warning(diags, 680, place,
+                    "step %s%s%s: what it does adds up, and comes to %s: too long, unless what is "
+                    "finished at the bench is in each of them; look at what that leaves before the "
+                    "next step",
+                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", text.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_recipe_asrun_amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
+                                        const fw_recipe_asrun_entry *e, fw_recipe_amount_in_time *a,
+                                        fw_text *planned, fw_text *actual) {
+    int together;
+    const double loads = fw_recipe_asrun_loads(run, e, &together);
+    FW_TRY(amount_in_time(arena, run, e, loads, fw_recipe_asrun_clock_s(e), a));
+    if (a->fits) return FW_OK;
+    const char *unit = fw_recipe_asrun_accept(e->step, a->measured->measure)->unit;
+    fw_quantity_unit in;
+    if (!fw_quantity_unit_parse(unit, strlen(unit), &in, NULL, NULL)) return FW_INTERNAL;
+    const double law = fw_quantity_unit_from_si(&in, a->law_m);
+    char value[3][32];
+    fw_text_printf(planned, "%s %s (%s to %s %s), by %s in ",
+                   fw_number_text(value[0], sizeof value[0], law, 3), unit,
+                   fw_number_text(value[1], sizeof value[1], law * fmax(0.0, 1.0 - a->off), 3),
+                   fw_number_text(value[2], sizeof value[2], law * (1.0 + a->off), 3), unit,
+                   a->formula);
+    fw_schedule_put_duration(planned, a->time_s);
+    if (a->time_s < a->took_s / loads) fw_text_add(planned, " (the rest of it may be handling)");
+    fw_recipe_put_value(actual, a->measured->number);
+    fw_text_printf(actual, " %s", unit);
+    FW_TRY(fw_text_end(planned));
+    return fw_text_end(actual);
+}
+
+/* FW-D654, where the law of the step contradicts what was measured after it */
+static fw_status ask_amount(fw_arena *arena, const fw_recipe_asrun *run,
+                            const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
+    fw_text planned = fw_text_new(arena), actual = fw_text_new(arena);
+    fw_recipe_amount_in_time a;
+    FW_TRY(fw_recipe_asrun_amount_by_law(arena, run, e, &a, &planned, &actual));
+    if (a.fits) return FW_OK;
+    fw_diag_warning(
+        diags, 654, place,
+        "step %s: %s = %s does not go with the time that it took: that makes %s. One of "
+        "time, setting and reading is not what is written: give what was set otherwise "
+        "(set NAME=VALUE), or measure again",
+        e->at->id, a.measured->measure, actual.data, planned.data);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, fw_place place,
+                                   fw_diags *diags) {
+    const char *how;
+    if (e->fate != FW_FATE_RUN || !e->step)
+        return FW_OK; /* what became of a wafer is no step that was run */
+    FW_TRY(ask_amount(arena, run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_waits(run, e, place, diags));
+    FW_TRY(ask_runs(arena, run, e, place, diags));
+    FW_TRY(ask_as_set(arena, run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_at_once(arena, run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_overtaken(run, e, place, diags));
+    FW_TRY(out_of_time(arena, run, e, &how));
+    if (!how) return FW_OK;
+    fw_diag_warning(diags, 283, place,
+                    "step %s went otherwise than planned: %s; look at what that leaves before the "
+                    "next step%s",
+                    e->at->id, how, e->deviation ? "" : ", and write down why (deviation=...)");
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+static void overtaken_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                           fw_json *out) {
+    const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
+    if (!by) return;
+    fw_json_object(out, "overtaken_by");
+    fw_json_text(out, "step", by->step->id);
+    fw_json_text(out, "start", by->start);
+    fw_json_whole(out, "line", by->line);
+    fw_json_end(out);
+}
+
+/* what it was overtaken by, and the times that it is judged by, where what was set makes others of them */
+void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 fw_json *out) {
+    const fw_process_step *s = e->as_set;
+    overtaken_json(run, e, out);
+    if (s == e->step) return;
+    const bool known = s->time.computable;
+    fw_json_object(out, "as_set");
+    fw_json_number(out, "planned_s", known ? s->time.nominal_s : (double)NAN, FW_PLAIN_DIGITS);
+    fw_json_number(out, "first_look_s", known ? s->time.first_look_s : (double)NAN,
+                   FW_PLAIN_DIGITS);
+    fw_json_number(out, "stop_s", known ? s->time.stop_s : (double)NAN, FW_PLAIN_DIGITS);
+    fw_json_number(out, "at_machine_s", known ? s->booked_s : (double)NAN, FW_PLAIN_DIGITS);
+    fw_json_number(out, "at_machine_most_s", known ? s->booked_stop_s : (double)NAN,
+                   FW_PLAIN_DIGITS);
+    fw_json_truth(out, "longer_unless_finished", fw_recipe_asrun_is_late_as_set(run, e));
+    fw_json_end(out);
+}
