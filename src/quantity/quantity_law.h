@@ -58,6 +58,10 @@ bool fw_quantity_law_is_constant(const fw_quantity_law *law);
    the top of the envelope in long ones) and for expressions the largest of 2001 samples; infinite
    where a sample is not finite. 1 without a law (NULL). */
 double fw_quantity_law_largest(const fw_quantity_law *law, double end_s);
+/* stride.c: instants at which n laws (NULL: 1) stand in different ratios, each where they are largest: at most `most`, and
+   |values| there, (most + 1) x n; *all false: these are not all */
+int fw_quantity_law_ratios(const fw_quantity_law *const *law, int n, double end_s, int most,
+                           double *t_s, double *value, bool *all);
 /* of a law over (0, end_s): largest |value|, largest |slope| (1/s), total variation from 0 before
    the start on; of a constant 1, 0, 1. Upper bounds, of expressions by intervals; infinite where there is none */
 typedef struct fw_quantity_law_size {

@@ -268,12 +268,10 @@ static void pull_in(const fw_statics_pull_in *p, fw_text *out) {
     }
     fw_text_add(out, "  the scene asks for up to ");
     fw_text_number(out, p->largest_V, 6);
-    if (isfinite(p->margin)) {
-        fw_text_add(out, " V, margin ");
-        fw_text_number(out, p->margin, 4);
-    } else
-        fw_text_add(out, " V");
-    fw_text_printf(out, "; all drives grow together, slowly\n  %s may add up to ",
+    fw_text_add(out, isfinite(p->margin) ? " V, margin " : " V");
+    if (isfinite(p->margin)) fw_text_number(out, p->margin, 4);
+    const char *grows = isnan(p->at_s) ? "all drives grow together" : p->together;
+    fw_text_printf(out, "; %s, slowly\n  %s may add up to ", grows,
                    fw_statics_pull_in_fringe_text(p));
     fw_text_number(out, 100 * p->fringe, 2);
     fw_text_add(out, " % of the pull and lower it by about half of that\n");

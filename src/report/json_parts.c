@@ -97,6 +97,7 @@ void fw_report_json_pull_in(fw_json *json, const fw_statics_pull_in *p) {
     fw_json_real(json, "margin", p->margin);
     fw_json_truth(json, "bifurcation", p->bifurcation);
     fw_json_real(json, "scene_voltage_V", p->largest_V);
+    fw_json_real(json, "at_s", p->at_s);
     fw_json_real(json, "along_m", p->where[0]);
     fw_json_real(json, "across_m", p->where[1]);
     fw_json_real(json, "tilt_rad", p->where[2]);

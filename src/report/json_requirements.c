@@ -41,6 +41,7 @@ void fw_report_json_requirement(fw_json *json, const fw_verdict_requirement *r) 
     fw_json_real(json, "min", r->min);
     fw_json_real(json, "max", r->max);
     value(json, r);
+    fw_json_text(json, "without_bodies", r->rigid);
 }
 
 static void requirement(fw_json *json, const fw_verdict_variant_verdict *v, int k) {

@@ -211,6 +211,7 @@ static void pull_in_row(fw_text *out, const char *flow, const char *scene,
         fw_markup(out, "{r}{u}", none ? "above " : "", p->voltage_V, "V");
     fw_markup(out, "</td><td>{r}", what[p->kind]);
     if (none && p->why) fw_markup(out, " ({s})", p->why);
+    if (!isnan(p->at_s)) fw_markup(out, ", {s}", p->together);
     fw_markup(out, "</td><td class=\"n\">{u}</td><td class=\"n\">", p->largest_V, "V");
     if (isfinite(p->margin))
         fw_markup(out, "{n}", p->margin);

@@ -196,6 +196,8 @@ fw_status fw_report_section_measurements(fw_report_page *page); /* banner.c */
 bool fw_report_has_measurements(const fw_report_page *page);
 bool fw_report_has_requirements(const fw_report_page *page);
 fw_status fw_report_section_requirements(fw_report_page *page);
+/* a clause on bands of a device that is not drawn; rigid: names of its bodies */
+const char *fw_report_without_bodies(fw_arena *arena, const char *rigid);
 fw_status fw_report_section_motion(fw_report_page *page);
 fw_status fw_report_section_workspace(fw_report_page *page);
 fw_status fw_report_section_flows(fw_report_page *page);

@@ -233,8 +233,18 @@ static void requirement_row(fw_text *out, const fw_verdict_requirement *r, const
               fw_probe_when(low, r->measure ? (double)NAN : r->t_s), at ? at : "as drawn");
 }
 
+const char *fw_report_without_bodies(fw_arena *arena, const char *rigid) {
+    const char *text = fw_arena_printf(
+        arena,
+        "the bands are those of rigid bodies: nothing of the device is drawn, so that what its "
+        "bodies give themselves (%s) is not known and not in them",
+        rigid);
+    return text ? text : "";
+}
+
 fw_status fw_report_section_requirements(fw_report_page *page) {
     const fw_verdict *verdict = page->in->verdict;
+    const char *rigid = NULL;
     fw_text_add(
         page->out,
         "<div class=\"wide\"><table><caption>What the device is for: each value with its error "
@@ -250,11 +260,14 @@ fw_status fw_report_section_requirements(fw_report_page *page) {
         for (int k = 0; k < v->nrequirement; k++) {
             int corner = 0;
             const fw_verdict_requirement *worst = fw_verdict_requirement_made(v, k, &corner);
+            if (v->requirement[k].rigid) rigid = v->requirement[k].rigid;
             requirement_row(page->out, &v->requirement[k], NULL);
             if (worst) requirement_row(page->out, worst, v->fabricated->corner[corner].what);
         }
     }
     fw_text_add(page->out, "</tbody></table></div>\n");
+    if (rigid)
+        fw_markup(page->out, "<p>{s}.</p>\n", fw_report_without_bodies(page->out->arena, rigid));
     return fw_text_end(page->out);
 }
 

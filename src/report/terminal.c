@@ -44,10 +44,12 @@ static void requirement_row(fw_text *out, const fw_verdict_requirement *r, const
 /* value, band, bound, margin, as drawn and at the worst corner */
 static void requirements(fw_text *out, const fw_verdict *verdict) {
     bool any = false;
+    const char *rigid = NULL;
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
         for (int k = 0; k < v->nrequirement; k++) {
             int corner = 0;
+            if (v->requirement[k].rigid) rigid = v->requirement[k].rigid;
             const fw_verdict_requirement *worst = fw_verdict_requirement_made(v, k, &corner);
             if (!any)
                 fw_text_add(out, "\n  required     of            value         band                "
@@ -57,6 +59,7 @@ static void requirements(fw_text *out, const fw_verdict *verdict) {
             if (worst) requirement_row(out, worst, v->fabricated->corner[corner].what);
         }
     }
+    if (rigid) fw_text_printf(out, "  %s\n", fw_report_without_bodies(out->arena, rigid));
 }
 
 /* ---- probes of one scene ---- */
@@ -210,11 +213,10 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
             if (variant && variant->flow) fw_text_printf(out, " (%s)", variant->flow);
             fw_text_printf(out, ": %s%s at ", FW_NAMED("comb drive", p->comb));
             fw_text_number(out, p->voltage_V, 4);
-            fw_text_printf(out, " V (%s)%s; the scene asks for up to ",
-                           fw_statics_pull_in_kind_text(p->kind),
-                           in->device->scene[k].ncomb > 1
-                               ? " where all drives of the scene grow together, slowly"
-                               : "");
+            const bool several = in->device->scene[k].ncomb > 1;
+            fw_text_printf(out, " V (%s)%s%s%s; the scene asks for up to ",
+                           fw_statics_pull_in_kind_text(p->kind), several ? " " : "",
+                           several ? p->together : "", several ? ", slowly" : "");
             fw_text_number(out, p->largest_V, 4);
             fw_text_add(out, " V\n");
         }

@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { FW_RAISES = 12, FW_PULL_POINTS = 1500 };
+enum { FW_RAISES = 12, FW_PULL_POINTS = 1500, RATIOS = 12 };
 static const double fw_raise = 16;
 static const double fw_first_unit = 4; /* times the estimate */
 
@@ -34,13 +34,15 @@ const char *fw_statics_pull_in_kind_text(fw_statics_pull_in_kind kind) {
     return text[kind];
 }
 
-static fw_status largest_voltages(seeker *k, const fw_device_scene *scene) {
+/* factor NULL: each as its law is largest */
+static fw_status hold_voltages(seeker *k, const fw_device_scene *scene, const double *factor) {
     fw_device_comb *comb;
     k->scene = *scene;
     FW_NEED(comb = fw_arena_array(k->arena, fw_device_comb, (size_t)scene->ncomb));
     for (int i = 0; i < scene->ncomb; i++) {
         comb[i] = scene->comb[i];
-        comb[i].voltage_V *= fw_quantity_law_largest(comb[i].law, scene->duration_s);
+        comb[i].voltage_V *=
+            factor ? factor[i] : fw_quantity_law_largest(comb[i].law, scene->duration_s);
         comb[i].law = NULL;
     }
     k->scene.comb = comb;
@@ -182,85 +184,6 @@ static fw_status refine(seeker *k, const double *near, double *s) {
         before = root;
     }
     return FW_OK;
-}
-
-/* of rotation, along and across the axis: stated stiffnesses are what they are, what the strip gives
-   besides is the closed form's */
-static void errors_of(const fw_mechanism_hinge *h, bool pins, double e[3]) {
-    const fw_flexure_error *own = &h->closed_form.error;
-    e[0] = h->stated ? 0 : own->stiffness;
-    e[1] = pins ? 0 : own->kx, e[2] = pins ? 0 : own->ky;
-}
-
-/* turn and displacement of a hinge in a mode, along and across its axis */
-static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
-                        const double *shape, double out[3]) {
-    const fw_mechanism_pin *pin = &m->pin[h->pin];
-    double ux = 0, uy = 0, axis = h->axis_rad;
-    out[0] = 0;
-    for (int side = 0; side < 2; side++) {
-        const int b = side ? pin->body_b : pin->body_a;
-        const double x = side ? pin->bx_m : pin->ax_m, y = side ? pin->by_m : pin->ay_m;
-        const double sign = side ? 1 : -1;
-        if (b == FW_GROUND) continue;
-        const double c = cos(q[3 * b + 2]), s = sin(q[3 * b + 2]), *u = shape + 3 * b;
-        ux += sign * (u[0] - u[2] * (s * x + c * y)), uy += sign * (u[1] + u[2] * (c * x - s * y));
-        out[0] += sign * u[2];
-        axis += 0.5 * (q[3 * b + 2] - m->body[b].phi_rad);
-    }
-    out[1] = cos(axis) * ux + sin(axis) * uy, out[2] = cos(axis) * uy - sin(axis) * ux;
-}
-
-/* what each flexure that gives has of a mode's stiffness, by the tangent of its element at the pose, J per unit^2; NaN: none */
-fw_status fw_statics_hinge_energies(const fw_statics_equilibrium *w, const double *q,
-                                    const double *shape, double **energy) {
-    FW_NEED(*energy = fw_arena_array(w->arena, double, (size_t)w->mechanism->nhinge + 1));
-    for (int i = 0; i < w->mechanism->nhinge; i++)
-        (*energy)[i] = (double)NAN;
-    for (int j = 0; j < w->model->nelement; j++) {
-        const fw_effects_force_element *e = w->model->element[j].own;
-        double p[6], d[6], stiff[36], damp[36], sum = 0;
-        if (!(e->class_->closed_form || e->class_->beam) || e->ports != 2 || e->pin == FW_NONE)
-            continue; /* what acts on slender arms yields, and is no flexure */
-        fw_effects_element_place_ports(e, q, shape, p, d);
-        const fw_effects_port_state seen = {.load = 1, .p = p, .w = d, .still = true};
-        e->class_->tangent(e, &seen, stiff, damp);
-        for (int n = 0; n < 36; n++)
-            sum += d[n / 6] * stiff[n] * d[n % 6];
-        (*energy)[w->mechanism->pin[e->pin].hinge] = sum;
-    }
-    return FW_OK;
-}
-
-/* Of a mode's stiffness, by the energy that each flexure has of it: e = sum k d^2 e_k/whole, with k and e_k of rotation, along
-   and across, d as deformed, whole = omega^2 M, M the modal mass: what loads leave of it bears all that is off of what they
-   take from; of an unstable one ten times its share. A strip that is displaced far across itself becomes shorter along itself
-   by far more than it is stretched: of its stiffest direction counts what its tangent has beyond the other two.
-   Source: Rayleigh. Test: test_rest.py, test_near_pull_in.py, test_modes.c errors_go_with_energy */
-double fw_statics_shape_error(const fw_mechanism *m, const double *q, const double *shape,
-                              bool pins, double whole, const double *energy) {
-    double all = 0, off = 0;
-    for (int i = 0; i < m->nhinge; i++) {
-        const fw_mechanism_hinge *h = &m->hinge[i];
-        double d[3], e[3];
-        fw_flexure_hinge_at at;
-        deformation(m, h, q, shape, d);
-        errors_of(h, pins || !isfinite(h->axis_rad), e);
-        fw_flexure_hinge_law_at(&h->law, 0, &at);
-        const double k[3] = {m->pin[h->pin].stiffness_Nm_per_rad, at.kx_N_per_m.value,
-                             at.ky_N_per_m.value};
-        const int stiff = k[1] > k[2] ? 1 : 2;
-        double part[3];
-        for (int n = 0; n < 3; n++)
-            part[n] = k[n] * d[n] * d[n];
-        if (energy && !isnan(energy[i]))
-            part[stiff] = fmin(part[stiff], fmax(0, energy[i] - part[0] - part[3 - stiff]));
-        for (int n = 0; n < 3; n++) {
-            if (n > 0 && !(e[n] > 0)) continue;
-            all += part[n], off += part[n] * e[n];
-        }
-    }
-    return off > 0 ? off / (isnan(whole) ? all : whole > 0 ? whole : 0.1 * all) : 0;
 }
 
 /* the event of the path at index i: which motion becomes free there, and which drive takes it */
@@ -529,10 +452,12 @@ static fw_status warn(const seeker *k, const fw_device_scene *scene, fw_diags *d
                         out->why);
     else
         fw_diag_warning(diags, 248, out->place,
-                        "%s%s pulls in: at %s V %s%s %s (%s%s moves most), and the "
+                        "%s%s pulls in: at %s V%s%s%s %s%s %s (%s%s moves most), and the "
                         "scene asks for up to %s V",
-                        FW_NAMED("scene", name), at, FW_NAMED("comb drive", out->comb),
-                        how[out->kind], FW_NAMED("body", fw_text_name(out->body)), asked);
+                        FW_NAMED("scene", name), at, isnan(out->at_s) ? "" : ", ",
+                        isnan(out->at_s) ? "" : out->together, isnan(out->at_s) ? "" : ",",
+                        FW_NAMED("comb drive", out->comb), how[out->kind],
+                        FW_NAMED("body", fw_text_name(out->body)), asked);
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
@@ -558,6 +483,76 @@ static fw_status softer(const seeker *k, const fw_mechanism *mechanism,
     return FW_OK;
 }
 
+/* ---- drives that do not act together ---- */
+
+/* "as they act at 30 ms (cl)" */
+static fw_status name_drives(seeker *k, double t_s) {
+    char at[32];
+    fw_text list = fw_text_new(k->arena);
+    int n = 0;
+    double most = 0;
+    for (int i = 0; i < k->scene.ncomb; i++)
+        most = fmax(most, fabs(k->scene.comb[i].voltage_V));
+    for (int i = 0; i < k->scene.ncomb; i++)
+        if (fabs(k->scene.comb[i].voltage_V) > 1e-3 * most)
+            fw_text_printf(&list, "%s%s", n++ ? ", " : "", fw_text_name(k->scene.comb[i].id));
+    FW_TRY(fw_text_end(&list));
+    k->out->at_s = t_s;
+    FW_NEED(k->out->together =
+                fw_arena_printf(k->arena, "where what acts at %s ms (%s) grows together",
+                                fw_number_text(at, sizeof at, 1e3 * t_s, 4), list.data));
+    return FW_OK;
+}
+
+/* factor NULL: all at their largest */
+static fw_status seek_with(fw_arena *arena, const fw_mechanism *mechanism,
+                           const fw_device_scene *scene, const double *factor, double t_s,
+                           const fw_effect_choice *effects, fw_diags *silent, seeker **best) {
+    seeker *k;
+    FW_NEED(k = fw_arena_one(arena, seeker));
+    k->arena = arena;
+    FW_TRY(hold_voltages(k, scene, factor));
+    if (factor) k->scene.duration_s = t_s;
+    const fw_status status = seek(k, mechanism, effects, silent);
+    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+    if (status != FW_OK || !k->out) return FW_OK; /* statics itself says why it cannot start */
+    k->out->at_s = (double)NAN, k->out->together = "where all drives of the scene grow together";
+    if (factor) FW_TRY(name_drives(k, t_s));
+    fingers(k, mechanism);
+    FW_TRY(softer(k, mechanism, effects, silent));
+    const fw_statics_pull_in *now = k->out, *was = *best ? (*best)->out : NULL;
+    const bool worse = was && now->margin / fw_statics_pull_in_margin(now) >=
+                                  was->margin / fw_statics_pull_in_margin(was);
+    const double most = fmax(now->fingers, was ? was->fingers : 0);
+    const double at_V = was && was->fingers > now->fingers ? was->fingers_V : now->fingers_V;
+    if (!worse) *best = k;
+    (*best)->out->fingers = most, (*best)->out->fingers_V = at_V;
+    return FW_OK;
+}
+
+/* Drives of one law, or of laws that keep their ratio, at the largest of it. Else whatever ratio their laws come to, and all other
+   loads as they are then; the one that is nearest to its pull-in counts. Ratios that are more than are looked at have all drives
+   at their largest besides. Error: of fw_quantity_law_ratios. Test: test_near_pull_in.py, Drives */
+static fw_status seek_all(fw_arena *arena, const fw_mechanism *mechanism,
+                          const fw_device_scene *scene, const fw_effect_choice *effects,
+                          fw_diags *silent, seeker **best) {
+    const size_t n = (size_t)scene->ncomb;
+    double t_s[RATIOS], *factor;
+    const fw_quantity_law **law;
+    bool all;
+    FW_NEED(law = fw_arena_alloc(arena, n, sizeof *law));
+    FW_NEED(factor = fw_arena_array(arena, double, (RATIOS + 1) * n));
+    for (size_t i = 0; i < n; i++)
+        law[i] = scene->comb[i].law;
+    const int count =
+        fw_quantity_law_ratios(law, (int)n, scene->duration_s, RATIOS, t_s, factor, &all);
+    for (int i = 0; i < count && count > 1; i++)
+        FW_TRY(seek_with(arena, mechanism, scene, factor + (size_t)i * n, t_s[i], effects, silent,
+                         best));
+    if (count > 1 && all) return FW_OK;
+    return seek_with(arena, mechanism, scene, NULL, scene->duration_s, effects, silent, best);
+}
+
 fw_status fw_statics_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism,
                                   const fw_device_scene *scene, const fw_effect_choice *effects,
                                   fw_diags *diags, const fw_statics_pull_in **found) {
@@ -573,16 +568,10 @@ fw_status fw_statics_pull_in_find(fw_arena *arena, const fw_mechanism *mechanism
                      FW_NAMED("scene", fw_text_name(scene->name)), FW_PULL_IN_MOST / 3);
         return diags->failed ? FW_NOMEM : FW_OK;
     }
-    seeker *k;
+    seeker *k = NULL;
     fw_diags silent = fw_diags_new(arena);
-    FW_NEED(k = fw_arena_one(arena, seeker));
-    k->arena = arena;
-    FW_TRY(largest_voltages(k, scene));
-    fw_status status = seek(k, mechanism, effects, &silent);
-    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
-    if (status != FW_OK || !k->out) return FW_OK; /* statics itself says why it cannot start */
-    fingers(k, mechanism);
-    FW_TRY(softer(k, mechanism, effects, &silent));
+    FW_TRY(seek_all(arena, mechanism, scene, effects, &silent, &k));
+    if (!k) return FW_OK;
     FW_TRY(warn(k, scene, diags));
     *found = k->out;
     return FW_OK;

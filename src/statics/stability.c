@@ -449,3 +449,84 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
         *steady = *left; /* who does not ask leaves it open */
     return k.growth >= fw_least_growth ? conclude(&k, diags, stability) : FW_OK;
 }
+
+/* ---- what flexures' errors take of a stiffness ---- */
+
+/* of rotation, along and across the axis: stated stiffnesses are what they are, what the strip gives
+   besides is the closed form's */
+static void errors_of(const fw_mechanism_hinge *h, bool pins, double e[3]) {
+    const fw_flexure_error *own = &h->closed_form.error;
+    e[0] = h->stated ? 0 : own->stiffness;
+    e[1] = pins ? 0 : own->kx, e[2] = pins ? 0 : own->ky;
+}
+
+/* turn and displacement of a hinge in a mode, along and across its axis */
+static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
+                        const double *shape, double out[3]) {
+    const fw_mechanism_pin *pin = &m->pin[h->pin];
+    double ux = 0, uy = 0, axis = h->axis_rad;
+    out[0] = 0;
+    for (int side = 0; side < 2; side++) {
+        const int b = side ? pin->body_b : pin->body_a;
+        const double x = side ? pin->bx_m : pin->ax_m, y = side ? pin->by_m : pin->ay_m;
+        const double sign = side ? 1 : -1;
+        if (b == FW_GROUND) continue;
+        const double c = cos(q[3 * b + 2]), s = sin(q[3 * b + 2]), *u = shape + 3 * b;
+        ux += sign * (u[0] - u[2] * (s * x + c * y)), uy += sign * (u[1] + u[2] * (c * x - s * y));
+        out[0] += sign * u[2];
+        axis += 0.5 * (q[3 * b + 2] - m->body[b].phi_rad);
+    }
+    out[1] = cos(axis) * ux + sin(axis) * uy, out[2] = cos(axis) * uy - sin(axis) * ux;
+}
+
+/* what each flexure that gives has of a mode's stiffness, by the tangent of its element at the pose, J per unit^2; NaN: none */
+fw_status fw_statics_hinge_energies(const fw_statics_equilibrium *w, const double *q,
+                                    const double *shape, double **energy) {
+    FW_NEED(*energy = fw_arena_array(w->arena, double, (size_t)w->mechanism->nhinge + 1));
+    for (int i = 0; i < w->mechanism->nhinge; i++)
+        (*energy)[i] = (double)NAN;
+    for (int j = 0; j < w->model->nelement; j++) {
+        const fw_effects_force_element *e = w->model->element[j].own;
+        double p[6], d[6], stiff[36], damp[36], sum = 0;
+        if (!(e->class_->closed_form || e->class_->beam) || e->ports != 2 || e->pin == FW_NONE)
+            continue; /* what acts on slender arms yields, and is no flexure */
+        fw_effects_element_place_ports(e, q, shape, p, d);
+        const fw_effects_port_state seen = {.load = 1, .p = p, .w = d, .still = true};
+        e->class_->tangent(e, &seen, stiff, damp);
+        for (int n = 0; n < 36; n++)
+            sum += d[n / 6] * stiff[n] * d[n % 6];
+        (*energy)[w->mechanism->pin[e->pin].hinge] = sum;
+    }
+    return FW_OK;
+}
+
+/* Of a mode's stiffness, by the energy that each flexure has of it: e = sum k d^2 e_k/whole, with k and e_k of rotation, along
+   and across, d as deformed, whole = omega^2 M, M the modal mass: what loads leave of it bears all that is off of what they
+   take from; of an unstable one ten times its share. A strip that is displaced far across itself becomes shorter along itself
+   by far more than it is stretched: of its stiffest direction counts what its tangent has beyond the other two.
+   Source: Rayleigh. Test: test_rest.py, test_near_pull_in.py, test_modes.c errors_go_with_energy */
+double fw_statics_shape_error(const fw_mechanism *m, const double *q, const double *shape,
+                              bool pins, double whole, const double *energy) {
+    double all = 0, off = 0;
+    for (int i = 0; i < m->nhinge; i++) {
+        const fw_mechanism_hinge *h = &m->hinge[i];
+        double d[3], e[3];
+        fw_flexure_hinge_at at;
+        deformation(m, h, q, shape, d);
+        errors_of(h, pins || !isfinite(h->axis_rad), e);
+        fw_flexure_hinge_law_at(&h->law, 0, &at);
+        const double k[3] = {m->pin[h->pin].stiffness_Nm_per_rad, at.kx_N_per_m.value,
+                             at.ky_N_per_m.value};
+        const int stiff = k[1] > k[2] ? 1 : 2;
+        double part[3];
+        for (int n = 0; n < 3; n++)
+            part[n] = k[n] * d[n] * d[n];
+        if (energy && !isnan(energy[i]))
+            part[stiff] = fmin(part[stiff], fmax(0, energy[i] - part[0] - part[3 - stiff]));
+        for (int n = 0; n < 3; n++) {
+            if (n > 0 && !(e[n] > 0)) continue;
+            all += part[n], off += part[n] * e[n];
+        }
+    }
+    return off > 0 ? off / (isnan(whole) ? all : whole > 0 ? whole : 0.1 * all) : 0;
+}

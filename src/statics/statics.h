@@ -139,7 +139,10 @@ typedef struct fw_statics_pull_in {
     double voltage_V; /* of it; NONE: stable at least up to here, infinite: always */
     double largest_V; /* of it in the scene */
     double margin;    /* voltage over largest; below 1 the scene's equilibrium does not exist */
-    double where[3];  /* of its rotor: along, across (m), tilt (rad) */
+    /* s: drives that do not act together, as they are then; NaN: all at their largest. And a clause of what grows */
+    double at_s;
+    const char *together;
+    double where[3]; /* of its rotor: along, across (m), tilt (rad) */
     /* of its pull, relative, that is left out at most (fw_effects_comb_fringe): all of the fringe fields, or where these
        are counted what stands near or below may change of them */
     double fringe;
@@ -170,7 +173,8 @@ const char *fw_statics_pull_in_explain(fw_arena *arena, const fw_statics_pull_in
 enum { FW_PULL_IN_MOST = 150 }; /* unknowns: some hundred dense evaluations of 30 n^3 */
 
 /* All combs at their largest voltages of the scene times sqrt(s), other loads and drivers in full
-   as they are at its end, from s = 0 to the first loss of stability. *found is NULL for a scene
+   as they are at its end, from s = 0 to the first loss of stability. Where their laws do not keep one ratio, at every ratio that
+   they come to, as all is then: that which leaves least. *found is NULL for a scene
    without comb drives. Warns with FW-D248 when the scene's voltage is beyond, or within what fringe
    fields and the flexures' errors may take from it, with FW-D249 when it could not be followed up
    to the scene's voltage. FW_OK then too; FW_NOMEM, FW_CANCELLED. */

@@ -131,14 +131,15 @@ typedef struct fw_statics_equilibrium {
     double reach;      /* of paths: the displacement, scaled, that counts like s = 1 */
     const struct fw_statics_pull_in *pull_in; /* NULL: none, or not looked for */
     bool until_unstable;                      /* paths end where the first eigenvalue passes zero */
-    double *force;                            /* (n) Q */
-    double *slope;                            /* (n) dQ/ds */
-    double *follow;    /* (n) du/ds of least mass norm that the drivers force; 0 without them */
-    double *stiffness; /* (n x n) */
-    double *lambda;    /* (2 nblock) */
-    double *gradient;  /* (dof) force along each mode */
-    double *push;      /* (dof) along each mode: its derivative by s, drivers included */
-    double *noise;     /* (dof) round-off of the gradient */
+    double hardly_stiff; /* of paths: below this an eigenvalue is near zero, scaled */
+    double *force;       /* (n) Q */
+    double *slope;       /* (n) dQ/ds */
+    double *follow;      /* (n) du/ds of least mass norm that the drivers force; 0 without them */
+    double *stiffness;   /* (n x n) */
+    double *lambda;      /* (2 nblock) */
+    double *gradient;    /* (dof) force along each mode */
+    double *push;        /* (dof) along each mode: its derivative by s, drivers included */
+    double *noise;       /* (dof) round-off of the gradient */
     /* what goes with s */
     double *gravity, *load_acceleration; /* (n + 3) accelerations */
     fw_multibody_load *load;             /* (nload) as at s = 1 */
@@ -257,7 +258,7 @@ int fw_statics_equilibrium_mover(const fw_statics_equilibrium *w, const double *
 double fw_statics_equilibrium_per_s2(const fw_statics_equilibrium *w);
 const char *fw_statics_equilibrium_scene_name(const fw_statics_equilibrium *w);
 
-/* pull_in.c: (nhinge) of a small motion (SI) about the pose q */
+/* stability.c: (nhinge) of a small motion (SI) about the pose q */
 fw_status fw_statics_hinge_energies(const fw_statics_equilibrium *w, const double *q,
                                     const double *shape, double **energy);
 

@@ -52,10 +52,12 @@ static double product(const fw_statics_equilibrium *w, const double *x, const do
 
 /* A soft mode in equilibrium that the load hardly pushes takes no part: round-off, and
    imperfections of 1e-8 of the load, over a stiffness near zero would throw the state off the
-   branch just where another one crosses it. Once its force is above round-off it takes part. */
+   branch just where another one crosses it. Once its force is above round-off it takes part. Near zero is a thousandth of
+   the softest where the path begins: of a device whose softest motion has a millionth of its stiffest, a thousandth of that
+   one is no zero, and leaving it out broke a smooth path where its force passed 1e-8 of all. */
 static bool idle(const fw_statics_equilibrium *w, int k) {
     const double small = 1e-8 / (64 * DBL_EPSILON); /* in units of the noise */
-    return fabs(w->reduced.value[k]) <= fmax(w->reduced.zero[k], 1e-3) &&
+    return fabs(w->reduced.value[k]) <= fmax(w->reduced.zero[k], w->hardly_stiff) &&
            fabs(w->push[k]) <= small * w->noise[k] && fabs(w->gradient[k]) <= w->noise[k];
 }
 
@@ -116,6 +118,14 @@ static void copy_state(const follower *f, const state *from, state *to) {
     memcpy(to->value, from->value, n * sizeof(double));
     if (f->switches) memcpy(to->hold, from->hold, (size_t)f->switches * sizeof(double));
     to->s = from->s, to->rate = from->rate, to->negative = from->negative, to->dof = from->dof;
+}
+
+static void find_hardly_stiff(fw_statics_equilibrium *w) {
+    const double part = 1e-3;
+    w->hardly_stiff = part;
+    for (int k = w->reduced.dof; k-- > 0;)
+        if (w->reduced.value[k] > w->reduced.zero[k])
+            w->hardly_stiff = fmin(w->hardly_stiff, part * w->reduced.value[k]);
 }
 
 /* fills `to` from the evaluated state; its tangent continues that of `along`. false: no tangent */
@@ -438,6 +448,7 @@ fw_status fw_statics_equilibrium_follow(fw_statics_equilibrium *w, int most_poin
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.at));
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.next));
     FW_TRY(state_new(w->arena, w->model, f.switches, &f.probe));
+    find_hardly_stiff(w);
     f.probe.rate = 1;                                /* the first tangent: more load */
     bool leads_on = take_state(&f, &f.probe, &f.at); /* not where nothing holds against the load */
     FW_TRY(record(&f, &f.at, FW_PATH_POINT, FW_NONE));

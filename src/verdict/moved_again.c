@@ -123,15 +123,18 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
     return FW_OK;
 }
 
-/* ---- what loads leave of the stiffness ----
+/* ---- what loads leave of the stiffness, and what may be missing of a pull ----
    Bands hold what a stiffness is off by in proportion, and a displacement goes by what loads leave of it: by the inverse of
    that share, and without end at a fold. So where a scene's loads leave less than `soft` of it, the scene is moved twice
    more, with its loads (1 + e) and 1/(1 + e) times as large, e = what hinges, and bodies where that moves anything, may give more than computed: that is
-   the device with all of its stiffness so much less, or more. What goes further than in proportion, f over (1 + e), is a factor on what
-   moves, as near a resonance: of a hinge by its angle, of bodies by the one of which that is most; those that go less than a
+   the device with all of its stiffness so much less, or more. Electrodes may pull more than computed by what is missing of
+   their fringe (fw_effects_comb_fringe), and over a carrier that conducts as much less: the softer device has all of that pull
+   wherever electrodes act, the stiffer one the least of it. What probes read in these motions is in their bands, forces over (1 + e); of
+   hinges what strains go beyond proportion is a factor, as near a resonance, and of bodies what that one goes by which goes
+   most; those that go less than a
    twentieth of the largest way are left out. Where there is no such motion the device may have snapped: undecided.
    Inputs: v->left, motions. Error: one e for all that gives; heat, stress and drivers stay as they are. Cost: two motions,
-   of such scenes alone. Test: test_effects.py, NearAFold */
+   of such scenes alone; one where only electrodes may pull more. Test: test_effects.py, NearAFold; test_near_pull_in.py, Motions */
 
 static const double soft = 0.8;
 
@@ -192,44 +195,100 @@ static double change(const double *was, const double *now, int n, int way) {
     return most > 0 ? by : 1;
 }
 
-/* the ways of a scene with its loads `by` times as large; *goes false: there is no such motion, or it is not the whole of it */
+/* a scene once more: 0 softer, with all of the pull, 1 stiffer, with the least of it */
+typedef struct once_more {
+    double by, pull; /* its loads, and what electrodes pull besides, times as large */
+    double *far;     /* of fw_verdict_farthest */
+    bool asked, goes;
+    fw_verdict_strain_monitor saw;
+    const fw_dynamics_motion *motion; /* where it goes */
+} once_more;
+
+/* to->goes false: there is no such motion, or it is not the whole of it */
 static fw_status move_with(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                           double by, const fw_dynamics_motion *like,
-                           const fw_dynamics_motion_options *given, double *far, bool *goes) {
+                           const fw_dynamics_motion *like, const fw_dynamics_motion_options *given,
+                           once_more *to) {
     fw_device_scene changed = *scene;
     fw_dynamics_motion_options o = *given;
     fw_diags own = fw_diags_new(arena);
     const fw_dynamics_motion *x;
     FW_TRY(fw_device_own_scene(arena, &changed));
-    fw_effects_scale(&changed, by);
-    o.observe = NULL, o.trace = NULL, o.glance = NULL, o.unsettled = NULL, o.other = NULL;
-    o.like = NULL, o.tapes = NULL, o.late_rows = false;
+    fw_effects_scale(&changed, to->by);
+    for (int i = 0; i < changed.ncomb; i++)
+        changed.comb[i].voltage_V *= sqrt(to->pull);
+    const bool probes = to->saw.probe != NULL;
+    o.observe = fw_verdict_strain_monitor_record, o.context = &to->saw;
+    o.trace = probes ? fw_verdict_clearance_trace : NULL, o.whole = probes, o.trace_both = false;
+    o.glance = NULL, o.unsettled = NULL, o.other = NULL;
+    o.like = NULL, o.tapes = NULL, o.late_rows = false, o.most_angle_rad = FW_TURN;
     o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
     o.samples = like->nsample, o.hinge_accuracy = 1;
     o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
     const fw_status status = fw_statics_move_scene(arena, m, &changed, &o, &own, &x);
-    if (status == FW_NOMEM || status == FW_CANCELLED) return status;
-    *goes = status == FW_OK && !x->ended;
-    if (*goes) fw_verdict_farthest(m, x, far);
+    if (status == FW_NOMEM || status == FW_CANCELLED || to->saw.no_memory)
+        return status == FW_CANCELLED ? status : FW_NOMEM;
+    to->goes = status == FW_OK && !x->ended;
+    if (to->goes) to->motion = x, fw_verdict_farthest(m, x, to->far);
     return FW_OK;
 }
 
+/* strains of a hinge, now over as computed; 1 of one that is hardly strained */
+static double strained(const fw_mechanism *m, const fw_verdict_strain_monitor *was,
+                       const fw_verdict_strain_monitor *now, int k) {
+    const double hardly = 1e-3;
+    double most = 0;
+    for (int i = 0; i < m->nhinge; i++)
+        most = fmax(most, was->hinge[i].strain.value);
+    return was->hinge[k].strain.value > hardly * most
+               ? now->hinge[k].strain.value / was->hinge[k].strain.value
+               : 1;
+}
+
+/* what of all goes beyond what its loads change by, into the factors; the most of it */
+static double beyond(const fw_mechanism *m, const fw_verdict_strain_monitor *was, const double *far,
+                     const once_more *now, int way, fw_verdict_shaken *to) {
+    const int nb = m->nbody, end = 2 * m->nhinge;
+    double *f = to->factor;
+    const double up = fmin(1, 1 / now->by), down = fmax(1, 1 / now->by),
+                 all = way * fmax(way * change(far, now->far, nb, way),
+                                  way * change(far + nb, now->far + nb, nb, way));
+    double most = up * all;
+    for (int h = 0; was && h < m->nhinge; h++) {
+        const double by = strained(m, was, &now->saw, h);
+        f[2 * h] *= fmax(1, up * by), f[2 * h + 1] *= fmin(1, down * by);
+        most = fmax(most, up * by);
+    }
+    f[end] *= fmax(1, up * all), f[end + 1] *= fmin(1, down * all);
+    to->late = fmax(to->late, fmax(up * all - 1, 1 - down * all));
+    return most;
+}
+
+static bool says_pull_in(const fw_device_scene *s, const fw_verdict_variant_verdict *v) {
+    for (int i = 0; i < v->nreason; i++)
+        if (v->reason[i].number == 248 && v->reason[i].scene == s->name) return true;
+    return false;
+}
+
 static fw_status tell_soft(fw_arena *arena, const fw_device_scene *s, double left, double e,
-                           bool goes, double most, bool brief, fw_diags *diags,
+                           double missing, bool goes, double most, bool brief, fw_diags *diags,
                            fw_verdict_variant_verdict *v) {
-    char part[32], off[32], times[32];
+    char part[32], off[32], pull[32], times[32];
+    if (says_pull_in(s, v)) return FW_OK;
     const char *start = fw_arena_printf(
         arena,
         "%s%s: its loads leave %s %% of the stiffness of the device's softest motion, and with "
-        "loads larger by the %s %% that hinges and bodies may give more than computed",
+        "loads larger by the %s %% that hinges and bodies may give more than computed%s%s%s",
         FW_NAMED("scene", s->name), fw_number_text(part, sizeof part, 100 * left, 2),
-        fw_number_text(off, sizeof off, 100 * e, 2));
+        fw_number_text(off, sizeof off, 100 * e, 2),
+        missing > 0 ? ", and electrodes that pull " : "",
+        missing > 0 ? fw_number_text(pull, sizeof pull, 100 * missing, 2) : "",
+        missing > 0 ? " % more," : "");
     FW_NEED(start);
     if (!goes)
         return fw_verdict_scene_reason(
-            v, s, 672, FW_INCONCLUSIVE, 0.9 / (1 + e),
+            v, s, 672, FW_INCONCLUSIVE, 0.9 / (1 + e) / (1 + missing),
             fw_arena_printf(arena, "%s no motion to its end was found: it may snap", start));
-    if (!brief && most > 1.1)
+    if (!brief && most > 1.1 * (1 + missing))
         fw_diag_warning(
             diags, 672, s->place,
             "%s it moves %s times as far, which the bands hold: keep away from where it "
@@ -243,33 +302,42 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
                               fw_diags *diags, fw_verdict_variant_verdict *v) {
     const fw_device_scene *s = &m->device->scene[i];
     const fw_dynamics_motion *x = v->motion[i];
-    const int nb = 2 * m->nbody, n = nb + m->nhinge;
+    const size_t n = 2 * (size_t)m->nbody + (size_t)m->nhinge;
+    const double missing = fw_verdict_pull_missing(v, i);
+    const bool softly = v->left[i]<soft, less = missing> 0 && fw_effects_levitation_may_be(m);
     fw_effects_load_scaling loads;
     fw_effects_find_loads(s, &loads);
-    if (!(v->left[i] < soft) || x->ended || loads.count == 0 || !(e > 0) || isinf(e)) return FW_OK;
-    double *far = fw_arena_array(arena, double, 3 * (size_t)n), *f = v->shaken[i].factor;
-    bool goes = true;
-    FW_NEED(far);
+    if (!(softly || missing > 0) || x->ended || loads.count == 0 || !(e > 0) || isinf(e))
+        return FW_OK;
+    once_more *now = fw_arena_array(arena, once_more, 2);
+    double *far = fw_arena_array(arena, double, 3 * n);
+    fw_probe_monitor *probe[2];
+    FW_NEED(now && far ? now : NULL);
+    FW_TRY(fw_verdict_requirements_watch(arena, m, i, v, true, probe));
+    now[0] = (once_more){.by = 1 + e, .pull = 1 + missing, .asked = true};
+    now[1] = (once_more){
+        .by = 1 / (1 + e), .pull = less ? 1 / (1 + missing) : 1, .asked = softly || less};
     fw_verdict_farthest(m, x, far);
-    for (int k = 1; k < 3 && goes; k++)
-        FW_TRY(
-            move_with(arena, m, s, k == 1 ? 1 + e : 1 / (1 + e), x, options, far + k * n, &goes));
     double most = 1;
-    for (int k = 1; k < 3 && goes; k++) {
-        const int way = k == 1 ? 1 : -1, pins = m->nbody;
-        const double over = k == 1 ? 1 / (1 + e) : 1 + e, *now = far + k * n;
-        const double part[3] = {over * change(far, now, pins, way),
-                                over * change(far + pins, now + pins, pins, way),
-                                over * change(far + nb, now + nb, m->nhinge, way)};
-        const double all = way * fmax(way * part[0], way * part[1]);
-        for (int h = 0; h <= m->nhinge; h++) {
-            double *to = &f[2 * h + k - 1];
-            *to *= way * fmax(way * (h < m->nhinge ? part[2] : all), way);
-        }
-        v->shaken[i].late = fmax(v->shaken[i].late, fabs(all - 1));
-        if (way > 0) most = fmax(all, part[2]);
+    for (int k = 0; k < 2 && now[k].asked; k++) {
+        FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &now[k].saw));
+        now[k].saw.probe = probe[k], now[k].far = far + ((size_t)k + 1) * n;
+        FW_TRY(move_with(arena, m, s, x, options, &now[k]));
+        fw_verdict_other *to = &v->shaken[i].other[k];
+        *to = (fw_verdict_other){.asked = true,
+                                 .lost = !now[k].goes,
+                                 .by = now[k].by,
+                                 .off = e,
+                                 .motion = now[k].motion,
+                                 .probe = probe[k]};
+        if (!now[k].goes) continue;
+        const double by = beyond(m, x->observed, far, &now[k], k == 0 ? 1 : -1, &v->shaken[i]);
+        if (k == 0) most = fmax(most, by);
+        if (k == 0 && missing > 0)
+            v->shaken[i].nearer_m =
+                fw_verdict_electrodes_nearer(x, now[k].motion, &v->shaken[i].kept);
     }
-    return tell_soft(arena, s, v->left[i], e, goes, most, brief, diags, v);
+    return tell_soft(arena, s, v->left[i], e, missing, now[0].goes, most, brief, diags, v);
 }
 
 /* ---- what takes hold again and again ----
@@ -395,30 +463,6 @@ fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *m, int scene
    In: v->motion, v->probed. Error: all flexures are off the same way. Cost: four motions, of such scenes alone. Source:
    docs/theory/probes.md. Test: test_heated.py, Ratio */
 
-bool fw_verdict_grows(const fw_verdict_variant_verdict *v, int scene) {
-    return v->motion && scene != FW_NONE && v->motion[scene] &&
-           fw_effects_has_growth(v->motion[scene]->loads);
-}
-
-/* a leaf bends as it turns and as its ends go across it, and its stiffness along is its own; of others all is bending */
-void fw_verdict_off_by_itself(const fw_mechanism *m, double *bending, double *along) {
-    *bending = *along = 0;
-    for (int k = 0; k < m->nhinge; k++) {
-        const fw_mechanism_hinge *h = &m->hinge[k];
-        const fw_flexure_error *e = &h->closed_form.error;
-        const bool leaf = h->law.half_angle_rad == 0 && !h->law.table;
-        *bending = fmax(*bending, fmax(h->stated ? 0 : e->stiffness, leaf ? e->kx : 0));
-        *along = fmax(*along, leaf ? e->ky : fmax(e->kx, e->ky));
-    }
-}
-
-fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double gives) {
-    const bool bends = k == 0 || k == 2, gave = k == 1 || k == 2;
-    const double bent = bends ? 1 / (1 + bending) : 1 + bending, left = 1 / (1 + gives),
-                 strip = gave ? left / (1 + along) : 1 + along, all = k == 2 ? left * bent : bent;
-    return (fw_verdict_way){.stiffer = all - 1, .along = strip / all - 1, .gives = gave};
-}
-
 /* what was accepted there is open */
 static fw_status tell_lost(fw_arena *arena, const fw_device_scene *s, int scene, double bending,
                            double along, const fw_verdict_way *way, bool found,
@@ -538,43 +582,4 @@ bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene) {
     for (int k = 0; k < v->nhinge; k++)
         if (v->used[(size_t)k * columns + (size_t)scene] > unused) return false;
     return !goes(m, motion, arm_m);
-}
-
-/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
-static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
-    for (int k = 0; k < v->nrequirement; k++) {
-        const fw_verdict_requirement *r = &v->requirement[k];
-        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
-        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
-    }
-    return fw_text_end(list);
-}
-
-fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
-                                const fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    int ran = 0, still = 0, first = FW_NONE;
-    bool told = false;
-    for (int i = 0; i < d->nscene; i++) {
-        fw_text met = fw_text_new(arena);
-        ran += v->motion[i] != NULL;
-        if (!fw_verdict_stands_still(v, i)) continue;
-        if (still++ == 0) first = i;
-        FW_TRY(met_there(v, i, &met));
-        if (met.length) told = true;
-        if (met.length)
-            fw_diag_warning(
-                diags, 655, d->scene[i].place,
-                "nothing moves in %s%s: what is required there of %s is met by a device that "
-                "does nothing; give the scene what drives the device",
-                FW_NAMED("scene", d->scene[i].name), met.data);
-    }
-    if (ran > 0 && still == ran && !told && !v->workspace.required)
-        fw_diag_warning(
-            diags, 655, d->scene[first].place,
-            "nothing moves in %s: that no hinge is strained says nothing of what the device "
-            "bears (a study's governing.utilisation likewise); give a scene what drives it",
-            ran > 1 ? "any scene"
-                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
-    return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is required of equilibria: frequencies, stiffnesses and compliances, which have no measure of a motion. */
+/* What is required of equilibria: frequencies, stiffnesses and compliances, which have no measure of a motion; and what of
+   motions is read once more, of a softer and a stiffer device. */
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
@@ -44,9 +45,9 @@ fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,
    A frequency or a stiffness about an equilibrium is off by what the flexures' errors take of it there, and by what they do to
    the equilibrium: a pull that softens closes its gap further, without end towards pull-in. So both are found again with all
    flexures 1/(1 + e) and 1 + e times as stiff, e: their own error, twice what the next level changes of a frequency, and what
-   bodies give; and, where electrodes act, each of these with the pull as it is and with all that may be missing of it. Bands hold
-   all of these. Error: one e for all that gives. Cost: two small motions, four with electrodes. Test:
-   test_near_pull_in.py */
+   bodies give; and, where electrodes act, each of these with the pull as it is, with all that may be missing of it, and over a
+   carrier that conducts with as much less. Bands hold all of these. Error: one e for all that gives. Cost: two small motions, four
+   or six with electrodes. Test: test_near_pull_in.py */
 
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
     const fw_dynamics_motion *x = v->motion ? v->motion[scene] : NULL;
@@ -59,12 +60,12 @@ double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
     return most;
 }
 
-/* a copy of a scene whose electrodes pull 1 + more times as much */
-static fw_status pull_more(fw_arena *arena, double more, fw_device_scene *scene) {
+/* a copy of a scene whose electrodes pull so many times as much */
+static fw_status pull_times(fw_arena *arena, double times, fw_device_scene *scene) {
     fw_device_comb *comb;
     FW_NEED(comb = fw_arena_array(arena, fw_device_comb, (size_t)scene->ncomb));
     for (int i = 0; i < scene->ncomb; i++)
-        comb[i] = scene->comb[i], comb[i].voltage_V *= sqrt(1 + more);
+        comb[i] = scene->comb[i], comb[i].voltage_V *= sqrt(times);
     scene->comb = comb;
     return FW_OK;
 }
@@ -111,7 +112,9 @@ static const char *no_equilibrium(fw_arena *arena, const ways *w, double missing
                            fw_number_text(off, sizeof off, 100 * w->off, 2),
                            which >= w->n ? ", and electrodes that pull by " : "",
                            which >= w->n ? fw_number_text(part, sizeof part, 100 * missing, 2) : "",
-                           which >= w->n ? " % more," : "");
+                           which >= 2 * w->n ? " % less,"
+                           : which >= w->n   ? " % more,"
+                                             : "");
 }
 
 fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
@@ -123,16 +126,18 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
     const ways w = ways_of(m, scene, modes, v);
     const double missing = fw_verdict_pull_missing(v, scene);
     if (!isfinite(w.off)) return FW_OK; /* bands have no ends then */
-    fw_device_scene more = *of;
-    FW_TRY(pull_more(arena, missing, &more));
-    for (int k = 0; k < (missing > 0 ? 2 : 1) * w.n; k++) {
+    const int pulls = !(missing > 0) ? 1 : fw_effects_levitation_may_be(m) ? 3 : 2;
+    fw_device_scene now[3] = {*of, *of, *of}; /* as it is, more, less */
+    FW_TRY(pull_times(arena, 1 + missing, &now[1]));
+    FW_TRY(pull_times(arena, 1 / (1 + missing), &now[2]));
+    for (int k = 0; k < w.n * pulls; k++) {
         fw_statics_mode_options o = *given;
         fw_diags own = fw_diags_new(arena);
         o.effects.hinge = modes->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
         o.effects.stiffer = w.of[k % w.n].stiffer, o.effects.along = w.of[k % w.n].along;
-        const fw_device_scene *s = k < w.n ? of : &more;
         const fw_statics_modes *found = NULL;
-        const fw_status status = fw_statics_small_motions(arena, m, s, &o, &own, &found);
+        const fw_status status =
+            fw_statics_small_motions(arena, m, &now[k / w.n], &o, &own, &found);
         if (status == FW_NOMEM || status == FW_CANCELLED) return status;
         const bool stands = status == FW_OK && found &&
                             !(found->count > 0 && found->mode[0].kind == FW_MODE_UNSTABLE);
@@ -404,5 +409,82 @@ fw_status fw_verdict_rests_at(const fw_mechanism *m, int scene, const fw_dynamic
         rest->why = "the scene ends away from the equilibrium under its last loads, and not about "
                     "another one that is known: give the scene a longer duration";
     }
+    return FW_OK;
+}
+
+/* ---- what is required of motions that are found again (moved_again.c) ---- */
+
+static double measured(const fw_probe_course *c, const fw_device_requirement *q) {
+    const double most = c->maximum.value, least = c->minimum.value;
+    switch (q->measure) {
+    case FW_MEASURE_PEAK:
+        return fmax(fabs(most), fabs(least));
+    case FW_MEASURE_MAXIMUM:
+        return most;
+    case FW_MEASURE_MINIMUM:
+        return least;
+    case FW_MEASURE_FINAL:
+        return c->final;
+    case FW_MEASURE_PEAK_TO_PEAK:
+        return most - least;
+    case FW_MEASURE_SETTLING:
+        return fw_probe_settling_s(c, c->final, q->band);
+    case FW_MEASURE_PARASITIC:
+        return fabs(c->across.value);
+    }
+    return (double)NAN;
+}
+
+static bool goes_with_loads(const fw_device_probe *p, fw_device_measure measure) {
+    return measure != FW_MEASURE_SETTLING &&
+           (p->row == FW_PROBE_IS_force || p->row == FW_PROBE_IS_torque ||
+            p->row == FW_PROBE_IS_power);
+}
+
+/* what a band has beside what the other device has in its place */
+static double beside(const fw_verdict_requirement *r, double off) {
+    return fmax(r->numeric, fmin(r->high - r->value, r->value - r->low) - off * fabs(r->swing));
+}
+
+/* a final value is anywhere in the ring of that motion, too */
+static fw_status take_in(const fw_mechanism *m, const fw_verdict_other *o,
+                         const fw_device_requirement *q, double now, fw_verdict_requirement *r) {
+    const double rest = beside(r, o->off);
+    double low = now - rest, high = now + rest, slowest_s;
+    if (q->measure == FW_MEASURE_FINAL && !(o->motion->loads && o->motion->loads->quasi_static)) {
+        fw_probe_ring ring;
+        fw_arena *arena = o->probe->arena;
+        FW_TRY(fw_verdict_slowest_s(arena, m, r->scene_index, &slowest_s));
+        FW_TRY(fw_probe_rings(arena, &o->probe->probe[q->probe], o->motion, slowest_s, &ring));
+        if (ring.amplitude > 0)
+            low = fmin(now, ring.low) - r->numeric, high = fmax(now, ring.high) + r->numeric;
+    }
+    r->low = fmin(r->low, low), r->high = fmax(r->high, high);
+    return FW_OK;
+}
+
+fw_status fw_verdict_requirement_others(const fw_mechanism *m, const fw_verdict_shaken *s,
+                                        fw_verdict_requirement *r) {
+    const fw_device_requirement *q = &m->device->requirement[r->asked];
+    const fw_device_probe *of = &m->device->probe[q->probe];
+    const double value = r->value, at_low = r->low, at_high = r->high;
+    const bool anywhere = q->measure == FW_MEASURE_FINAL || q->measure == FW_MEASURE_SETTLING;
+    double now[2] = {(double)NAN, (double)NAN};
+    for (int k = 0; k < 2; k++) {
+        const fw_verdict_other *o = &s->other[k];
+        if (!o->asked || o->lost || !o->probe || o->probe->course[q->probe].count == 0) continue;
+        now[k] = measured(&o->probe->course[q->probe], q);
+        if (goes_with_loads(of, q->measure)) now[k] /= o->by;
+        FW_TRY(take_in(m, o, q, now[k], r));
+    }
+    if (value != 0) r->lasting += fmax(at_low - r->low, r->high - at_high) / fabs(value);
+    if (s->other[0].lost) { /* away from where the stiffer one is */
+        if (anywhere || !(now[1] < value)) r->low = -HUGE_VAL;
+        if (anywhere || !(now[1] > value)) r->high = HUGE_VAL;
+        r->open = "with flexures as soft and a pull as strong as they may be no motion to its end "
+                  "was found";
+    }
+    if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
+    fw_verdict_requirement_decide(r);
     return FW_OK;
 }

@@ -441,10 +441,18 @@ static fw_status may_ring(fw_arena *arena, int scene, fw_verdict_variant_verdict
                         FW_NAMED("scene", s->name), what));
 }
 
-/* and electrodes come nearer to each other */
-static void may_come_near(int scene, double by, fw_verdict_variant_verdict *v) {
-    for (int k = 0; k < v->nstator; k++)
-        if (v->stator[k].index == scene) v->stator[k].low_m -= (by - 1) * v->stator[k].moved_m;
+/* and electrodes come nearer to each other: by what moves them farther, but where their own gap is what is nearest by what it
+   loses in the motion of the softer device; ways: without that motion */
+static void may_come_near(int scene, double by, double ways, fw_verdict_variant_verdict *v) {
+    const double quarter = 1.25, gap = 0.9;
+    const fw_verdict_shaken *s = &v->shaken[scene];
+    for (int k = 0; k < v->nstator; k++) {
+        fw_wiring_moved *to = &v->stator[k];
+        const bool own = s->kept > 0 && to->m > gap * s->kept * to->start_m;
+        if (to->index == scene)
+            to->low_m -=
+                own ? (ways - 1) * to->moved_m + quarter * s->nearer_m : (by - 1) * to->moved_m;
+    }
 }
 
 static double largest_of(const double *x, int n) {
@@ -452,6 +460,15 @@ static double largest_of(const double *x, int n) {
     for (int i = 0; i < n; i++)
         most = fmax(most, x[i]);
     return most;
+}
+
+/* the most of what anything moves or bends by: what a probe goes with is not looked up */
+void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]) {
+    most[0] = most[1] = 1;
+    for (int h = 0; h <= nhinge; h++) {
+        most[0] = fmax(most[0], factor[2 * h]);
+        most[1] = fmin(most[1], factor[2 * h + 1]);
+    }
 }
 
 /* v->shaken; warnings, and a reason where what does not meet may then meet */
@@ -471,20 +488,22 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
             f[h] = 1;
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
         const double shakes = largest_of(f, 2 * nh + 2);
-        /* of pull-in it is said already, and ways of round-off have no ratio */
-        if (v->motion[i] && !v->beyond_pull_in && !fw_verdict_stands_still(v, i)) {
+        FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
+        fw_verdict_requirement_factor(f, nh, v->shaken[i].required);
+        v->shaken[i].required_late = v->shaken[i].late;
+        const double ways = f[2 * nh];
+        if (v->motion[i] && !fw_verdict_stands_still(v, i)) { /* ways of round-off have no ratio */
             const double e = fw_verdict_bending_counted(v->motion[i]) +
                              fw_verdict_motion_model_error(m, v->motion[i]);
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
         }
-        FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
         FW_TRY(fw_verdict_grown_again(arena, m, i, options, required, v));
         const double *g = v->shaken[i].grown, far = f[2 * nh] * (g ? g[2 * nh] : 1),
                      near = f[2 * nh + 1] * (g ? g[2 * nh + 1] : 1);
         if (near < 1) may_not_meet(v, i, near);
         FW_TRY(may_meet(arena, i, far, v));
         FW_TRY(may_ring(arena, i, v));
-        may_come_near(i, far, v);
+        may_come_near(i, far, ways * (g ? g[2 * nh] : 1), v);
         most = largest_of(f, 2 * nh + 2);
         if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
@@ -517,6 +536,7 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
     for (size_t i = 0; i < scenes; i++) {
         fw_verdict_shaken *of = &to[i];
+        of->other[0].probe = of->other[1].probe = NULL;
         const size_t n = (size_t)of->n, loads = (size_t)of->nload;
         KEEP(of->factor, 2 * h);
         KEEP(of->grown, 2 * h);
@@ -534,4 +554,43 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
 #undef KEEP
     *kept = to;
     return FW_OK;
+}
+
+/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
+static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
+    for (int k = 0; k < v->nrequirement; k++) {
+        const fw_verdict_requirement *r = &v->requirement[k];
+        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
+        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
+    }
+    return fw_text_end(list);
+}
+
+fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
+                                const fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    int ran = 0, still = 0, first = FW_NONE;
+    bool told = false;
+    for (int i = 0; i < d->nscene; i++) {
+        fw_text met = fw_text_new(arena);
+        ran += v->motion[i] != NULL;
+        if (!fw_verdict_stands_still(v, i)) continue;
+        if (still++ == 0) first = i;
+        FW_TRY(met_there(v, i, &met));
+        if (met.length) told = true;
+        if (met.length)
+            fw_diag_warning(
+                diags, 655, d->scene[i].place,
+                "nothing moves in %s%s: what is required there of %s is met by a device that "
+                "does nothing; give the scene what drives the device",
+                FW_NAMED("scene", d->scene[i].name), met.data);
+    }
+    if (ran > 0 && still == ran && !told && !v->workspace.required)
+        fw_diag_warning(
+            diags, 655, d->scene[first].place,
+            "nothing moves in %s: that no hinge is strained says nothing of what the device "
+            "bears (a study's governing.utilisation likewise); give a scene what drives it",
+            ran > 1 ? "any scene"
+                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
+    return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -205,8 +205,9 @@ typedef struct fw_verdict_requirement {
     /* of what a flow makes, else NaN: the least of low and the most of high at any corner, run or not */
     double all_low, all_high;
     fw_verdict_decision decision;
-    const char *why;  /* it has no value; NULL */
-    const char *open; /* why its band has no ends; NULL: it has, or there is no value */
+    const char *why;   /* it has no value; NULL */
+    const char *open;  /* why its band has no ends; NULL: it has, or there is no value */
+    const char *rigid; /* bodies that are not drawn: what they give is not in its band; NULL */
 } fw_verdict_requirement;
 
 /* one device that the flow may make, judged like the drawn one */
@@ -292,8 +293,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const char *ends_early; /* FW-D691, of the first scene that does; NULL */
     /* (device->nscene) where a mode lies within its error (verdict_parts.h, FW-D642) */
     fw_verdict_shaken *shaken;
-    bool beyond_pull_in; /* a scene may ask for more than its pull-in voltage */
-    bool bent;           /* its motion begins with flexures bent that are made at rest (FW-D622) */
+    bool bent; /* its motion begins with flexures bent that are made at rest (FW-D622) */
     fw_verdict_reason *reason; /* (nreason) */
     int nreason;
     /* (2 nhinge) how bodies give (strain.h); NULL: nothing is drawn */

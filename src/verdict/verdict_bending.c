@@ -452,6 +452,19 @@ bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v) {
 
 /* ---- what it says ---- */
 
+/* Of a device of which nothing is drawn nobody knows how its bodies bend. Test: test_effects.py, NotDrawn */
+fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    fw_text list = fw_text_new(arena);
+    if (v->arm || v->nrequirement == 0 || v->corner) return FW_OK;
+    for (int b = 0; b < m->nbody; b++)
+        fw_text_printf(&list, "%s%s", b ? ", " : "", fw_text_name(m->body[b].id));
+    FW_TRY(fw_text_end(&list));
+    for (int k = 0; k < v->nrequirement; k++)
+        if (!v->requirement[k].why) v->requirement[k].rigid = list.data;
+    return FW_OK;
+}
+
 /* What hinges store a ten-millionth of their way to their limits: below it nothing moves, and bodies over hinges is round-off
    over round-off. A shock across the plane is such a scene. */
 static double at_rest_J(const fw_mechanism *m) {

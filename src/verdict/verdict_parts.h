@@ -123,6 +123,9 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
 /* body_loads.c: by how much what holds rotors is softer at pull-in for what bodies give there, relative, at most */
 fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                    const fw_statics_pull_in *pull_in, double *gives);
+/* body_loads.c: by how much electrodes come nearer in another motion, m, and the share of a gap that this one keeps */
+double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
+                                    double *kept);
 /* body_loads.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     double *to);
@@ -155,7 +158,7 @@ fw_status fw_verdict_rests_at(const fw_mechanism *mechanism, int scene,
                               const fw_device_requirement *requirement, fw_verdict_rest *rest);
 /* moved_again.c: nothing moves in a scene; of v->used what is filled so far */
 bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene);
-/* moved_again.c: warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
+/* resonance.c: warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
 fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
                                 const fw_verdict_variant_verdict *v);
 /* text NULL: FW_NOMEM. keep: share of the scene's loads that would do, held between 0.001 and 0.99 */
@@ -180,6 +183,14 @@ typedef struct fw_verdict_shaken_mode {
     /* (nload) where something comes again: modal forces over mass and omega^2 and how far it swings; NULL: it hardly does */
     double *size;
 } fw_verdict_shaken_mode;
+/* a scene that was moved again (moved_again.c) */
+typedef struct fw_verdict_other {
+    bool asked, lost; /* it was, and there is no such motion to its end */
+    double by, off;   /* its loads; what stands for all that gives, relative */
+    const fw_dynamics_motion *motion;
+    const fw_probe_monitor
+        *probe; /* what probes of requirements read in it; NULL: there are none */
+} fw_verdict_other;
 struct fw_verdict_shaken {
     fw_verdict_shaken_mode *mode; /* (n) */
     int n;
@@ -195,6 +206,10 @@ struct fw_verdict_shaken {
     /* (2 x (nhinge + 1)) likewise where the layer's own strain presses or pulls flexures, last on what moves: requirements
        have their own there (fw_verdict_grown_again); NULL: it does not */
     double *grown;
+    /* the same on what is required, by the most of them, without what the motions of `other` have */
+    double required[2], required_late;
+    double nearer_m, kept; /* of electrodes, in these; share of a gap as computed, 0: not asked */
+    fw_verdict_other other[2]; /* softer, with all of the pull, and stiffer, with the least of it */
 };
 typedef struct fw_verdict_answer { /* times as much as computed: up >= 1, down <= 1 */
     double up, down;
@@ -214,11 +229,13 @@ fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const f
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);
-/* moved_again.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672) */
+/* moved_again.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672),
+   and where electrodes may pull otherwise */
 fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
                               const fw_dynamics_motion_options *options, bool brief,
                               fw_diags *diags, fw_verdict_variant_verdict *v);
-/* verdict_requirement.c: who moves a scene again looks at what is required of it, and bands take in what that motion has; gives: bodies do in it */
+/* verdict_requirement.c: who moves a scene again looks at what is required of it, and bands take in what that motion
+   has; gives: bodies do in it */
 typedef struct fw_verdict_required {
     fw_status (*watch)(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                        const fw_verdict_variant_verdict *v, bool required,
@@ -228,7 +245,7 @@ typedef struct fw_verdict_required {
                          fw_verdict_variant_verdict *v);
 } fw_verdict_required;
 extern const fw_verdict_required fw_verdict_required_of_scenes;
-/* moved_again.c: the layer of a scene grows or shrinks by itself, so that what flexures are off by in bending and along
+/* verdict_strain.c: the layer of a scene grows or shrinks by itself, so that what flexures are off by in bending and along
    themselves counts each by itself. Of the four ways k to combine them: what all of a flexure's stiffness is more by, and
    what that along itself is more by besides; gives: share that bodies give */
 bool fw_verdict_grows(const fw_verdict_variant_verdict *v, int scene);
@@ -239,7 +256,7 @@ typedef struct fw_verdict_way {
 } fw_verdict_way;
 void fw_verdict_off_by_itself(const fw_mechanism *mechanism, double *bending, double *along);
 fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double gives);
-/* moves such a scene again in all four: hinges, ways (v->shaken[scene].grown) and requirements have it in their bands; what
+/* moved_again.c: moves such a scene again in all four: hinges, ways (v->shaken[scene].grown) and requirements have it in their bands; what
    does not stand then is undecided (FW-D699) */
 fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                  const fw_dynamics_motion_options *options,
@@ -247,10 +264,10 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *mechanism,
                                  fw_verdict_variant_verdict *v);
 /* most of a pull that may be missing in a scene (fw_effects_comb_fringe), relative; 0: no electrodes act */
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
-/* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with all of the pull;
-   without a scene there are none */
+/* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with the pull as
+   it may be; without a scene there are none */
 typedef struct fw_verdict_small_others {
-    const fw_statics_modes *modes[8]; /* (count) */
+    const fw_statics_modes *modes[3 * FW_VERDICT_WAYS]; /* (count) */
     int count;
     const char *lost; /* a clause: one of them is not there; NULL: all are */
 } fw_verdict_small_others;
@@ -347,6 +364,13 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *mecha
                                       fw_verdict_variant_verdict *v);
 /* what a mode that lies elsewhere may do to one of a motion (resonance.c): the most of the factors, which widen it */
 void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]);
+/* required_small.c: its band takes in what it is in the motions of shaken->other */
+fw_status fw_verdict_requirement_others(const fw_mechanism *mechanism,
+                                        const fw_verdict_shaken *shaken, fw_verdict_requirement *r);
+/* what its band says against its bounds: margin, utilisations, decision */
+void fw_verdict_requirement_decide(fw_verdict_requirement *r);
+/* verdict_bending.c: what bands of a device that is not drawn are without, by name */
+fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v);
 void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
                                    fw_verdict_requirement *r);
 /* what may still decide those that are inconclusive, and the accuracy that would */

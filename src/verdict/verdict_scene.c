@@ -14,8 +14,7 @@
      - it asks for more than the static pull-in voltage and is over before the rotor has snapped, or
        it would touch with voltages higher by what fringe fields and softer hinges can do: inconclusive,
      - what holds it up to its voltages was not found: inconclusive,
-     - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else
-       inconclusive,
+     - it stays on an unstable equilibrium: rejected where a hinge would fall beyond its limit, else not,
      - nothing says what its model of the hinges is off by, or the strain of a hinge is not known at an
        instant: inconclusive,
      - it does not start as stated, or its energy does not add up: inconclusive.
@@ -83,11 +82,12 @@ static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw
     if (flexure_ended(ended))
         return fw_verdict_scene_reason(v, scene, 242, FW_INCONCLUSIVE, share_for(NULL),
                                        ended->message);
-    const double off = p ? fmax(fw_verdict_model_error.motion, 0.5 * p->stiffness_error) : 0;
+    double off = p ? fmax(fw_verdict_model_error.motion, 0.5 * p->stiffness_error) : 0;
+    if (p && fw_effects_levitation_may_be(v->mechanism)) off = 1 - (1 - off) / sqrt(1 + p->fringe);
     if (p) FW_TRY(touches(arena, v->mechanism, scene, 1 - off, options, &still));
     const char *why = p ? fw_statics_pull_in_explain(arena, p) : "";
-    FW_NEED(why);
     char less[32];
+    FW_NEED(why);
     fw_number_text(less, sizeof less, 100 * off, 2);
     char *text = fw_arena_printf(arena, "%s%s%s%s%s%s", ended->message, p ? "; " : "", why,
                                  still ? "" : " (not at voltages lower by the ", still ? "" : less,
@@ -105,15 +105,14 @@ static fw_status beyond(fw_arena *arena, const fw_device_scene *scene, const fw_
     fw_number_text(asked, sizeof asked, p->largest_V, 4);
     fw_number_text(part, sizeof part, 100 * p->fringe, 2);
     fw_percent_text(off, sizeof off, p->stiffness_error);
-    v->beyond_pull_in = true;
     const char *text =
         p->margin < 1
             ? fw_arena_printf(
                   arena,
                   "%s%s asks for up to %s V, beyond the pull-in voltage %s V of "
-                  "%s%s%s; %s, and whether that holds on a wafer is not known",
+                  "%s%s%s%s; %s, and whether that holds on a wafer is not known",
                   FW_NAMED("scene", scene->name), asked, at, FW_NAMED("comb drive", p->comb),
-                  scene->ncomb > 1 ? " where all drives of the scene grow together" : "",
+                  scene->ncomb > 1 ? " " : "", scene->ncomb > 1 ? p->together : "",
                   scene->ncontact > 0
                       ? "no electrodes touch in it, because it is over before the rotor "
                         "has snapped or because a contact of the scene holds it off them"
@@ -149,7 +148,6 @@ static fw_status may_be_thrown(fw_arena *arena, const fw_device_scene *scene,
         fw_percent_text(off, sizeof off, p->stiffness_error));
     FW_NEED(text);
     fw_diag_warning(diags, 248, p->place, "%s", text);
-    v->beyond_pull_in = true;
     return fw_verdict_scene_reason(v, scene, 248, FW_INCONCLUSIVE,
                                    0.98 * (1 - p->stiffness_error) / (1 + p->fringe), text);
 }

@@ -558,6 +558,27 @@ class BodiesInSmallMotions(unittest.TestCase):
         self.assertEqual(found["frequency-1"]["verdict"], "inconclusive")
 
 
+class NotDrawn(unittest.TestCase):
+    """Bands of what is required of a device of which nothing is drawn are those of rigid bodies, and say so by their names"""
+
+    DEVICE = """<device xmlns="urn:flexwright:device:1" name="not-drawn"><material ref="silicon-100" youngs-modulus="160 GPa" thickness="50 um"/><flow ref="silicon-on-glass"/>
+<flexure id="la" kind="leaf" length="500 um" width="6 um" fillet="5 um"/><mechanism>
+<body id="arm" x="0.5 mm" y="0.6 mm" mass="0.05 mg" inertia="0.01 mg mm^2"/><body id="tip" x="1.8 mm" y="0.7 mm" mass="0.02 mg" inertia="0.003 mg mm^2"/>
+<revolute id="A" a="ground" a-x="0 mm" a-y="0.5 mm" b="arm" b-x="-0.5 mm" b-y="-0.1 mm" hinge="la" axis="0 deg"/>
+<revolute id="B" a="arm" a-x="0.9 mm" a-y="0.1 mm" b="tip" b-x="-0.4 mm" b-y="0 mm" hinge="la" axis="-90 deg"/></mechanism>
+<probe id="py" kind="displacement" on="tip" x="0.3 mm" direction="90 deg"/><require probe="py" measure="peak" max="60 um"/><require frequency="1" min="10 Hz"/>
+<scene name="go" duration="20 ms"><force on="tip" fy="-1 uN" law="ramp" rise="10 ms"/><air kind="slide" on="arm" area="0.1 mm^2" gap="20 um"/><air kind="slide" on="tip" area="0.1 mm^2" gap="20 um"/></scene></device>"""
+
+    def test_rows_name_the_bodies(self):
+        done = run("check", "-", "--corners", "none", "--advice", "none", "--json", input=self.DEVICE)
+        self.assertEqual([r["without_bodies"] for r in json.loads(done.stdout)["requirements"]], ["arm, tip", "arm, tip"])
+        done = run("check", "-", "--corners", "none", "--advice", "none", input=self.DEVICE)
+        self.assertIn("the bands are those of rigid bodies", done.stdout)
+        self.assertIn("(arm, tip)", done.stdout)
+        done = run("check", ROOT / "tests/data/three-legs.xml", "--corners", "none", "--advice", "none", "--json")
+        self.assertEqual({r["without_bodies"] for r in json.loads(done.stdout)["requirements"]}, {None})
+
+
 class SlenderArms(unittest.TestCase):
     """Bodies are rigid in the motion. What an arm gives where something presses on its end, and whether it bears that, was not in any
     verdict but of displacements and gaps. Numbers are those of beams with large turns, each a leaf's and the arm's elements."""

@@ -250,8 +250,37 @@ static void memory(void **state) {
     assert_true(tries > 3);
 }
 
+static void ratios(void **state) {
+    (void)state;
+    enum { MOST = 12, N = 3 };
+    const fw_quantity_law first = expression("max(0, 1 - abs(t - 2 s)/(2 s))"),
+                          second = expression("max(0, (t - 6 s)/(4 s))"),
+                          half = expression("max(0, 0.5 - abs(t - 2 s)/(4 s))");
+    const fw_quantity_law *law[N] = {&first, &half, NULL};
+    double t_s[MOST], value[(MOST + 1) * N];
+    bool all;
+    /* one ratio, where it is largest */
+    assert_int_equal(fw_quantity_law_ratios(law, 2, 10, MOST, t_s, value, &all), 1);
+    assert_true(all);
+    assert_float_equal(value[0], 1, 1e-6);
+    assert_float_equal(value[1], 0.5, 1e-6);
+    assert_float_equal(t_s[0], 2, 1e-6);
+    /* one after the other: each by itself, at its largest */
+    law[1] = &second;
+    assert_int_equal(fw_quantity_law_ratios(law, 2, 10, MOST, t_s, value, &all), 2);
+    for (int k = 0; k < 2; k++) {
+        assert_float_equal(fmax(value[2 * k], value[2 * k + 1]), 1, 1e-6);
+        assert_float_equal(fmin(value[2 * k], value[2 * k + 1]), 0, 1e-6);
+    }
+    /* beside what is always there it is another ratio at every instant; there are more than are asked for */
+    const int n = fw_quantity_law_ratios(law, N, 10, 2, t_s, value, &all);
+    assert_int_equal(n, 2);
+    assert_false(all);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ratios),
         cmocka_unit_test(shocks_and_noise),
         cmocka_unit_test(bells),
         cmocka_unit_test(beside_a_ramp),
