@@ -217,14 +217,12 @@ static fw_status limits_of(const fw_mechanism_builder *b, fw_flexure_input *in,
                              "material '%s' has no data for this: give %s on <material>, or on the "
                              "material of the flow, or remove the attribute",
                              fw_text_name(m->id), limits->missing);
-    const fw_place place = b->device->limits.probability_place;
-    if (b->device->limits.failure_probability > 0 && !limits->missing && !limits->weibull.known &&
-        !m->strength_stated && !fw_diag_said(b->diags, 236, place))
-        fw_diag_warning(b->diags, 236, place,
-                        "failure-probability has no meaning for material '%s', which yields before "
-                        "it breaks and whose data have no distribution of strengths; give "
-                        "weibull-strength, weibull-modulus and weibull-area on <material>, or "
-                        "remove it",
+    const fw_device_limits_asked *of = &b->device->limits;
+    if (of->failure_probability > 0 && !limits->missing && !limits->weibull.known &&
+        !m->strength_stated && !fw_diag_said(b->diags, 236, of->probability_place))
+        fw_diag_warning(b->diags, 236, of->probability_place,
+                        "failure-probability has no meaning for material '%s', which yields: give "
+                        "weibull-strength, -modulus and -area on <material>, or remove it",
                         fw_text_name(m->id));
     const fw_flexure_limit *governing = fw_flexure_limits_governing(limits);
     if (governing) in->strength_Pa = governing->allowable_Pa;
