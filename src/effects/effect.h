@@ -54,8 +54,10 @@ double fw_effects_hinge_give_most(const fw_effect_case *c, int pin);
    the same at all times. Once for each set of loads */
 fw_status fw_effects_hinges_warm(fw_arena *arena, fw_effects_loads *loads, double part,
                                  double varying, const fw_quantity_law *law);
-/* all flexures, pins or released, have their stiffness times 1 + part, before anything is made exact */
-fw_status fw_effects_hinges_stiffer(const fw_effect_case *c, fw_effects_loads *loads, double part);
+/* all flexures, pins or released, have their stiffness times 1 + part, and that against forces times 1 + along besides,
+   before anything is made exact (fw_effect_choice) */
+fw_status fw_effects_hinges_stiffer(const fw_effect_case *c, fw_effects_loads *loads, double part,
+                                    double along);
 /* the closed forms among the elements become exact beams, in a copy of the elements */
 fw_status fw_effects_hinges_exact(fw_arena *arena, const fw_mechanism *mechanism,
                                   fw_effects_loads *loads);
@@ -101,6 +103,7 @@ typedef struct fw_effects_flexed { /* data of an element; ports: pin on body a, 
     double axis_rad, free_rad;  /* axis less half of the drawn turns */
     double loss_s[2];           /* tau along and across the axis */
     double factor, varying;     /* U times factor + varying law(t): temperature */
+    double along;               /* stiffer by that share against forces than described */
     fw_flexure_hinge_rest rest; /* what does not depend on the rotation */
     fw_effects_bent *last;      /* of this law, whatever it is multiplied by */
     fw_effects_exact *exact;    /* NULL: closed form */
@@ -112,7 +115,8 @@ static inline bool fw_effects_flexed_loses(const fw_effects_flexed *h) {
 extern const fw_effects_element_class fw_effects_flexed_class;
 
 bool fw_effects_exact_is_known(const fw_mechanism_hinge *hinge);
-fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *hinge,
+/* along: a strip that stretches 1 + this times less */
+fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *hinge, double along,
                                fw_effects_exact **out);
 extern const fw_effects_element_class fw_effects_exact_class;
 extern const double fw_effects_exact_tolerance; /* relative, of its forces */

@@ -159,6 +159,8 @@ typedef struct fw_effect_choice {
     bool untold;    /* nobody reads bounds: those that decide nothing are not found */
     double
         stiffer; /* all flexures have 1 + this times their stiffness, as if their modulus had; 0: as described */
+    double
+        along; /* and beside that 1 + this times their stiffness against forces: of leaves along the strip alone */
     const struct fw_effect_ledger *like; /* of a device much like this one, or NULL: what acts there
                                             by far is taken to act here without finding its bound */
 } fw_effect_choice;

@@ -338,14 +338,14 @@ bool fw_effects_exact_is_known(const fw_mechanism_hinge *h) {
            h->closed_form.stiffness_Nm_per_rad > 0;
 }
 
-fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *h,
+fw_status fw_effects_exact_new(fw_arena *arena, const fw_mechanism_hinge *h, double along,
                                fw_effects_exact **out) {
     const fw_flexure_result *c = &h->closed_form;
     fw_effects_exact *x = fw_arena_one(arena, fw_effects_exact);
     FW_NEED(x);
     x->input = h->input, x->scale = h->scale;
     FW_TRY(fw_flexure_beam_of_input(arena, &h->input, c, &x->beam));
-    fw_flexure_beam_scale(&x->beam, h->scale);
+    fw_flexure_beam_scale(&x->beam, h->scale), x->beam.along = along;
     /* where the pin is: the ends of the strip are that far from it in both bodies */
     const double pin[2] = {c->centre_m + c->offset_m[0], c->offset_m[1]};
     static const double none[3] = {0};
@@ -364,10 +364,10 @@ static bool same_beam(const fw_effects_exact *x, const fw_effects_exact *y) {
     const fw_flexure_crystal *c = &a->crystal, *d = &b->crystal;
     const size_t doubles = offsetof(fw_flexure_input, piece) - offsetof(fw_flexure_input, length_m);
     const size_t of_crystal = sizeof *c - offsetof(fw_flexure_crystal, a0_per_Pa);
-    return x->scale == y->scale && a->kind == b->kind && a->ends == b->ends &&
-           a->npiece == b->npiece && (a->npiece == 0 || a->piece == b->piece) &&
-           c->known == d->known && c->aligned == d->aligned &&
-           memcmp(&a->length_m, &b->length_m, doubles) == 0 &&
+    return x->scale == y->scale && x->beam.along == y->beam.along && a->kind == b->kind &&
+           a->ends == b->ends && a->npiece == b->npiece &&
+           (a->npiece == 0 || a->piece == b->piece) && c->known == d->known &&
+           c->aligned == d->aligned && memcmp(&a->length_m, &b->length_m, doubles) == 0 &&
            memcmp(&c->a0_per_Pa, &d->a0_per_Pa, of_crystal) == 0;
 }
 

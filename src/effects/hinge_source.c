@@ -175,7 +175,8 @@ fw_status fw_effects_hinges_warm(fw_arena *arena, fw_effects_loads *loads, doubl
     return FW_OK;
 }
 
-fw_status fw_effects_hinges_stiffer(const fw_effect_case *c, fw_effects_loads *loads, double part) {
+fw_status fw_effects_hinges_stiffer(const fw_effect_case *c, fw_effects_loads *loads, double part,
+                                    double along) {
     for (int k = 0; k < c->mechanism->nhinge; k++) {
         const int of = loads->torsion_of[c->mechanism->hinge[k].pin];
         if (of > 0) loads->torsion[of - 1].stiffness_Nm_per_rad *= 1 + part;
@@ -188,6 +189,11 @@ fw_status fw_effects_hinges_stiffer(const fw_effect_case *c, fw_effects_loads *l
         *f = *(const fw_effects_flexed *)e->data;
         f->factor *= 1 + part, f->varying *= 1 + part;
         e->size_N_per_m *= 1 + part;
+        if (along != 0) { /* of another law nothing is remembered */
+            f->along = along;
+            FW_TRY(fw_flexure_hinge_law_along(c->arena, &f->law, 1 + along));
+            FW_NEED(f->last = fw_arena_one(c->arena, fw_effects_bent));
+        }
         e->data = f;
     }
     return FW_OK;
@@ -206,7 +212,7 @@ fw_status fw_effects_hinges_exact(fw_arena *arena, const fw_mechanism *m, fw_eff
         fw_effects_flexed *f = fw_arena_one(arena, fw_effects_flexed);
         FW_NEED(f);
         *f = *(const fw_effects_flexed *)own[i].data;
-        FW_TRY(fw_effects_exact_new(arena, h, &f->exact));
+        FW_TRY(fw_effects_exact_new(arena, h, f->along, &f->exact));
         own[i].data = f;
         own[i].class_ = &fw_effects_exact_class;
     }

@@ -359,7 +359,8 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
         } else if (e->called_for && rows[i]->leave_out)
             FW_TRY(rows[i]->leave_out(&c, loads));
     }
-    if (choice->stiffer != 0) FW_TRY(fw_effects_hinges_stiffer(&c, loads, choice->stiffer));
+    if (choice->stiffer != 0 || choice->along != 0)
+        FW_TRY(fw_effects_hinges_stiffer(&c, loads, choice->stiffer, choice->along));
     return fw_effects_hinge_settle(&c, choice, ledger, loads);
 }
 

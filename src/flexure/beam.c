@@ -62,7 +62,7 @@ void fw_flexure_beam_at(const fw_flexure_beam *b, int piece, const fw_flexure_be
     if (!(per_G > 0)) per_G = 1 / b->shear_Pa;
     if (b->stiffer) depth *= b->stiffer(b->context, piece, s_m);
     out->bend_per_Nm2 = 12 * (per_E - lost_at(b, piece, s_m)) * per_A / (t * t * depth);
-    out->axial_per_N = b->inextensible ? 0 : per_E * per_A;
+    out->axial_per_N = b->inextensible ? 0 : per_E * per_A / (1 + b->along);
     out->shear_per_N = b->inextensible ? 0 : 1.2 * per_A * per_G;
 }
 

@@ -31,7 +31,8 @@ typedef struct fw_flexure_beam {
     double lost_per_Pa[2], lost_m[2]; /* what the first and the second end take of 1/E in bending, s
                                          from it: lost exp(-s/lost_m); 0: nothing */
     bool inextensible;                /* no axial and no shear strain */
-    fw_beam_course *width;            /* NULL: width_m of the pieces */
+    double along; /* EA is 1 + this times as large as section and modulus say; bending is not */
+    fw_beam_course *width;   /* NULL: width_m of the pieces */
     fw_beam_course *stiffer; /* EI over that of plane stress, times depth_factor; NULL: 1 */
     const void *context;
 } fw_flexure_beam;

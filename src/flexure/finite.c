@@ -389,6 +389,25 @@ fw_status fw_flexure_hinge_law_scale(fw_arena *arena, fw_flexure_hinge_law *law,
     return FW_OK;
 }
 
+fw_status fw_flexure_hinge_law_along(fw_arena *arena, fw_flexure_hinge_law *law, double by) {
+    if (!law->table && law->half_angle_rad == 0) {
+        law->axial_m_per_N /= by;
+        return FW_OK;
+    }
+    law->uneven_x = (1 + law->uneven_x) / by - 1, law->uneven_y = (1 + law->uneven_y) / by - 1;
+    law->root_m_per_N /= by, law->axial_m_per_N /= by, law->shear_m_per_N /= by;
+    if (!law->table) return FW_OK;
+    struct fw_flexure_hinge_table *t = fw_arena_one(arena, struct fw_flexure_hinge_table);
+    FW_NEED(t);
+    *t = *law->table;
+    for (int n = 0; n < FW_PATH_TERMS; n++) {
+        t->bend_x[n] /= by, t->bend_y[n] /= by;
+        t->rest_x[n] /= by, t->rest_y[n] /= by;
+    }
+    law->table = t;
+    return FW_OK;
+}
+
 bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double th) {
     bool within = fabs(law->half_angle_rad + 0.5 * law->share * th) < FW_PI;
     return within && (!law->table || fabs(th) < 2 * FW_PI);

@@ -575,13 +575,14 @@ fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *m,
                                   const fw_dynamics_motion **motion) {
     fw_dynamics_motion_options o = *given;
     fw_diags own = fw_diags_new(arena);
-    o.trace = NULL, o.glance = NULL, o.unsettled = NULL, o.other = NULL, o.like = NULL;
-    o.tapes = NULL, o.late_rows = false, o.whole = o.trace_both = false;
+    o.glance = NULL, o.unsettled = NULL, o.other = NULL, o.like = NULL;
+    o.tapes = NULL, o.late_rows = false, o.trace_both = false;
     o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
     if (o.alone)
         o.integrator = like->integrator; /* found by trying: what gives along itself is stiff */
     o.samples = like->nsample, o.hinge_accuracy = 1;
-    o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+    o.effects.hinge = like->ledger.hinge.used, o.effects.untold = true;
+    o.effects.like = o.effects.along != 0 ? &like->ledger : NULL; /* hardly another device */
     o.effects.stiffer = by;
     const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, motion);
     if (status != FW_OK) *motion = NULL;

@@ -494,3 +494,54 @@ double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement,
     }
     return enough;
 }
+
+/* ---- what a requirement lacks, in words ---- */
+
+bool fw_verdict_requirement_below(const fw_verdict_requirement *r) {
+    bool under = r->low<r->min, over = r->high> r->max;
+    if (under && over) return r->value - r->min < r->max - r->value;
+    return under || (!over && !isnan(r->min));
+}
+
+const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r) {
+    char value[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT], bound[FW_PROBE_TEXT];
+    bool below = fw_verdict_requirement_below(r);
+    const char *of = r->measure ? r->measure : r->kind;
+    fw_probe_text(bound, below ? r->min : r->max, r->unit);
+    if (r->why)
+        return fw_arena_printf(arena, "what is required of %s (%s, at %s %s) is not known: %s",
+                               r->probe, of, isnan(r->min) ? "most" : "least",
+                               fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
+                               r->why);
+    if (r->open && r->decision != FW_REJECT)
+        return fw_arena_printf(arena,
+                               "%s (%s) is %s, and at %s %s is required, but what that may be off "
+                               "by is not known: %s",
+                               r->probe, of, fw_probe_text(value, r->value, r->unit),
+                               below ? "least" : "most", bound, r->open);
+    fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);
+    const char *all = "";
+    if (below ? r->all_low < r->low : r->all_high > r->high) { /* on the side that is asked for */
+        char end[FW_PROBE_TEXT];
+        fw_probe_text(end, below ? r->all_low : r->all_high, r->unit);
+        if (!fw_text_same(end, below ? low : high))
+            all = fw_arena_printf(arena, "; no corner of the flow is %s %s",
+                                  below ? "below" : "above", end);
+        if (!all) return NULL;
+    }
+    char rings[FW_PROBE_TEXT], when[FW_PROBE_TEXT];
+    const char *still =
+        r->rings > 0
+            ? fw_arena_printf(
+                  arena,
+                  " of a motion that has not come to rest (where it ends it still goes to and fro "
+                  "by %s to either side: a longer scene or damping, <air> or <material-damping>, "
+                  "lets it settle)",
+                  fw_probe_text(rings, r->rings, r->unit))
+            : "";
+    if (!still) return NULL;
+    return fw_arena_printf(arena, "%s (%s) is %s%s (%s to %s%s), and at %s %s is required%s",
+                           r->probe, of, fw_probe_text(value, r->value, r->unit),
+                           fw_probe_when(when, r->measure ? (double)NAN : r->t_s), low, high, all,
+                           below ? "least" : "most", bound, still);
+}

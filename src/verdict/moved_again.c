@@ -352,10 +352,11 @@ typedef struct
     hold { /* f (2 x (nhinge + 1)): more and less of every hinge, and of what goes farthest */
     const fw_verdict_strain_monitor *saw;
     double *far, *now, *f;
+    double more; /* times what is found */
 } hold;
 
-static void hold_factor(double now, double was, double *f) {
-    const double more = 1.25, part = was > 0 ? now / was - 1 : 0;
+static void hold_factor(double more, double now, double was, double *f) {
+    const double part = was > 0 ? now / was - 1 : 0;
     f[0] = fmax(f[0], 1 + more * part);
     f[1] = fmin(f[1], fmax(0, 1 + more * part));
 }
@@ -369,12 +370,13 @@ static void hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw
         strained = fmax(strained, h->saw->hinge[k].strain.value);
     for (int k = 0; k < nh; k++)
         if (h->saw->hinge[k].strain.value > hardly_strained * strained)
-            hold_factor(saw->hinge[k].strain.value, h->saw->hinge[k].strain.value, h->f + 2 * k);
+            hold_factor(h->more, saw->hinge[k].strain.value, h->saw->hinge[k].strain.value,
+                        h->f + 2 * k);
     for (int i = 0; i < 2 * nb; i++)
         most[i >= nb] = fmax(most[i >= nb], h->far[i]);
     for (int i = 0; i < 2 * nb; i++)
         if (h->far[i] > hardly_moves * most[i >= nb])
-            hold_factor(h->now[i], h->far[i], h->f + 2 * nh);
+            hold_factor(h->more, h->now[i], h->far[i], h->f + 2 * nh);
 }
 
 static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
@@ -385,6 +387,7 @@ static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_d
     fw_verdict_strain_monitor monitor;
     FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
     o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    o.trace = NULL, o.whole = false;
     FW_TRY(fw_statics_move_stiffer(arena, m, scene, by, like, &o, &x));
     *whole = x && !x->ended && !monitor.no_memory;
     memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
@@ -411,7 +414,7 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const double e = fmin(fmax(fw_verdict_motion_lasting_error(m), least), largest);
     if (!x || v->corner || nh == 0 || x->ended || !fw_statics_takes_hold(m, s, x, again))
         return FW_OK;
-    hold h = {.saw = x->observed};
+    hold h = {.saw = x->observed, .more = 1.25};
     FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
     h.now = h.far + n, h.f = h.now + n;
     for (size_t k = 0; k < 2 * nh + 2; k++)
@@ -442,33 +445,6 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* ---- where a motion comes to rest ----
-   In: the course of a probe that was kept, the loads as they are at the scene's end. Out: the equilibrium under these, where
-   the course ends about it; where loads go on, friction holds it anywhere within a range, or none is found, the middle of what the
-   course goes over in the last period of the slowest mode, off by half of that. The value at the last instant is neither:
-   where a scene ends it may be anywhere in its ring. Cost: modes and an equilibrium. Test: test_probe.py,
-   test_a_settling_time_does_not_go_with_the_length_of_a_scene */
-
-/* NaN: none is found, or it is one of many */
-static fw_status equilibrium_at(fw_arena *arena, const fw_mechanism *m, int scene,
-                                const fw_dynamics_motion *motion, int probe, double *at) {
-    const fw_device_scene *s = &m->device->scene[scene];
-    const fw_statics_static_options o = {.effects.hinge = motion->ledger.hinge.used,
-                                         .effects.untold = true};
-    const fw_statics *found = NULL;
-    fw_diags own = fw_diags_new(arena);
-    fw_probe *bound;
-    *at = (double)NAN;
-    const fw_status status = fw_statics_solve(arena, m, s, &o, &own, &found);
-    if (status == FW_CANCELLED || status == FW_NOMEM) return status;
-    if (status != FW_OK || !found || found->negative > 0 || found->loose ||
-        (found->friction && !found->friction->why))
-        return FW_OK;
-    FW_TRY(fw_probe_bind(arena, m, s, found->loads, &bound));
-    *at = fw_probe_at_equilibrium(&bound[probe], s, found);
-    return FW_OK;
-}
-
 fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *m, int scene,
                                double *period_s) {
     double loaded_s;
@@ -478,32 +454,94 @@ fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *m, int scene
     return FW_OK;
 }
 
-fw_status fw_verdict_rests_at(const fw_mechanism *m, int scene, const fw_dynamics_motion *motion,
-                              const fw_probe_monitor *monitor, const fw_device_requirement *q,
-                              fw_verdict_rest *rest) {
-    const fw_probe_course *c = &monitor->course[q->probe];
-    double low, high, at;
-    *rest = (fw_verdict_rest){.at = c->final};
-    if (motion->loads && motion->loads->quasi_static) return FW_OK;
-    FW_TRY(fw_verdict_slowest_s(monitor->arena, m, scene, &rest->period_s));
-    if (!(rest->period_s > 0))
-        rest->period_s = motion->end_s; /* nothing says how slowly it swings */
-    const double goes_on_s = fw_verdict_laws_go_on_s(m, &m->device->scene[scene]);
-    rest->period_s = fmax(rest->period_s, goes_on_s);
-    fw_probe_range(c, motion->end_s - rest->period_s, &low, &high);
-    if (goes_on_s > 0)
-        at = (double)NAN; /* no one instant's equilibrium is where it comes to rest */
-    else
-        FW_TRY(equilibrium_at(monitor->arena, m, scene, motion, q->probe, &at));
-    const double beyond = fmax(0, fmax(low - at, at - high));
-    if (isnan(at)) {
-        rest->at = 0.5 * (low + high), rest->off = 0.5 * (high - low);
-    } else if (beyond <= fmax(high - low, 0.1 * q->band)) {
-        rest->at = at, rest->off = beyond > high - low ? beyond : 0;
-    } else {
-        rest->why = "the scene ends away from the equilibrium under its last loads, and not about "
-                    "another one that is known: give the scene a longer duration";
+/* ---- what the layer's own strain presses ----
+   A force that heat or a stress of the layer makes goes with what flexures are stiff along themselves, which is known to some per
+   cent, and what it leaves of their bending goes with K less that force: what decides is how far both are off against each
+   other, which no common factor has. So a scene whose layer grows is moved again, with bending softer and stiffer by what it is off
+   by, and the stiffness along strips the other way and the same way; bodies, which are in series with that, give where it is
+   softer. Bands take in all four; where one of them does not stand the device may have buckled: undecided.
+   In: v->motion, v->probed. Error: all flexures are off the same way. Cost: four motions, of such scenes alone. Source:
+   docs/theory/probes.md. Test: test_heated.py, Ratio */
+
+/* what was accepted there is open */
+static fw_status tell_lost(fw_arena *arena, const fw_device_scene *s, int scene, double bending,
+                           double along, const fw_verdict_way *way, bool found,
+                           fw_verdict_variant_verdict *v) {
+    char bent[32], strip[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "%s%s: heat or stress makes the layer grow or shrink, and with flexures that bend %s by "
+        "the %s %%, and are %s along themselves by the %s %%, that they may be off by, %s: it may "
+        "buckle; keep away from there",
+        FW_NAMED("scene", s->name), way->stiffer < 0 ? "more easily" : "less easily",
+        fw_number_text(bent, sizeof bent, 100 * bending, 2), way->gives ? "softer" : "stiffer",
+        fw_number_text(strip, sizeof strip, 100 * along, 2),
+        found ? "it rests on an unstable equilibrium" : "no motion to its end was found");
+    FW_NEED(text);
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        if (r->scene_index != scene || !r->measure || r->why || r->decision == FW_REJECT) continue;
+        r->open = "it may buckle (FW-D699)", r->decision = FW_INCONCLUSIVE;
+        r->low = r->size || isnan(r->origin) ? 0 : -HUGE_VAL, r->high = HUGE_VAL;
     }
+    return fw_verdict_scene_reason(v, s, 699, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF, text);
+}
+
+/* *told: a reason is given where it does not stand then, or has no such motion */
+static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
+                           const fw_dynamics_motion_options *given, const hold *h,
+                           const fw_verdict_required *required, fw_verdict_variant_verdict *v,
+                           bool *told) {
+    const long hopeless = 300000;
+    const fw_device_scene *s = &m->device->scene[i];
+    double bending, along;
+    fw_verdict_off_by_itself(m, &bending, &along);
+    const fw_verdict_way way =
+        fw_verdict_way_of(k, bending, along, fw_verdict_bending_share(v->motion[i]));
+    fw_dynamics_motion_options o = *given;
+    fw_verdict_strain_monitor monitor;
+    fw_probe_monitor *probe[2];
+    const fw_dynamics_motion *x;
+    const fw_statics_stability *falls = NULL;
+    fw_diags own = fw_diags_new(arena);
+    FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
+    FW_TRY(required->watch(arena, m, i, v, true, probe));
+    monitor.probe = probe[0];
+    o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    o.within_limits = true, o.hopeless_rhs = hopeless, o.effects.along = way.along;
+    o.whole = probe[0] != NULL, o.trace = probe[0] ? fw_verdict_clearance_trace : NULL;
+    FW_TRY(fw_statics_move_stiffer(arena, m, s, way.stiffer, v->motion[i], &o, &x));
+    if (monitor.no_memory || (probe[0] && probe[0]->no_memory)) return FW_NOMEM;
+    const bool found = x && !x->ended;
+    if (found) FW_TRY(fw_statics_stability_find(arena, m, s, x, &own, &falls, NULL));
+    if (!found || falls) {
+        if (!*told) FW_TRY(tell_lost(arena, s, i, bending, along, &way, found, v));
+        *told = true;
+        return FW_OK;
+    }
+    memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
+    fw_verdict_farthest(m, x, h->now), hold_run(m, &monitor, h);
+    if (probe[0]) FW_TRY(required->take_in(m, i, x, probe[0], way.gives, v));
+    return FW_OK;
+}
+
+fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
+                                 const fw_dynamics_motion_options *options,
+                                 const fw_verdict_required *required,
+                                 fw_verdict_variant_verdict *v) {
+    const fw_dynamics_motion *x = v->motion[i];
+    const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
+    if (!fw_verdict_grows(v, i) || nh == 0 || x->ended || !x->observed) return FW_OK;
+    hold h = {.saw = x->observed, .more = 1};
+    bool told = false;
+    FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
+    h.now = h.far + n, h.f = v->shaken[i].grown = h.now + n;
+    for (size_t k = 0; k < 2 * nh + 2; k++)
+        h.f[k] = 1;
+    fw_verdict_farthest(m, x, h.far);
+    const bool pins = x->ledger.hinge.used == FW_HINGE_REVOLUTE; /* which have nothing along */
+    for (int k = 0; k < (pins ? 2 : FW_VERDICT_WAYS); k++)
+        FW_TRY(grown_way(arena, m, i, k, options, &h, required, v, &told));
     return FW_OK;
 }
 
@@ -544,43 +582,4 @@ bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene) {
     for (int k = 0; k < v->nhinge; k++)
         if (v->used[(size_t)k * columns + (size_t)scene] > unused) return false;
     return !goes(m, motion, arm_m);
-}
-
-/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
-static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
-    for (int k = 0; k < v->nrequirement; k++) {
-        const fw_verdict_requirement *r = &v->requirement[k];
-        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
-        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
-    }
-    return fw_text_end(list);
-}
-
-fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
-                                const fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    int ran = 0, still = 0, first = FW_NONE;
-    bool told = false;
-    for (int i = 0; i < d->nscene; i++) {
-        fw_text met = fw_text_new(arena);
-        ran += v->motion[i] != NULL;
-        if (!fw_verdict_stands_still(v, i)) continue;
-        if (still++ == 0) first = i;
-        FW_TRY(met_there(v, i, &met));
-        if (met.length) told = true;
-        if (met.length)
-            fw_diag_warning(
-                diags, 655, d->scene[i].place,
-                "nothing moves in %s%s: what is required there of %s is met by a device that "
-                "does nothing; give the scene what drives the device",
-                FW_NAMED("scene", d->scene[i].name), met.data);
-    }
-    if (ran > 0 && still == ran && !told && !v->workspace.required)
-        fw_diag_warning(
-            diags, 655, d->scene[first].place,
-            "nothing moves in %s: that no hinge is strained says nothing of what the device "
-            "bears (a study's governing.utilisation likewise); give a scene what drives it",
-            ran > 1 ? "any scene"
-                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
-    return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -70,28 +70,51 @@ static fw_status pull_times(fw_arena *arena, double times, fw_device_scene *scen
     return FW_OK;
 }
 
-/* of stiffnesses */
-static double gives_more(const fw_mechanism *m, const fw_statics_modes *modes,
-                         const fw_verdict_variant_verdict *v) {
+/* of stiffnesses, by flexures alone */
+static double gives_more(const fw_mechanism *m, const fw_statics_modes *modes) {
     double most = 0;
     for (int k = 0; k < m->nhinge; k++)
         if (!m->hinge[k].stated) most = fmax(most, m->hinge[k].closed_form.error.stiffness);
-    return most + 2 * (m->nhinge > 0 ? modes->ledger.hinge.error : 0) +
-           fw_verdict_bending_of_any(v);
+    return most + 2 * (m->nhinge > 0 ? modes->ledger.hinge.error : 0);
 }
 
-static const char *no_equilibrium(fw_arena *arena, double e, double missing, int which) {
+/* the ways in which flexures are looked at; ways.n of them */
+typedef struct ways {
+    fw_verdict_way of[FW_VERDICT_WAYS];
+    int n;
+    double off; /* by which they are */
+} ways;
+
+static ways ways_of(const fw_mechanism *m, int scene, const fw_statics_modes *modes,
+                    const fw_verdict_variant_verdict *v) {
+    const double flexures = gives_more(m, modes), gives = fw_verdict_bending_of_any(v),
+                 e = flexures + gives;
+    if (!fw_verdict_grows(v, scene))
+        return (ways){.of = {{.stiffer = 1 / (1 + e) - 1}, {.stiffer = e}}, .n = 2, .off = e};
+    ways w = {.n = FW_VERDICT_WAYS};
+    double bending, along;
+    fw_verdict_off_by_itself(m, &bending, &along);
+    const double step = 2 * (m->nhinge > 0 ? modes->ledger.hinge.error : 0);
+    for (int k = 0; k < w.n; k++)
+        w.of[k] = fw_verdict_way_of(k, bending + step, along, gives);
+    w.off = isfinite(e) ? fmax(e, fmax(bending + step, along)) : e;
+    return w;
+}
+
+static const char *no_equilibrium(fw_arena *arena, const ways *w, double missing, int which) {
     char off[32], part[32];
-    return fw_arena_printf(
-        arena,
-        "with flexures and bodies %s by the %s %% that they may be off%s%s%s no stable equilibrium "
-        "was found, so that the device may have snapped: keep away from there",
-        which % 2 ? "stiffer" : "softer", fw_number_text(off, sizeof off, 100 * e, 2),
-        which > 1 ? ", and electrodes that pull by " : "",
-        which > 1 ? fw_number_text(part, sizeof part, 100 * missing, 2) : "",
-        which > 3   ? " % less,"
-        : which > 1 ? " % more,"
-                    : "");
+    return fw_arena_printf(arena,
+                           "with flexures and bodies %s%s by the %s %% that they may be off%s%s%s "
+                           "no stable equilibrium "
+                           "was found, so that the device may have snapped: keep away from there",
+                           w->of[which % w->n].stiffer > 0 ? "stiffer" : "softer",
+                           w->n > 2 ? " in bending, and along themselves another way," : "",
+                           fw_number_text(off, sizeof off, 100 * w->off, 2),
+                           which >= w->n ? ", and electrodes that pull by " : "",
+                           which >= w->n ? fw_number_text(part, sizeof part, 100 * missing, 2) : "",
+                           which >= 2 * w->n ? " % less,"
+                           : which >= w->n   ? " % more,"
+                                             : "");
 }
 
 fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
@@ -100,26 +123,28 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
                                  fw_verdict_small_others *to) {
     *to = (fw_verdict_small_others){0};
     if (scene == FW_NONE || !modes) return FW_OK;
-    const double e = gives_more(m, modes, v), missing = fw_verdict_pull_missing(v, scene);
-    if (!isfinite(e)) return FW_OK; /* bands have no ends then */
+    const ways w = ways_of(m, scene, modes, v);
+    const double missing = fw_verdict_pull_missing(v, scene);
+    if (!isfinite(w.off)) return FW_OK; /* bands have no ends then */
     const int pulls = !(missing > 0) ? 1 : fw_effects_levitation_may_be(m) ? 3 : 2;
     fw_device_scene now[3] = {*of, *of, *of}; /* as it is, more, less */
     FW_TRY(pull_times(arena, 1 + missing, &now[1]));
     FW_TRY(pull_times(arena, 1 / (1 + missing), &now[2]));
-    for (int k = 0; k < 2 * pulls; k++) {
+    for (int k = 0; k < w.n * pulls; k++) {
         fw_statics_mode_options o = *given;
         fw_diags own = fw_diags_new(arena);
         o.effects.hinge = modes->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
-        o.effects.stiffer = k % 2 ? e : 1 / (1 + e) - 1;
+        o.effects.stiffer = w.of[k % w.n].stiffer, o.effects.along = w.of[k % w.n].along;
         const fw_statics_modes *found = NULL;
-        const fw_status status = fw_statics_small_motions(arena, m, &now[k / 2], &o, &own, &found);
+        const fw_status status =
+            fw_statics_small_motions(arena, m, &now[k / w.n], &o, &own, &found);
         if (status == FW_NOMEM || status == FW_CANCELLED) return status;
         const bool stands = status == FW_OK && found &&
                             !(found->count > 0 && found->mode[0].kind == FW_MODE_UNSTABLE);
         if (stands)
             to->modes[to->count++] = found;
         else if (!to->lost)
-            FW_NEED(to->lost = no_equilibrium(arena, e, missing, k));
+            FW_NEED(to->lost = no_equilibrium(arena, &w, missing, k));
     }
     return FW_OK;
 }
@@ -321,6 +346,62 @@ fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
         if (!v->requirement[k].measure && v->requirement[k].scene_index == scene)
             v->requirement[k].why = "loads are at an extreme at more instants of its scene than "
                                     "are looked at; put parts of it into scenes of their own";
+    return FW_OK;
+}
+
+/* ---- where a motion comes to rest ----
+   In: the course of a probe that was kept, the loads as they are at the scene's end. Out: the equilibrium under these, where
+   the course ends about it; where loads go on, friction holds it anywhere within a range, or none is found, the middle of what the
+   course goes over in the last period of the slowest mode, off by half of that. The value at the last instant is neither:
+   where a scene ends it may be anywhere in its ring. Cost: modes and an equilibrium. Test: test_probe.py,
+   test_a_settling_time_does_not_go_with_the_length_of_a_scene */
+
+/* NaN: none is found, or it is one of many */
+static fw_status equilibrium_at(fw_arena *arena, const fw_mechanism *m, int scene,
+                                const fw_dynamics_motion *motion, int probe, double *at) {
+    const fw_device_scene *s = &m->device->scene[scene];
+    const fw_statics_static_options o = {.effects.hinge = motion->ledger.hinge.used,
+                                         .effects.untold = true};
+    const fw_statics *found = NULL;
+    fw_diags own = fw_diags_new(arena);
+    fw_probe *bound;
+    *at = (double)NAN;
+    const fw_status status = fw_statics_solve(arena, m, s, &o, &own, &found);
+    if (status == FW_CANCELLED || status == FW_NOMEM) return status;
+    if (status != FW_OK || !found || found->negative > 0 || found->loose ||
+        (found->friction && !found->friction->why))
+        return FW_OK;
+    FW_TRY(fw_probe_bind(arena, m, s, found->loads, &bound));
+    *at = fw_probe_at_equilibrium(&bound[probe], s, found);
+    return FW_OK;
+}
+
+fw_status fw_verdict_rests_at(const fw_mechanism *m, int scene, const fw_dynamics_motion *motion,
+                              const fw_probe_monitor *monitor, const fw_device_requirement *q,
+                              fw_verdict_rest *rest) {
+    const fw_probe_course *c = &monitor->course[q->probe];
+    double low, high, at;
+    *rest = (fw_verdict_rest){.at = c->final};
+    if (motion->loads && motion->loads->quasi_static) return FW_OK;
+    FW_TRY(fw_verdict_slowest_s(monitor->arena, m, scene, &rest->period_s));
+    if (!(rest->period_s > 0))
+        rest->period_s = motion->end_s; /* nothing says how slowly it swings */
+    const double goes_on_s = fw_verdict_laws_go_on_s(m, &m->device->scene[scene]);
+    rest->period_s = fmax(rest->period_s, goes_on_s);
+    fw_probe_range(c, motion->end_s - rest->period_s, &low, &high);
+    if (goes_on_s > 0)
+        at = (double)NAN; /* no one instant's equilibrium is where it comes to rest */
+    else
+        FW_TRY(equilibrium_at(monitor->arena, m, scene, motion, q->probe, &at));
+    const double beyond = fmax(0, fmax(low - at, at - high));
+    if (isnan(at)) {
+        rest->at = 0.5 * (low + high), rest->off = 0.5 * (high - low);
+    } else if (beyond <= fmax(high - low, 0.1 * q->band)) {
+        rest->at = at, rest->off = beyond > high - low ? beyond : 0;
+    } else {
+        rest->why = "the scene ends away from the equilibrium under its last loads, and not about "
+                    "another one that is known: give the scene a longer duration";
+    }
     return FW_OK;
 }
 

@@ -473,7 +473,8 @@ void fw_verdict_requirement_factor(const double *factor, int nhinge, double most
 
 /* v->shaken; warnings, and a reason where what does not meet may then meet */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
-                            const fw_dynamics_motion_options *options, bool brief, fw_diags *diags,
+                            const fw_dynamics_motion_options *options,
+                            const fw_verdict_required *required, bool brief, fw_diags *diags,
                             fw_verdict_variant_verdict *v) {
     const double told = 1.1;
     const fw_device *d = m->device;
@@ -496,10 +497,13 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
                              fw_verdict_motion_model_error(m, v->motion[i]);
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
         }
-        if (f[2 * nh + 1] < 1) may_not_meet(v, i, f[2 * nh + 1]);
-        FW_TRY(may_meet(arena, i, f[2 * nh], v));
+        FW_TRY(fw_verdict_grown_again(arena, m, i, options, required, v));
+        const double *g = v->shaken[i].grown, far = f[2 * nh] * (g ? g[2 * nh] : 1),
+                     near = f[2 * nh + 1] * (g ? g[2 * nh + 1] : 1);
+        if (near < 1) may_not_meet(v, i, near);
+        FW_TRY(may_meet(arena, i, far, v));
         FW_TRY(may_ring(arena, i, v));
-        may_come_near(i, f[2 * nh], ways, v);
+        may_come_near(i, far, ways * (g ? g[2 * nh] : 1), v);
         most = largest_of(f, 2 * nh + 2);
         if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
@@ -535,6 +539,7 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
         of->other[0].probe = of->other[1].probe = NULL;
         const size_t n = (size_t)of->n, loads = (size_t)of->nload;
         KEEP(of->factor, 2 * h);
+        KEEP(of->grown, 2 * h);
         if (n == 0) continue;
         KEEP(of->mode, n);
         KEEP(of->load, loads);
@@ -549,4 +554,43 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
 #undef KEEP
     *kept = to;
     return FW_OK;
+}
+
+/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
+static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
+    for (int k = 0; k < v->nrequirement; k++) {
+        const fw_verdict_requirement *r = &v->requirement[k];
+        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
+        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
+    }
+    return fw_text_end(list);
+}
+
+fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
+                                const fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    int ran = 0, still = 0, first = FW_NONE;
+    bool told = false;
+    for (int i = 0; i < d->nscene; i++) {
+        fw_text met = fw_text_new(arena);
+        ran += v->motion[i] != NULL;
+        if (!fw_verdict_stands_still(v, i)) continue;
+        if (still++ == 0) first = i;
+        FW_TRY(met_there(v, i, &met));
+        if (met.length) told = true;
+        if (met.length)
+            fw_diag_warning(
+                diags, 655, d->scene[i].place,
+                "nothing moves in %s%s: what is required there of %s is met by a device that "
+                "does nothing; give the scene what drives the device",
+                FW_NAMED("scene", d->scene[i].name), met.data);
+    }
+    if (ran > 0 && still == ran && !told && !v->workspace.required)
+        fw_diag_warning(
+            diags, 655, d->scene[first].place,
+            "nothing moves in %s: that no hinge is strained says nothing of what the device "
+            "bears (a study's governing.utilisation likewise); give a scene what drives it",
+            ran > 1 ? "any scene"
+                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
+    return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -232,7 +232,6 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
 }
 
 /* a hinge that has turned once, or to several times its limit, is past it: the rest of the scene is not needed */
-
 static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *motion,
                        fw_diags *diags) {
     char t[32], turned[32];
@@ -397,9 +396,9 @@ static fw_verdict_hinge_verdict blank_verdict(const judged *by) {
                                       .cycles = (double)NAN};
 }
 
-/* by what a mode that lies elsewhere may do more or less */
+/* by what a mode that lies elsewhere, or what the layer presses, may do more or less; NULL: nothing */
 static void widen(const double factor[2], fw_verdict_hinge_verdict *h) {
-    const double up = factor[0] - 1, down = 1 - factor[1];
+    const double up = factor ? factor[0] - 1 : 0, down = factor ? 1 - factor[1] : 0;
     if (!(up > 0) && !(down > 0)) return;
     h->utilisation_high += h->utilisation * up, h->lasting += up;
     h->utilisation_low *= factor[1], h->lasting_low += down;
@@ -419,10 +418,12 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
     for (int i = 0; i < device->nscene; i++) {
         if (!v->motion[i]) continue;
         fw_verdict_hinge_verdict now = blank;
-        const fw_verdict_strain_monitor *observed =
-            v->motion[i]->observed ? v->motion[i]->observed : &monitor[i];
-        FW_TRY(judge_scene(arena, by, v->motion[i], observed, k, device->scene[i].name, &now));
+        const fw_verdict_strain_monitor *saw = v->motion[i]->observed;
+        const double *grown = v->shaken[i].grown;
+        FW_TRY(judge_scene(arena, by, v->motion[i], saw ? saw : &monitor[i], k,
+                           device->scene[i].name, &now));
         widen(v->shaken[i].factor + 2 * k, &now);
+        widen(grown ? grown + 2 * k : NULL, &now);
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
@@ -533,8 +534,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
                              fw_diags *diags, fw_verdict_variant_verdict *v) {
     v->mechanism = m;
     v->governing = FW_NONE;
-    v->nreason = 0;
-    v->bent = false;
+    v->nreason = 0, v->bent = false;
     v->nhinge = m->nhinge;
     FW_NEED(v->hinge = fw_arena_array(arena, fw_verdict_hinge_verdict, (size_t)m->nhinge));
     size_t rows = (size_t)m->nhinge * ((size_t)device->nscene + 1);
@@ -553,7 +553,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     for (int i = 0; i < device->nscene; i++)
         bodies[i] = fw_verdict_bending_share(v->motion[i]);
     FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
-    FW_TRY(fw_verdict_detune(arena, m, bodies, &options->motion, brief, diags, v));
+    FW_TRY(fw_verdict_detune(arena, m, bodies, &options->motion, &fw_verdict_required_of_scenes,
+                             brief, diags, v));
     fw_verdict_bent_leaves_open(v, 0);
     if (!options->hinges_only)
         FW_TRY(fw_verdict_stiction_judge(arena, m, brief || options->bounded, v));
@@ -565,7 +566,6 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
                                       is_brief(options, v) || options->bounded, v));
     if (!brief) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
-
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *hinge = &m->hinge[k];
         const judged by = {.m = m,

@@ -29,7 +29,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 14 }; /* of one scene at most, contacts apart */
+enum { FW_REASONS = 15 }; /* of one scene at most, contacts apart */
 /* of one flow at most */
 size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 
@@ -158,7 +158,7 @@ fw_status fw_verdict_rests_at(const fw_mechanism *mechanism, int scene,
                               const fw_device_requirement *requirement, fw_verdict_rest *rest);
 /* moved_again.c: nothing moves in a scene; of v->used what is filled so far */
 bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene);
-/* moved_again.c: warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
+/* resonance.c: warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
 fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
                                 const fw_verdict_variant_verdict *v);
 /* text NULL: FW_NOMEM. keep: share of the scene's loads that would do, held between 0.001 and 0.99 */
@@ -203,6 +203,9 @@ struct fw_verdict_shaken {
     /* (2 x (nhinge + 1)) on what bends each hinge, last on what moves: upwards >= 1, downwards <= 1 */
     double *factor;
     double late; /* what of a largest way may be there at the end besides, for phases run apart */
+    /* (2 x (nhinge + 1)) likewise where the layer's own strain presses or pulls flexures, last on what moves: requirements
+       have their own there (fw_verdict_grown_again); NULL: it does not */
+    double *grown;
     /* the same on what is required, by the most of them, without what the motions of `other` have */
     double required[2], required_late;
     double nearer_m, kept; /* of electrodes, in these; share of a gap as computed, 0: not asked */
@@ -231,12 +234,40 @@ fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, i
 fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
                               const fw_dynamics_motion_options *options, bool brief,
                               fw_diags *diags, fw_verdict_variant_verdict *v);
+/* verdict_requirement.c: who moves a scene again looks at what is required of it, and bands take in what that motion
+   has; gives: bodies do in it */
+typedef struct fw_verdict_required {
+    fw_status (*watch)(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                       const fw_verdict_variant_verdict *v, bool required,
+                       fw_probe_monitor *monitor[2]);
+    fw_status (*take_in)(const fw_mechanism *mechanism, int scene, const fw_dynamics_motion *other,
+                         const fw_probe_monitor *monitor, bool gives,
+                         fw_verdict_variant_verdict *v);
+} fw_verdict_required;
+extern const fw_verdict_required fw_verdict_required_of_scenes;
+/* verdict_strain.c: the layer of a scene grows or shrinks by itself, so that what flexures are off by in bending and along
+   themselves counts each by itself. Of the four ways k to combine them: what all of a flexure's stiffness is more by, and
+   what that along itself is more by besides; gives: share that bodies give */
+bool fw_verdict_grows(const fw_verdict_variant_verdict *v, int scene);
+enum { FW_VERDICT_WAYS = 4 };
+typedef struct fw_verdict_way {
+    double stiffer, along;
+    bool gives; /* bodies do, in it */
+} fw_verdict_way;
+void fw_verdict_off_by_itself(const fw_mechanism *mechanism, double *bending, double *along);
+fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double gives);
+/* moved_again.c: moves such a scene again in all four: hinges, ways (v->shaken[scene].grown) and requirements have it in their bands; what
+   does not stand then is undecided (FW-D699) */
+fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                                 const fw_dynamics_motion_options *options,
+                                 const fw_verdict_required *required,
+                                 fw_verdict_variant_verdict *v);
 /* most of a pull that may be missing in a scene (fw_effects_comb_fringe), relative; 0: no electrodes act */
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
 /* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with the pull as
    it may be; without a scene there are none */
 typedef struct fw_verdict_small_others {
-    const fw_statics_modes *modes[6]; /* (count) */
+    const fw_statics_modes *modes[3 * FW_VERDICT_WAYS]; /* (count) */
     int count;
     const char *lost; /* a clause: one of them is not there; NULL: all are */
 } fw_verdict_small_others;
@@ -265,7 +296,8 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *mechanism
 /* v->shaken, whose factors are 1 where no law goes to and fro and loads leave most of the stiffness; bodies (nscene): share
    that they give (fw_verdict_bending_share). Warnings (FW-D642, FW-D672), and what may meet then, or may not, is undecided */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,
-                            const fw_dynamics_motion_options *options, bool brief, fw_diags *diags,
+                            const fw_dynamics_motion_options *options,
+                            const fw_verdict_required *required, bool brief, fw_diags *diags,
                             fw_verdict_variant_verdict *v);
 /* factors (2 x (nhinge + 1)) and `late` for modes that lie anywhere between their low and high, at other stiffnesses */
 fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *mechanism, int scene,
@@ -317,6 +349,8 @@ fw_status fw_verdict_requirements_list(fw_arena *arena, const fw_mechanism *mech
 fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                         const fw_verdict_variant_verdict *v, bool required,
                                         fw_probe_monitor *monitor[2]);
+/* decision.c: which bound is the trouble: the one that the band reaches over, of both the nearer one */
+bool fw_verdict_requirement_below(const fw_verdict_requirement *r);
 /* "stroke (final) is 47.9 um (46.7 um to 49 um), and at least 40 um is required" */
 const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r);
 /* of a motion that was made and seen by these: v->probed and its requirements */

@@ -319,6 +319,54 @@ static void judge_ended(fw_device_measure measure, fw_verdict_requirement *r) {
     r->why = scene_ended;
 }
 
+/* Another motion of the scene, with what is left of the band once what flexures are off by is out of it, and what bodies
+   give where they do in `other` */
+static fw_status take_in(const fw_mechanism *m, const fw_dynamics_motion *motion,
+                         const fw_dynamics_motion *other, const fw_probe_monitor *monitor,
+                         const fw_probe_result *p, const fw_probe_result *now, bool gives,
+                         fw_verdict_requirement *r) {
+    const fw_device_measure measure = m->device->requirement[r->asked].measure;
+    const bool across = measure == FW_MEASURE_PARASITIC, time = measure == FW_MEASURE_SETTLING;
+    const int probe = m->device->requirement[r->asked].probe;
+    const double left = model_of(m, motion, across ? p->across_level : p->level) +
+                        fw_verdict_places_error(motion, &m->device->probe[probe]) -
+                        fw_verdict_motion_lasting_error(m) -
+                        (gives ? fw_verdict_bending_share(motion) : 0);
+    fw_verdict_requirement then = *r;
+    if (time)
+        FW_TRY(put_settling(m, other, monitor, now, &then));
+    else
+        judge(m, other, now, false, &then);
+    const double off = r->numeric + (time ? 0 : fmax(0, left) * then.swing),
+                 least = r->low >= 0 && r->value >= 0 && isnan(r->origin) ? 0 : -HUGE_VAL;
+    then.low = then.value - off, then.high = then.open ? HUGE_VAL : then.value + off;
+    if (measure == FW_MEASURE_FINAL) FW_TRY(put_ring(m, other, monitor, now, &then));
+    if (time && then.open) r->open = then.open;
+    const double low = fmin(r->low, fmax(least, then.low)), high = fmax(r->high, then.high);
+    if (r->value != 0) r->lasting += fmax(r->low - low, high - r->high) / fabs(r->value);
+    r->low = low, r->high = high;
+    fw_verdict_requirement_decide(r);
+    return FW_OK;
+}
+
+static fw_status take_in_motion(const fw_mechanism *m, int scene, const fw_dynamics_motion *other,
+                                const fw_probe_monitor *monitor, bool gives,
+                                fw_verdict_variant_verdict *v) {
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        const int probe = m->device->requirement[r->asked].probe;
+        const fw_probe_result *p = &v->probed[scene * m->device->nprobe + probe];
+        fw_probe_result now;
+        if (r->scene_index != scene || !r->measure || r->why) continue;
+        fw_probe_result_of(monitor, NULL, other, probe, &now);
+        if (now.known) FW_TRY(take_in(m, v->motion[scene], other, monitor, p, &now, gives, r));
+    }
+    return FW_OK;
+}
+
+const fw_verdict_required fw_verdict_required_of_scenes = {fw_verdict_requirements_watch,
+                                                           take_in_motion};
+
 fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
                                            const fw_probe_monitor *monitor,
                                            const fw_probe_monitor *looser,
@@ -462,62 +510,12 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
 
 /* ---- reasons ---- */
 
-/* which bound is the trouble: the one that the band reaches over, of both the nearer one */
-static bool is_below(const fw_verdict_requirement *r) {
-    bool under = r->low<r->min, over = r->high> r->max;
-    if (under && over) return r->value - r->min < r->max - r->value;
-    return under || (!over && !isnan(r->min));
-}
-
-const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r) {
-    char value[FW_PROBE_TEXT], low[FW_PROBE_TEXT], high[FW_PROBE_TEXT], bound[FW_PROBE_TEXT];
-    bool below = is_below(r);
-    const char *of = r->measure ? r->measure : r->kind;
-    fw_probe_text(bound, below ? r->min : r->max, r->unit);
-    if (r->why)
-        return fw_arena_printf(arena, "what is required of %s (%s, at %s %s) is not known: %s",
-                               r->probe, of, isnan(r->min) ? "most" : "least",
-                               fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
-                               r->why);
-    if (r->open && r->decision != FW_REJECT)
-        return fw_arena_printf(arena,
-                               "%s (%s) is %s, and at %s %s is required, but what that may be off "
-                               "by is not known: %s",
-                               r->probe, of, fw_probe_text(value, r->value, r->unit),
-                               below ? "least" : "most", bound, r->open);
-    fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);
-    const char *all = "";
-    if (below ? r->all_low < r->low : r->all_high > r->high) { /* on the side that is asked for */
-        char end[FW_PROBE_TEXT];
-        fw_probe_text(end, below ? r->all_low : r->all_high, r->unit);
-        if (!fw_text_same(end, below ? low : high))
-            all = fw_arena_printf(arena, "; no corner of the flow is %s %s",
-                                  below ? "below" : "above", end);
-        if (!all) return NULL;
-    }
-    char rings[FW_PROBE_TEXT], when[FW_PROBE_TEXT];
-    const char *still =
-        r->rings > 0
-            ? fw_arena_printf(
-                  arena,
-                  " of a motion that has not come to rest (where it ends it still goes to and fro "
-                  "by %s to either side: a longer scene or damping, <air> or <material-damping>, "
-                  "lets it settle)",
-                  fw_probe_text(rings, r->rings, r->unit))
-            : "";
-    if (!still) return NULL;
-    return fw_arena_printf(arena, "%s (%s) is %s%s (%s to %s%s), and at %s %s is required%s",
-                           r->probe, of, fw_probe_text(value, r->value, r->unit),
-                           fw_probe_when(when, r->measure ? (double)NAN : r->t_s), low, high, all,
-                           below ? "least" : "most", bound, still);
-}
-
 /* A min of a motion wants more of it: neither less load nor stiffer flexures help, unless its scene was ended. What is
    of an equilibrium does not go with loads; of a compliance a min wants thinner flexures. */
 static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_verdict_requirement *r,
                             fw_verdict_variant_verdict *v) {
     const fw_device_probe *p = &m->device->probe[m->device->requirement[r->asked].probe];
-    bool min = is_below(r);
+    bool min = fw_verdict_requirement_below(r);
     bool softer = r->measure ? min : (p->row == FW_PROBE_IS_compliance) == min;
     const bool ended = r->why == scene_ended;
     double used = r->utilisation_high > 0 ? r->utilisation_high : 2;

@@ -3,6 +3,7 @@
    beam, and on two neighbouring levels of hinges. */
 #include "effects/effects.h"
 #include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "verdict/verdict.h"
@@ -506,4 +507,30 @@ void fw_verdict_touch_record(fw_verdict_strain_monitor *monitor, const fw_dynami
                         : (double)INFINITY;
         t->least_m = now ? fmin(t->least_m, t->last_m) : (double)INFINITY;
     }
+}
+
+/* ---- what flexures are off by in bending and along themselves, each by itself (moved_again.c) ---- */
+
+bool fw_verdict_grows(const fw_verdict_variant_verdict *v, int scene) {
+    return v->motion && scene != FW_NONE && v->motion[scene] &&
+           fw_effects_has_growth(v->motion[scene]->loads);
+}
+
+/* a leaf bends as it turns and as its ends go across it, and its stiffness along is its own; of others all is bending */
+void fw_verdict_off_by_itself(const fw_mechanism *m, double *bending, double *along) {
+    *bending = *along = 0;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_mechanism_hinge *h = &m->hinge[k];
+        const fw_flexure_error *e = &h->closed_form.error;
+        const bool leaf = h->law.half_angle_rad == 0 && !h->law.table;
+        *bending = fmax(*bending, fmax(h->stated ? 0 : e->stiffness, leaf ? e->kx : 0));
+        *along = fmax(*along, leaf ? e->ky : fmax(e->kx, e->ky));
+    }
+}
+
+fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double gives) {
+    const bool bends = k == 0 || k == 2, gave = k == 1 || k == 2;
+    const double bent = bends ? 1 / (1 + bending) : 1 + bending, left = 1 / (1 + gives),
+                 strip = gave ? left / (1 + along) : 1 + along, all = k == 2 ? left * bent : bent;
+    return (fw_verdict_way){.stiffer = all - 1, .along = strip / all - 1, .gives = gave};
 }

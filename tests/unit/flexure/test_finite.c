@@ -356,6 +356,25 @@ static fw_flexure_input real_root(double angle_rad, double width_m) {
                               .safety_factor = 1};
 }
 
+/* a leaf is stiffer along its strip (y) and bends as before; an arc bends and stretches less, and turns as before */
+static void stiffer_along_itself(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    assert_non_null(arena);
+    const double half[2] = {0, 1.1}, by = 1.25;
+    for (int i = 0; i < 2; i++) {
+        fw_flexure_hinge_law law = example(half[i]);
+        fw_flexure_hinge_at was, now;
+        fw_flexure_hinge_law_at(&law, 0, &was);
+        assert_int_equal(fw_flexure_hinge_law_along(arena, &law, by), FW_OK);
+        fw_flexure_hinge_law_at(&law, 0, &now);
+        assert_relative(now.ky_N_per_m.value, by * was.ky_N_per_m.value, 1e-12);
+        assert_relative(now.kx_N_per_m.value, (i ? by : 1) * was.kx_N_per_m.value, 1e-12);
+        assert_relative(law.stiffness_Nm_per_rad, 1e-6, 1e-12);
+    }
+    fw_arena_free(arena);
+}
+
 /* with real roots: forces against 3-D finite elements of H1 and H2 (N/m), and the drift, less what
    the printed centre was off by (um) */
 static void against_finite_elements(void **state) {
@@ -392,6 +411,7 @@ int main(void) {
         cmocka_unit_test(error_goes_with_the_square_of_the_force),
         cmocka_unit_test(at_rest),
         cmocka_unit_test(against_finite_elements),
+        cmocka_unit_test(stiffer_along_itself),
     };
     return cmocka_run_group_tests_name("finite", tests, NULL, NULL);
 }
