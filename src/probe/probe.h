@@ -178,6 +178,9 @@ typedef struct fw_probe_ring {
 fw_status fw_probe_rings(fw_arena *arena, const fw_probe *p, const fw_dynamics_motion *motion,
                          double slowest_s, fw_probe_ring *ring);
 
+/* least and largest of a course that was kept, from an instant on, its last two instants at the least */
+void fw_probe_range(const fw_probe_course *course, double from_s, double *low, double *high);
+
 /* Time after which the probe stays within `band` of `rest`: the last crossing, by the line between two instants. Of a course
    that was kept; 0: it never left */
 double fw_probe_settling_s(const fw_probe_course *course, double rest, double band);

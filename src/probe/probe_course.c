@@ -249,6 +249,12 @@ double fw_probe_monitor_unsettled(const fw_probe_monitor *tighter, const fw_prob
 
 /* ---- settling ---- */
 
+void fw_probe_range(const fw_probe_course *c, double from_s, double *low, double *high) {
+    *low = *high = c->final;
+    for (size_t i = c->kept; i-- > 0 && (c->time[i] >= from_s || i + 2 >= c->kept);)
+        *low = fmin(*low, c->value[i]), *high = fmax(*high, c->value[i]);
+}
+
 double fw_probe_settling_s(const fw_probe_course *c, double rest, double band) {
     for (size_t i = c->kept; i-- > 0;) {
         double off = fabs(c->value[i] - rest) - band;

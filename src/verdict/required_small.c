@@ -356,13 +356,6 @@ fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
    where a scene ends it may be anywhere in its ring. Cost: modes and an equilibrium. Test: test_probe.py,
    test_a_settling_time_does_not_go_with_the_length_of_a_scene */
 
-/* least and largest of the last span of a course, its last two instants at the least */
-static void range_of(const fw_probe_course *c, double from_s, double *low, double *high) {
-    *low = *high = c->final;
-    for (size_t i = c->kept; i-- > 0 && (c->time[i] >= from_s || i + 2 >= c->kept);)
-        *low = fmin(*low, c->value[i]), *high = fmax(*high, c->value[i]);
-}
-
 /* NaN: none is found, or it is one of many */
 static fw_status equilibrium_at(fw_arena *arena, const fw_mechanism *m, int scene,
                                 const fw_dynamics_motion *motion, int probe, double *at) {
@@ -395,7 +388,7 @@ fw_status fw_verdict_rests_at(const fw_mechanism *m, int scene, const fw_dynamic
         rest->period_s = motion->end_s; /* nothing says how slowly it swings */
     const double goes_on_s = fw_verdict_laws_go_on_s(m, &m->device->scene[scene]);
     rest->period_s = fmax(rest->period_s, goes_on_s);
-    range_of(c, motion->end_s - rest->period_s, &low, &high);
+    fw_probe_range(c, motion->end_s - rest->period_s, &low, &high);
     if (goes_on_s > 0)
         at = (double)NAN; /* no one instant's equilibrium is where it comes to rest */
     else
@@ -427,12 +420,23 @@ static double measured(const fw_probe_course *c, const fw_device_requirement *q)
         return c->final;
     case FW_MEASURE_PEAK_TO_PEAK:
         return most - least;
-    case FW_MEASURE_SETTLING:
-        return fw_probe_settling_s(c, c->final, q->band);
+    case FW_MEASURE_SETTLING: /* settling */
+        break;
     case FW_MEASURE_PARASITIC:
         return fabs(c->across.value);
     }
     return (double)NAN;
+}
+
+/* from the middle of what it goes over in the last period of the slowest mode */
+static fw_status settling(const fw_mechanism *m, const fw_verdict_other *o,
+                          const fw_device_requirement *q, int scene, double *s) {
+    const fw_probe_course *c = &o->probe->course[q->probe];
+    double slowest_s, low, high;
+    FW_TRY(fw_verdict_slowest_s(o->probe->arena, m, scene, &slowest_s));
+    fw_probe_range(c, o->motion->end_s - slowest_s, &low, &high);
+    *s = fw_probe_settling_s(c, 0.5 * (low + high), q->band);
+    return FW_OK;
 }
 
 static bool goes_with_loads(const fw_device_probe *p, fw_device_measure measure) {
@@ -474,6 +478,7 @@ fw_status fw_verdict_requirement_others(const fw_mechanism *m, const fw_verdict_
         const fw_verdict_other *o = &s->other[k];
         if (!o->asked || o->lost || !o->probe || o->probe->course[q->probe].count == 0) continue;
         now[k] = measured(&o->probe->course[q->probe], q);
+        if (q->measure == FW_MEASURE_SETTLING) FW_TRY(settling(m, o, q, r->scene_index, &now[k]));
         if (goes_with_loads(of, q->measure)) now[k] /= o->by;
         FW_TRY(take_in(m, o, q, now[k], r));
     }
