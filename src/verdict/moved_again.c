@@ -21,22 +21,6 @@
 static const double fw_few_per_cent = 0.03, fw_hardly_turned = 1e-3; /* of what a hinge bears */
 static const double hardly_moves = 0.05;                             /* of the farthest way */
 
-/* s; 0: nothing swings */
-static fw_status longest_period(fw_arena *arena, const fw_mechanism *m,
-                                const fw_device_scene *scene, bool at_equilibrium,
-                                double *period_s) {
-    const fw_statics_mode_options o = {.accuracy = 1e-3, .at_equilibrium = at_equilibrium};
-    const fw_statics_modes *modes = NULL;
-    fw_diags own = fw_diags_new(arena);
-    *period_s = 0;
-    fw_status status = fw_statics_small_motions(arena, m, scene, &o, &own, &modes);
-    if (status == FW_CANCELLED || status == FW_NOMEM) return status;
-    for (int i = 0; status == FW_OK && modes && i < modes->count; i++)
-        if (modes->mode[i].omega_rad_per_s > 0)
-            *period_s = fmax(*period_s, 2 * FW_PI / modes->mode[i].omega_rad_per_s);
-    return FW_OK;
-}
-
 /* rad/s by which a hinge that is at its peak there turns on at the end; 0: it does not */
 static double turns_on(const fw_mechanism *m, const fw_dynamics_motion *x, int hinge) {
     const int pin = m->hinge[hinge].pin, a = m->pin[pin].body_a, b = m->pin[pin].body_b;
@@ -112,7 +96,7 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
     if (x->loads->quasi_static || x->ended || x->nsample < 1) return FW_OK;
     fw_dynamics_motion_rows(x, x->nsample - 1, 1);
     if (goes_on(m, x, (double)INFINITY) == FW_NONE) return FW_OK;
-    FW_TRY(longest_period(arena, m, scene, false, &period_s));
+    FW_TRY(fw_verdict_longest_period(arena, m, scene, false, &period_s));
     const int k = goes_on(m, x, period_s);
     if (k == FW_NONE) return FW_OK;
     FW_TRY(last_longer(arena, m, scene, x, period_s, options, &longer));
@@ -298,13 +282,15 @@ static fw_status tell_soft(fw_arena *arena, const fw_device_scene *s, double lef
 }
 
 fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, double e,
-                              const fw_dynamics_motion_options *options, bool brief,
-                              fw_diags *diags, fw_verdict_variant_verdict *v) {
+                              const fw_dynamics_motion_options *options,
+                              const fw_verdict_required *required, bool brief, fw_diags *diags,
+                              fw_verdict_variant_verdict *v) {
     const fw_device_scene *s = &m->device->scene[i];
     const fw_dynamics_motion *x = v->motion[i];
     const size_t n = 2 * (size_t)m->nbody + (size_t)m->nhinge;
     const double missing = fw_verdict_pull_missing(v, i);
-    const bool softly = v->left[i]<soft, less = missing> 0 && fw_effects_levitation_may_be(m);
+    const bool softly = soft > v->left[i];
+    const bool less = missing > 0 && fw_effects_levitation_may_be(m);
     fw_effects_load_scaling loads;
     fw_effects_find_loads(s, &loads);
     if (!(softly || missing > 0) || x->ended || loads.count == 0 || !(e > 0) || isinf(e))
@@ -313,7 +299,7 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     double *far = fw_arena_array(arena, double, 3 * n);
     fw_probe_monitor *probe[2];
     FW_NEED(now && far ? now : NULL);
-    FW_TRY(fw_verdict_requirements_watch(arena, m, i, v, true, probe));
+    FW_TRY(required->watch(arena, m, i, v, true, probe));
     now[0] = (once_more){.by = 1 + e, .pull = 1 + missing, .asked = true};
     now[1] = (once_more){
         .by = 1 / (1 + e), .pull = less ? 1 / (1 + missing) : 1, .asked = softly || less};
@@ -443,15 +429,6 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
         fw_number_text(off, sizeof off, 100 * e, 2), fw_number_text(fewest, sizeof fewest, down, 3),
         fw_number_text(most, sizeof most, up, 3));
     return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *m, int scene,
-                               double *period_s) {
-    double loaded_s;
-    FW_TRY(longest_period(arena, m, &m->device->scene[scene], false, period_s));
-    FW_TRY(longest_period(arena, m, &m->device->scene[scene], true, &loaded_s));
-    *period_s = fmax(*period_s, loaded_s);
-    return FW_OK;
 }
 
 /* ---- what the layer's own strain presses ----

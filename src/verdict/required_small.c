@@ -349,6 +349,32 @@ fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
     return FW_OK;
 }
 
+/* ---- the slowest mode ---- */
+
+fw_status fw_verdict_longest_period(fw_arena *arena, const fw_mechanism *m,
+                                    const fw_device_scene *scene, bool at_equilibrium,
+                                    double *period_s) {
+    const fw_statics_mode_options o = {.accuracy = 1e-3, .at_equilibrium = at_equilibrium};
+    const fw_statics_modes *modes = NULL;
+    fw_diags own = fw_diags_new(arena);
+    *period_s = 0;
+    fw_status status = fw_statics_small_motions(arena, m, scene, &o, &own, &modes);
+    if (status == FW_CANCELLED || status == FW_NOMEM) return status;
+    for (int i = 0; status == FW_OK && modes && i < modes->count; i++)
+        if (modes->mode[i].omega_rad_per_s > 0)
+            *period_s = fmax(*period_s, 2 * FW_PI / modes->mode[i].omega_rad_per_s);
+    return FW_OK;
+}
+
+fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *m, int scene,
+                               double *period_s) {
+    double loaded_s;
+    FW_TRY(fw_verdict_longest_period(arena, m, &m->device->scene[scene], false, period_s));
+    FW_TRY(fw_verdict_longest_period(arena, m, &m->device->scene[scene], true, &loaded_s));
+    *period_s = fmax(*period_s, loaded_s);
+    return FW_OK;
+}
+
 /* ---- where a motion comes to rest ----
    In: the course of a probe that was kept, the loads as they are at the scene's end. Out: the equilibrium under these, where
    the course ends about it; where loads go on, friction holds it anywhere within a range, or none is found, the middle of what the
@@ -490,6 +516,5 @@ fw_status fw_verdict_requirement_others(const fw_mechanism *m, const fw_verdict_
                   "was found";
     }
     if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
-    fw_verdict_requirement_decide(r);
     return FW_OK;
 }

@@ -495,7 +495,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         if (v->motion[i] && !fw_verdict_stands_still(v, i)) { /* ways of round-off have no ratio */
             const double e = fw_verdict_bending_counted(v->motion[i]) +
                              fw_verdict_motion_model_error(m, v->motion[i]);
-            FW_TRY(fw_verdict_softened(arena, m, i, e, options, brief, diags, v));
+            FW_TRY(fw_verdict_softened(arena, m, i, e, options, required, brief, diags, v));
         }
         FW_TRY(fw_verdict_grown_again(arena, m, i, options, required, v));
         const double *g = v->shaken[i].grown, far = f[2 * nh] * (g ? g[2 * nh] : 1),

@@ -145,12 +145,16 @@ fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechani
 
 /* ---- decision.c: what speaks against a scene; resonance.c: where a mode may lie elsewhere ---- */
 
-/* moved_again.c: where what a requirement's probe is of comes to rest under the loads that a scene ends with */
+/* required_small.c: where what a requirement's probe is of comes to rest under the loads that a scene ends with */
 typedef struct fw_verdict_rest {
     double at, off;  /* SI of the probe; it may be off by that */
     double period_s; /* of the slowest mode; 0: a sequence of equilibria, which does not ring */
     const char *why; /* it is not known: why; NULL: it is */
 } fw_verdict_rest;
+/* required_small.c: s; 0: nothing swings */
+fw_status fw_verdict_longest_period(fw_arena *arena, const fw_mechanism *mechanism,
+                                    const fw_device_scene *scene, bool at_equilibrium,
+                                    double *period_s);
 fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                double *period_s); /* at rest or as loaded; 0: nothing swings */
 fw_status fw_verdict_rests_at(const fw_mechanism *mechanism, int scene,
@@ -229,11 +233,6 @@ fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const f
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);
-/* moved_again.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672),
-   and where electrodes may pull otherwise */
-fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
-                              const fw_dynamics_motion_options *options, bool brief,
-                              fw_diags *diags, fw_verdict_variant_verdict *v);
 /* verdict_requirement.c: who moves a scene again looks at what is required of it, and bands take in what that motion
    has; gives: bodies do in it */
 typedef struct fw_verdict_required {
@@ -245,6 +244,12 @@ typedef struct fw_verdict_required {
                          fw_verdict_variant_verdict *v);
 } fw_verdict_required;
 extern const fw_verdict_required fw_verdict_required_of_scenes;
+/* moved_again.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672),
+   and where electrodes may pull otherwise */
+fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
+                              const fw_dynamics_motion_options *options,
+                              const fw_verdict_required *required, bool brief, fw_diags *diags,
+                              fw_verdict_variant_verdict *v);
 /* verdict_strain.c: the layer of a scene grows or shrinks by itself, so that what flexures are off by in bending and along
    themselves counts each by itself. Of the four ways k to combine them: what all of a flexure's stiffness is more by, and
    what that along itself is more by besides; gives: share that bodies give */
@@ -367,8 +372,6 @@ void fw_verdict_requirement_factor(const double *factor, int nhinge, double most
 /* required_small.c: its band takes in what it is in the motions of shaken->other */
 fw_status fw_verdict_requirement_others(const fw_mechanism *mechanism,
                                         const fw_verdict_shaken *shaken, fw_verdict_requirement *r);
-/* what its band says against its bounds: margin, utilisations, decision */
-void fw_verdict_requirement_decide(fw_verdict_requirement *r);
 /* verdict_bending.c: what bands of a device that is not drawn are without, by name */
 fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v);
 void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,

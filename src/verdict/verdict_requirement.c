@@ -141,7 +141,7 @@ static void use(fw_verdict_requirement *r) {
     r->utilisation = u[0], r->utilisation_low = u[1], r->utilisation_high = u[2];
 }
 
-void fw_verdict_requirement_decide(fw_verdict_requirement *r) {
+static void decide(fw_verdict_requirement *r) {
     r->why = NULL;
     r->margin = fmin(r->value - r->min, r->max - r->value); /* passes by NaN */
     if (isnan(r->margin)) r->margin = isnan(r->min) ? r->max - r->value : r->value - r->min;
@@ -164,7 +164,7 @@ static void put(fw_verdict_requirement *r, double value, double numeric, double 
     r->high = value + off;
     r->numeric = numeric;
     r->lasting = value != 0 ? fmin(lasting, model) * fabs(departure / value) : 0;
-    fw_verdict_requirement_decide(r);
+    decide(r);
 }
 
 /* ---- of motions ---- */
@@ -210,7 +210,7 @@ static fw_status put_settling(const fw_mechanism *m, const fw_dynamics_motion *m
         r->open = "it has not settled where the scene ends: give the scene a longer duration";
     if (r->open) r->high = HUGE_VAL;
     if (rest.why) r->low = 0;
-    fw_verdict_requirement_decide(r);
+    decide(r);
     return FW_OK;
 }
 
@@ -241,7 +241,7 @@ static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motio
     const double low = fmin(r->low, ring.low - off), high = fmax(r->high, ring.high + off);
     if (r->value != 0) r->lasting += fmax(r->low - low, high - r->high) / fabs(r->value);
     r->low = r->size ? fmax(0, low) : low, r->high = high;
-    fw_verdict_requirement_decide(r);
+    decide(r);
     return FW_OK;
 }
 
@@ -345,7 +345,7 @@ static fw_status take_in(const fw_mechanism *m, const fw_dynamics_motion *motion
     const double low = fmin(r->low, fmax(least, then.low)), high = fmax(r->high, then.high);
     if (r->value != 0) r->lasting += fmax(r->low - low, high - r->high) / fabs(r->value);
     r->low = low, r->high = high;
-    fw_verdict_requirement_decide(r);
+    decide(r);
     return FW_OK;
 }
 
@@ -383,8 +383,7 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         const fw_probe_result *p = &v->probed[scene * n + q->probe];
         const char *of = m->device->probe[q->probe].of;
         if (p->known) judge(m, v->motion[scene], p, still, r);
-        if (fw_verdict_places_lower(v->motion[scene], of, &r->low, &r->high))
-            fw_verdict_requirement_decide(r);
+        if (fw_verdict_places_lower(v->motion[scene], of, &r->low, &r->high)) decide(r);
         if (p->known && q->measure == FW_MEASURE_FINAL)
             FW_TRY(put_ring(m, v->motion[scene], monitor, p, r));
         if (p->known && q->measure == FW_MEASURE_SETTLING && !v->motion[scene]->ended)
@@ -428,7 +427,7 @@ static bool put_across(const fw_verdict_variant_verdict *v, const fw_device_prob
         fw_verdict_across_under_loads(v, r->scene_index, of, &r->low, &r->high);
         overtaken(v, probe, r);
         r->numeric = 0, r->lasting = 1 - r->low / of->f_Hz;
-        fw_verdict_requirement_decide(r);
+        decide(r);
         return true;
     }
     if (probe->plane != FW_PLANE_ACROSS) return false;
@@ -499,7 +498,7 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
             put_soft(p, left, value, r);
             fw_verdict_small_widen(&others, p, mode, yields ? 1 / left : left, &r->low, &r->high);
             if (p->asked->row == FW_PROBE_IS_frequency) overtaken(v, p->asked, r);
-            fw_verdict_requirement_decide(r);
+            decide(r);
             if (r->decision != FW_INCONCLUSIVE || left > hardly_soft || v->corner || !v->arm) break;
         }
         if (isinf(model) || others.lost)
@@ -556,13 +555,14 @@ void fw_verdict_requirement_shaken(const double factor[2], double late, fw_devic
     else
         r->high += fmax(more, less), r->low -= fmax(more, less);
     if (r->size) r->low = fmax(0, r->low);
-    fw_verdict_requirement_decide(r);
+    decide(r);
 }
 
 static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v,
                             fw_verdict_requirement *r) {
     const fw_verdict_shaken *s = &v->shaken[r->scene_index];
     FW_TRY(fw_verdict_requirement_others(m, s, r));
+    decide(r);
     fw_verdict_requirement_shaken(s->required, s->required_late,
                                   m->device->requirement[r->asked].measure, r);
     return FW_OK;
