@@ -127,9 +127,15 @@ fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
         seconds(out, study->seconds_each * (double)n / jobs);
         fw_text_add(out, " (one took ");
         seconds(out, study->seconds_each);
-        fw_text_add(out, dies > 0 ? "; several times as long where the first devices do not have "
-                                    "the yield)"
-                                  : ")");
+        if (study->asked->kind == FW_STUDY_IS_sensitivity)
+            fw_text_printf(out,
+                           "; the %d that derivatives are taken from are run at 1e-9, each of them "
+                           "up to tens of times as long",
+                           7 * study->ninput);
+        if (dies > 0)
+            fw_text_add(out,
+                        "; several times as long where the first devices do not have the yield");
+        fw_text_add(out, ")");
     }
     fw_text_add(out, "\n");
     return fw_text_end(out);

@@ -472,11 +472,16 @@ static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
                                       .decision = r->decision};
 }
 
+/* what is open of a motion is so at any accuracy: it ends too early, or another device has none */
+static bool may_be_decided(const fw_verdict_requirement *r) {
+    return r->utilisation > 0 && !r->why && !(r->open && r->measure);
+}
+
 fw_verdict_refinement fw_verdict_requirements_refinement(const fw_verdict_requirement *requirement,
                                                          int count) {
     fw_verdict_refinement most = FW_REFINE_NOTHING;
     for (int k = 0; k < count; k++) {
-        if (!(requirement[k].utilisation > 0) || requirement[k].why) continue;
+        if (!may_be_decided(&requirement[k])) continue;
         const fw_verdict_hinge_verdict h = as_hinge(&requirement[k]);
         const fw_verdict_refinement now = fw_verdict_refinement_of(&h, 1);
         if (now == FW_REFINE_HINGES || most == FW_REFINE_NOTHING) most = now;
@@ -488,7 +493,7 @@ double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement,
                                       double accuracy) {
     double enough = accuracy;
     for (int k = 0; k < count; k++) {
-        if (!(requirement[k].utilisation > 0) || requirement[k].why) continue;
+        if (!may_be_decided(&requirement[k])) continue;
         const fw_verdict_hinge_verdict h = as_hinge(&requirement[k]);
         enough = fmin(enough, fw_verdict_enough(&h, 1, accuracy));
     }

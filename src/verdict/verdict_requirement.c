@@ -186,13 +186,14 @@ static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, 
    that part of it. Frequencies, and so all times, go with the root of a stiffness. What was out within the last period of
    the slowest mode may be so again behind the end */
 static fw_status put_settling(const fw_mechanism *m, const fw_dynamics_motion *motion,
-                              const fw_probe_monitor *monitor, const fw_probe_result *p,
+                              const fw_probe_monitor *monitor, const fw_probe_result *p, bool still,
                               fw_verdict_requirement *r) {
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const fw_probe_course *course = &monitor->course[q->probe];
     const double band = q->band,
-                 model = model_of(m, motion, p->level) +
-                         fw_verdict_places_error(motion, &m->device->probe[q->probe]);
+                 model = still ? 0
+                               : model_of(m, motion, p->level) +
+                                     fw_verdict_places_error(motion, &m->device->probe[q->probe]);
     fw_verdict_rest rest;
     FW_TRY(fw_verdict_rests_at(m, r->scene_index, motion, monitor, q, &rest));
     const double off = p->final_numeric + model * band + rest.off;
@@ -334,7 +335,7 @@ static fw_status take_in(const fw_mechanism *m, const fw_dynamics_motion *motion
                         (gives ? fw_verdict_bending_share(motion) : 0);
     fw_verdict_requirement then = *r;
     if (time)
-        FW_TRY(put_settling(m, other, monitor, now, &then));
+        FW_TRY(put_settling(m, other, monitor, now, false, &then));
     else
         judge(m, other, now, false, &then);
     const double off = r->numeric + (time ? 0 : fmax(0, left) * then.swing),
@@ -387,7 +388,7 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         if (p->known && q->measure == FW_MEASURE_FINAL)
             FW_TRY(put_ring(m, v->motion[scene], monitor, p, r));
         if (p->known && q->measure == FW_MEASURE_SETTLING && !v->motion[scene]->ended)
-            FW_TRY(put_settling(m, v->motion[scene], monitor, p, r));
+            FW_TRY(put_settling(m, v->motion[scene], monitor, p, still, r));
         if (p->known && v->motion[scene]->ended) judge_ended(q->measure, r);
         if (!p->known && monitor->within)
             r->why =

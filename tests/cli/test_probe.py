@@ -78,7 +78,7 @@ class Probe(unittest.TestCase):
         said = run(look[0], self.file(text % ""), *look[1:])
         self.assertEqual(said.returncode, 4, said.stderr)
         for what in ("k .stiffness.", "frequency-1 .frequency."):
-            self.assertRegex(said.stdout, f"inconclusive because: {what} is .* is required, but by how much the model of the hinges is off there is "
+            self.assertRegex(said.stdout, f"inconclusive because: {what} is .* is required, but what that may be off by is "
                              r"not known: .*A stays a pin.*: state its `axis`, .* \[FW-D330\]")
         self.assertNotIn("inf ", said.stdout.split("required   ")[0])
         self.assertEqual(run(look[0], self.file(text % ' axis="90 deg"'), *look[1:]).returncode, 0)
