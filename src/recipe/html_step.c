@@ -210,8 +210,8 @@ static void ways(const fw_process_flow *flow, const fw_process_step *s, fw_text 
     }
 }
 
-static void step_head(const fw_process_flow *flow, const fw_process_step *s, bool picture,
-                      fw_text *out) {
+static void step_head(const fw_process_flow *flow, const fw_process_step *s,
+                      const fw_recipe_header *header, bool picture, fw_text *out) {
     bool of_dies = fw_process_step_is_of_dies(flow, (int)(s - flow->step));
     fw_text_add(out, "<header><h2><span class=\"box\"></span>");
     fw_text_escaped(out, s->id);
@@ -237,7 +237,13 @@ static void step_head(const fw_process_flow *flow, const fw_process_step *s, boo
             fw_text_printf(out, ". Up to %s%d wafers at once", of_dies ? "the dies of " : "",
                            s->batch);
         if (fw_process_step_is_of_lot(s)) fw_text_add(out, ". Once per lot");
-        fw_text_add(out, ".</p>\n");
+        fw_text_add(out, ".");
+        fw_recipe_html_fillings(flow, s, header, out);
+        fw_text_add(out, "</p>\n");
+    } else if (s->nuse > 0) {
+        fw_text_add(out, "<p class=\"small tool\">");
+        fw_recipe_html_fillings(flow, s, header, out);
+        fw_text_add(out, "</p>\n");
     }
 }
 
@@ -536,12 +542,11 @@ void fw_recipe_html_step(const fw_process_flow *flow, int index, const fw_recipe
     fw_text_add(out, "<section class=\"step\" id=\"");
     fw_text_escaped(out, s->id);
     fw_text_add(out, "\">\n");
-    step_head(flow, s, changes, out);
+    step_head(flow, s, header, changes, out);
     fw_recipe_html_hazard_line(flow, s, out);
     fw_text_add(out, "</div>\n");
     drives(s, header->wiring, out);
     holds(s, out);
-    fw_recipe_html_fillings(flow, s, header, out);
     exposures(flow, s, out);
     if (slicer && changes && section_notes(flow, index, out) != FW_OK) out->failed = 1;
     if (changes && endpoints(s, out) != FW_OK)

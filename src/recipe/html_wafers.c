@@ -212,7 +212,7 @@ static void planned_count(const fw_process_flow *flow, int index, int wafers, fw
         fw_text_printf(out, " of %.0f", dies->value * (double)wafers);
 }
 
-/* what to do where it went wrong and, of several wafers, what became of them, in one line */
+/* " Fillings: aluminium etch, 6 for the 6 wafers of this lot", behind what a step is done with */
 void fw_recipe_html_fillings(const fw_process_flow *flow, const fw_process_step *s,
                              const fw_recipe_header *header, fw_text *out) {
     const fw_process_bath *mixed = fw_process_step_mixes(flow, s);
@@ -221,16 +221,16 @@ void fw_recipe_html_fillings(const fw_process_flow *flow, const fw_process_step 
         const fw_process_bath *b = k < 0 ? mixed : s->use[k].bath;
         const int n = b ? fw_process_bath_fillings(flow, b, wafers) : 0;
         if (n < 2 || !b->serves) continue;
-        fw_text_add(out, "<p class=\"note\"><b>Fillings:</b> ");
+        fw_text_add(out, " <b>Fillings:</b> ");
         fw_text_escaped(out, b->name);
-        fw_text_printf(out, ", %d for the %d wafer%s of this lot, ", n, wafers,
+        fw_text_printf(out, ", %d for the %d wafer%s of this lot, each of which serves ", n, wafers,
                        wafers > 1 ? "s" : "");
-        fw_text_add(out, "each of which serves ");
         fw_text_number(out, b->serves->value, 4);
-        fw_text_add(out, b == mixed ? "; amounts and times here are of one.</p>\n" : ".</p>\n");
+        fw_text_add(out, b == mixed ? "; amounts and times here are of one." : ".");
     }
 }
 
+/* what to do where it went wrong and, of several wafers, what became of them, in one line */
 void fw_recipe_html_outcome(const fw_process_flow *flow, int index, const fw_recipe_header *header,
                             fw_text *out) {
     const fw_process_step *s = &flow->step[index];
