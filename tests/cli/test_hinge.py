@@ -280,9 +280,11 @@ class Hinge(unittest.TestCase):
             x, y = (float(v) for v in re.search(r"SYSTEM=RECTANGULAR\n([^,]*), ([^,]*),", deck).groups())
             first[name] = math.degrees(math.atan2(y, x))
         self.assertAlmostEqual(((first["h0"] - first["h1"]) - 77 + 45) % 90 - 45, 0, places=6)
-        missing = run("hinge", path, "--deck", self.here / "no/such/place")
-        self.assertEqual(missing.returncode, 5, missing.stderr)
-        self.assertFalse((self.here / "no").exists())
+        further = run("hinge", path, "--deck", self.here / "further/down")
+        self.assertEqual(further.returncode, 0, further.stderr)
+        self.assertTrue((self.here / "further/down/hinge-h0.inp").exists())
+        below = run("hinge", path, "--deck", path / "place")  # of a file
+        self.assertEqual(below.returncode, 5, below.stderr)
 
     def test_paths_as_exact_beams(self):
         """hinges whose width varies: both models of what gives agree, and the exact one keeps the energy"""
