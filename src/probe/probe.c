@@ -214,7 +214,11 @@ static int last_turns(const double *value, int n, double h, int turn[3]) {
 fw_status fw_probe_rings(fw_arena *arena, const fw_probe *p, const fw_dynamics_motion *motion,
                          double slowest_s, fw_probe_ring *ring) {
     const int n = motion->nsample;
-    const double end_s = motion->t_s[n - 1], from_s = end_s - 3 * slowest_s;
+    *ring = (fw_probe_ring){0};
+    if (n < 2 || !(slowest_s > 0)) return FW_OK;
+    const double end_s = motion->t_s[n - 1], row_s = end_s / (n - 1);
+    const double from_s = end_s - fmax(3 * slowest_s, 24 * row_s);
+    const double most_half_s = fmax(0.75 * slowest_s, 3 * row_s);
     const fw_mark mark = fw_arena_mark(arena);
     double *value, low, high;
     int first = n - 1, turn[3];
@@ -231,12 +235,16 @@ fw_status fw_probe_rings(fw_arena *arena, const fw_probe *p, const fw_dynamics_m
     for (double h = 0; h<high - low; h = h> 0 ? 2 * h : 1e-4 * (high - low)) {
         if (last_turns(value, count, h, turn) < 3) break;
         const double *t_s = motion->t_s + first, half_s = t_s[turn[0]] - t_s[turn[1]];
-        if (half_s > 0.75 * slowest_s || end_s - t_s[turn[0]] > 1.5 * half_s) continue;
+        if (half_s > most_half_s || end_s - t_s[turn[0]] > 1.5 * half_s) continue;
         for (int i = 0; i < 3; i++)
             ring->low = fmin(ring->low, value[turn[i]]),
             ring->high = fmax(ring->high, value[turn[i]]);
         ring->amplitude = fmax(ring->amplitude, 0.5 * fmax(fabs(value[turn[0]] - value[turn[1]]),
                                                            fabs(value[turn[1]] - value[turn[2]])));
+    }
+    if (ring->amplitude > 0 && 8 * row_s > slowest_s) { /* rows meet it at any phase */
+        ring->low = fmin(ring->low, low), ring->high = fmax(ring->high, high);
+        ring->amplitude = fmax(ring->amplitude, 0.5 * (high - low));
     }
     fw_arena_rewind(arena, mark);
     return FW_OK;

@@ -171,6 +171,7 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
 /* What still goes to and fro where a motion ends: the last three turns of its samples and its end, where no more than one and
    a half half-periods are behind the last of them. A fast mode of a little hides the turns of a slow one of much: turns are
    looked for with ever larger ways between them, of half-periods up to 1.5 times that of the slowest mode, slowest_s its period.
+   Where a scene has fewer than eight rows in that period they meet it at any phase, and the ring is what 24 rows go over.
    Amplitude 0: it is at rest, or goes one way. Cost: the rows of three periods. Test: test_probe.c, test_probe.py */
 typedef struct fw_probe_ring {
     double amplitude, low, high;

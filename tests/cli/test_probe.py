@@ -799,6 +799,12 @@ class Probe(unittest.TestCase):
             self.assertEqual("FW-D701" in said, words is not None, (law, said))
             self.assertIn(words or "", said)
 
+    def test_a_ring_of_which_rows_meet_few_phases(self):
+        """a scene of 1 s has a row in each 0.8 periods of the mode that rings"""
+        text = re.sub("<require.*?/>", '<require probe="tip" measure="final" max="200 um"/>', self.SETTLES % (180, 1000, ""))
+        low, high = self.answer(text, "check", "--corners", "none", "--advice", "none")["requirements"][0]["band"]
+        self.assertTrue(low < 3.5e-6 and 20e-6 < high < 24e-6, (low, high))
+
     def test_a_fast_mode_of_little_does_not_hide_a_ring(self):
         """the last three turns were those of a ripple of 0.3 um: at 42 ms 48.96 um had a band of 0.7 um, in a swing of 57"""
         text = (self.SETTLES % (180, 40, "")).replace('mass="50 ug" inertia="0.01 mg mm^2"/>', '''mass="500 ug" inertia="0.1 mg mm^2"/>
