@@ -372,10 +372,8 @@ void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result
     law->uneven_y = closed_form->uneven_y * y / (1 / more.ky_N_per_m.value - y);
 }
 
-fw_status fw_flexure_hinge_law_scale(fw_arena *arena, fw_flexure_hinge_law *law, double by) {
-    law->stiffness_Nm_per_rad *= by;
-    law->bend_m_per_N /= by, law->root_m_per_N /= by;
-    law->axial_m_per_N /= by, law->shear_m_per_N /= by;
+/* a table of its own, whose compliances are 1/by times as large; pull: those of what a pull changes, too */
+static fw_status scale_table(fw_arena *arena, fw_flexure_hinge_law *law, double by, bool pull) {
     if (!law->table) return FW_OK;
     struct fw_flexure_hinge_table *t = fw_arena_one(arena, struct fw_flexure_hinge_table);
     FW_NEED(t);
@@ -383,10 +381,17 @@ fw_status fw_flexure_hinge_law_scale(fw_arena *arena, fw_flexure_hinge_law *law,
     for (int n = 0; n < FW_PATH_TERMS; n++) {
         t->bend_x[n] /= by, t->bend_y[n] /= by;
         t->rest_x[n] /= by, t->rest_y[n] /= by;
-        t->pull_x[n] /= by, t->pull_y[n] /= by;
+        if (pull) t->pull_x[n] /= by, t->pull_y[n] /= by;
     }
     law->table = t;
     return FW_OK;
+}
+
+fw_status fw_flexure_hinge_law_scale(fw_arena *arena, fw_flexure_hinge_law *law, double by) {
+    law->stiffness_Nm_per_rad *= by;
+    law->bend_m_per_N /= by, law->root_m_per_N /= by;
+    law->axial_m_per_N /= by, law->shear_m_per_N /= by;
+    return scale_table(arena, law, by, true);
 }
 
 fw_status fw_flexure_hinge_law_along(fw_arena *arena, fw_flexure_hinge_law *law, double by) {
@@ -396,16 +401,7 @@ fw_status fw_flexure_hinge_law_along(fw_arena *arena, fw_flexure_hinge_law *law,
     }
     law->uneven_x = (1 + law->uneven_x) / by - 1, law->uneven_y = (1 + law->uneven_y) / by - 1;
     law->root_m_per_N /= by, law->axial_m_per_N /= by, law->shear_m_per_N /= by;
-    if (!law->table) return FW_OK;
-    struct fw_flexure_hinge_table *t = fw_arena_one(arena, struct fw_flexure_hinge_table);
-    FW_NEED(t);
-    *t = *law->table;
-    for (int n = 0; n < FW_PATH_TERMS; n++) {
-        t->bend_x[n] /= by, t->bend_y[n] /= by;
-        t->rest_x[n] /= by, t->rest_y[n] /= by;
-    }
-    law->table = t;
-    return FW_OK;
+    return scale_table(arena, law, by, false);
 }
 
 bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double th) {

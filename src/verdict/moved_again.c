@@ -6,7 +6,7 @@
    its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
    comes behind it. Test: test_program.py, EndsEarly
 
-   Behind that: where a motion comes to rest, and scenes in which nothing moves (FW-D655). */
+   The last part of the file are scenes in which nothing moves (FW-D655). */
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
@@ -247,9 +247,12 @@ static double beyond(const fw_mechanism *m, const fw_verdict_strain_monitor *was
     return most;
 }
 
-static bool says_pull_in(const fw_device_scene *s, const fw_verdict_variant_verdict *v) {
+enum { PULLED_IN = 248, UNSTABLE = 259 };
+
+static bool has_reason_of(const fw_verdict_variant_verdict *v, const fw_device_scene *s,
+                          int number) {
     for (int i = 0; i < v->nreason; i++)
-        if (v->reason[i].number == 248 && v->reason[i].scene == s->name) return true;
+        if (v->reason[i].number == number && v->reason[i].scene == s->name) return true;
     return false;
 }
 
@@ -257,7 +260,7 @@ static fw_status tell_soft(fw_arena *arena, const fw_device_scene *s, double lef
                            double missing, bool goes, double most, bool brief, fw_diags *diags,
                            fw_verdict_variant_verdict *v) {
     char part[32], off[32], pull[32], times[32];
-    if (says_pull_in(s, v)) return FW_OK;
+    if (has_reason_of(v, s, PULLED_IN)) return FW_OK;
     const char *start = fw_arena_printf(
         arena,
         "%s%s: its loads leave %s %% of the stiffness of the device's softest motion, and with "
@@ -509,9 +512,7 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const fw_dynamics_motion *x = v->motion[i];
     const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
     if (!fw_verdict_grows(v, i) || nh == 0 || x->ended || !x->observed) return FW_OK;
-    for (int k = 0; k < v->nreason; k++) /* it rests on an unstable one as it is */
-        if (v->reason[k].number == 259 && v->reason[k].scene == m->device->scene[i].name)
-            return FW_OK;
+    if (has_reason_of(v, &m->device->scene[i], UNSTABLE)) return FW_OK; /* as it is */
     hold h = {.saw = x->observed, .more = 1};
     bool told = false;
     FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
