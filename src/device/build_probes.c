@@ -354,7 +354,7 @@ static void check_measure(fw_device_reader *r, const fw_xml_record *record,
                           "none; remove it");
     if (measure == FW_MEASURE_SETTLING)
         fw_device_needed(r, record, 322, band, 1,
-                         "how far from its final value the probe still counts as settled");
+                         "how far from where it comes to rest the probe still counts as settled");
     else
         fw_device_refused(r, record, 322, band, 1,
                           "belongs to measure=\"settling-time\"; remove it");

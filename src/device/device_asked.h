@@ -75,7 +75,7 @@ typedef enum fw_device_measure { /* what of the course of a probe a requirement 
                                  FW_MEASURE_MINIMUM,
                                  FW_MEASURE_FINAL,        /* at the end of the scene */
                                  FW_MEASURE_PEAK_TO_PEAK, /* maximum less minimum */
-                                 FW_MEASURE_SETTLING, /* time after which it stays within a band about its final value */
+                                 FW_MEASURE_SETTLING, /* time after which it stays within a band about where it rests */
                                  FW_MEASURE_PARASITIC /* largest displacement across the direction */
 } fw_device_measure;
 const char *fw_device_measure_text(fw_device_measure measure); /* as the file says it */
