@@ -2,6 +2,7 @@
 /* Kinds of <flexure>, a row each, and what they share; questions about a description. */
 #include "device/device_reader.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- what kinds share: limits of their widths, and how lines and arcs become one ---- */
@@ -28,17 +29,18 @@ static const double thinnest_m = 1e-7;
 
 bool fw_device_flexure_edges(fw_device_reader *r, const fw_xml_record *record,
                              const fw_geometry_strip_piece *p) {
-    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL];
+    char label[FW_LABEL], a[FW_LABEL], b[FW_LABEL], thin[FW_LABEL + 16] = "vanishes";
     fw_geometry_strip_shape shape;
     double least, most;
     fw_geometry_strip_shape_of(p, &shape);
     fw_geometry_strip_widths(&shape, &least, &most);
-    if (!(least >= thinnest_m)) {
+    if (!(least >= thinnest_m)) { /* no width at all where its edges are no arcs any more */
+        if (least > 0) snprintf(thin, sizeof thin, "falls to %s", fw_xml_in_unit(a, least, "um"));
         fw_diag_error(r->diags, 263, fw_xml_place_of(record, "width-middle"),
-                      "%s: between its ends the width vanishes or falls to %s (least: 0.1 um), "
+                      "%s: between its ends the width %s (least: 0.1 um), "
                       "where its edges run as arcs through start, middle and end; make the widths "
                       "less different, or give the middle as a piece of its own",
-                      fw_xml_label(record, label), fw_xml_in_unit(a, least, "um"));
+                      fw_xml_label(record, label), thin);
         return false;
     }
     if (p->curvature_per_m == 0 || most < 2 / fabs(p->curvature_per_m)) return true;

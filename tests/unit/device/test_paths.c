@@ -93,11 +93,32 @@ static void all_mistakes_at_once(void **state) {
     fw_arena_free(arena);
 }
 
+/* edges that are no arcs any more leave no width to name */
+static void a_width_that_vanishes_is_no_number(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    const fw_device *d;
+    static const char *const xml =
+        FLEXURE("<flexure id=\"A\" kind=\"path\" width=\"112 um\">"
+                "<line length=\"104 um\" width-middle=\"8 um\"/></flexure>");
+    assert_int_equal(fw_device_read(arena, "t.xml", xml, strlen(xml), NULL, 0, &diags, &d),
+                     FW_INPUT);
+    int found = 0;
+    for (size_t k = 0; k < diags.count; k++) {
+        assert_null(strstr(diags.item[k].message, "nan"));
+        found += strstr(diags.item[k].message, "the width vanishes (") != NULL;
+    }
+    assert_int_equal(found, 1);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pieces_in_their_order),
         cmocka_unit_test(middle_of_arcs_and_leaves),
         cmocka_unit_test(all_mistakes_at_once),
+        cmocka_unit_test(a_width_that_vanishes_is_no_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
