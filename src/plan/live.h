@@ -4,7 +4,7 @@
    that is bounded: the last answer, the design of the last preview and what it read of packs, the mechanism that was
    last posed, and the study whose points were last asked for (study/study.h). One fw_plan_live belongs to one thread.
 
-   Documents (docs/reference/json.md): flexwright.table/1, preview/1, pose/1, edit/1. */
+   Documents (docs/reference/json.md): flexwright.table/1, preview/1, picture/1, pose/1, edit/1. */
 #ifndef FW_PLAN_LIVE_H
 #define FW_PLAN_LIVE_H
 #include "base/arena.h"
@@ -40,6 +40,10 @@ fw_plan_live_answer fw_plan_live_table(fw_plan_live *live);
    50 ms where the one before had the same options and packs, 5 ms where it is that one's text with what it held
    ("set") written into it. Test: test_live_kept.c */
 fw_plan_live_answer fw_plan_live_preview(fw_plan_live *live, const char *request, size_t n);
+/* {"text", "set", "options"}: of a preview's answer what its picture shows, for a page that is driven: shapes, and the motion
+   of the scene that is shown, with what the hinges use in it. Nothing else is moved or judged.
+   Cost for a six-bar: 15 ms of CPU where the answer before had the same options and packs. Test: test_live_kept.c */
+fw_plan_live_answer fw_plan_live_picture(fw_plan_live *live, const char *request, size_t n);
 /* {"text", "set", "options", "flow", "body", "platform": {"x_m", "y_m", "phi_rad"}, "q"}: the pose
    of the whole mechanism for a displacement of the platform. Cost for a six-bar: 1 ms, the first
    one with a text as much as laying it out. */

@@ -111,7 +111,7 @@ static void judged_motion(const fw_plan *plan, fw_report_preview *in) {
     for (int k = 0; k < in->device->nscene; k++) {
         const fw_device_scene *scene = &in->device->scene[k];
         if (wanted && strcmp(wanted, scene->name) != 0) continue;
-        for (int i = 0; i < plan->nflow; i++) {
+        for (int i = 0; i < plan->verdict.nvariant; i++) {
             const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
             if (!v->motion || !v->motion[k]) continue;
             in->mechanism = v->mechanism, in->motion = v->motion[k];
@@ -371,32 +371,95 @@ static void hold(fw_plan_live *live, const fw_plan_live_request *r, bool rates) 
     live->shown.rates = rates;
 }
 
+/* the design of this request: the one that was shown last, as far as it is the same, else one of its own */
+static fw_status read_shown(fw_plan_live *live, fw_plan_live_request *request, fw_design **design,
+                            int *read) {
+    bool taken;
+    *read = FW_STATUS_OK;
+    FW_TRY(take_shown(live, request, &taken));
+    *design = live->shown.kept.design;
+    if (taken) return FW_OK;
+    fw_plan_live_shown_free(live);
+    FW_TRY(fw_plan_live_design(live, request, design));
+    *read = fw_design_read_memory(*design, "device.xml", request->text, request->length);
+    if (*read == FW_STATUS_OK) keep_shown(live, request, *design);
+    return FW_OK;
+}
+
+/* it stays where it can be taken again */
+static void leave_shown(fw_plan_live *live, fw_design *design, fw_status status) {
+    if (live->shown.kept.design != design)
+        fw_design_free(design);
+    else if ((status != FW_OK && status != FW_CANCELLED) ||
+             fw_arena_peak(design->plan->arena) > KEPT_MOST)
+        fw_plan_live_shown_free(live);
+}
+
 static fw_status preview(fw_plan_live *live, fw_plan_live_request *request, fw_text *out) {
     const json_t *rates = json_object_get(request->root, "rates");
-    fw_design *design = live->shown.kept.design;
-    int read = FW_STATUS_OK;
+    fw_design *design;
+    int read;
     bool taken = false;
     if (rates && !json_is_null(rates) && !json_is_boolean(rates))
         return fw_plan_live_wrong(request, "true or false is needed for", "rates");
     FW_TRY(answer_held(live, request, json_is_true(rates), out, &taken));
     if (taken) return FW_OK;
-    FW_TRY(take_shown(live, request, &taken));
-    if (!taken) {
-        fw_plan_live_shown_free(live);
-        FW_TRY(fw_plan_live_design(live, request, &design));
-        read = fw_design_read_memory(design, "device.xml", request->text, request->length);
-        if (read == FW_STATUS_OK) keep_shown(live, request, design);
-    }
-    const bool kept = live->shown.kept.design != NULL;
+    FW_TRY(read_shown(live, request, &design, &read));
     fw_status status = look(design, read, request, json_is_true(rates), out);
-    if (!kept)
-        fw_design_free(design);
-    else if ((status != FW_OK && status != FW_CANCELLED) ||
-             fw_arena_peak(design->plan->arena) > KEPT_MOST)
-        fw_plan_live_shown_free(live);
-    else if (status == FW_OK)
-        hold(live, request, json_is_true(rates));
+    leave_shown(live, design, status);
+    if (status == FW_OK && live->shown.kept.design) hold(live, request, json_is_true(rates));
     return status;
+}
+
+/* ---- the picture alone ---- */
+
+static fw_status compose_picture(fw_design *d, void *argument) {
+    const work *w = argument;
+    fw_plan *plan = d->plan;
+    fw_report_preview in = {.status = w->device ? "ok" : "invalid",
+                            .diags = &plan->diags,
+                            .file = plan->source_file,
+                            .device = w->device,
+                            .read_s = d->read_s};
+    fw_status status = w->status;
+    if (status == FW_OK) {
+        clock_t start = clock();
+        shorten(plan);
+        status = fw_plan_judge_shown(plan);
+        in.judge_s = (double)(clock() - start) / CLOCKS_PER_SEC;
+        if (hopeless((int)status)) return status;
+    }
+    if (status == FW_OK) {
+        in.verdict = &plan->verdict;
+        judged_motion(plan, &in);
+        if (!in.mechanism) FW_TRY(mechanism_of(plan, false, &in.mechanism));
+        in.layout = plan->layout;
+    }
+    if (w->device && !in.mechanism) in.status = "failed";
+    return fw_report_picture_json(plan->arena, &in, w->out);
+}
+
+static fw_status picture(fw_plan_live *live, fw_plan_live_request *request, fw_text *out) {
+    fw_design *design;
+    int read;
+    json_decref(live->shown.held); /* the design that answered it becomes another one */
+    live->shown.held = NULL;
+    FW_TRY(read_shown(live, request, &design, &read));
+    fw_status status = (fw_status)read;
+    if (read == FW_STATUS_USAGE && design->wrong_option)
+        status = fw_plan_live_wrong(request, design->wrong_option, NULL);
+    else if (!hopeless(read)) {
+        const fw_device *device = read == FW_STATUS_OK ? design->plan->device : NULL;
+        status = (fw_status)fw_plan_design_run(design, compose_picture,
+                                               &(work){device, status, false, out});
+    }
+    leave_shown(live, design, status);
+    return status;
+}
+
+fw_plan_live_answer fw_plan_live_picture(fw_plan_live *live, const char *request, size_t n) {
+    static const char *const keys[] = {"text", "set", "options", "lab", NULL};
+    return fw_plan_live_call(live, request, n, keys, picture);
 }
 
 fw_plan_live_answer fw_plan_live_preview(fw_plan_live *live, const char *request, size_t n) {

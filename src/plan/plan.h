@@ -161,6 +161,9 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
 /* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows, with what the masks of a
    design that is not rejected refuse */
 fw_status fw_plan_judge(fw_plan *plan);
+/* for a picture of the motion: as drawn, what hinges use in the scene that is shown, in the first flow that it holds
+   in, and nothing else. One variant of plan->verdict, which decides nothing; none where no scene is to be moved */
+fw_status fw_plan_judge_shown(fw_plan *plan);
 /* is the day stated that a schedule needs? FW_INPUT: of a loaded plan that is to be fabricated, before it is judged */
 fw_status fw_plan_check_dates(fw_plan *plan);
 /* masks with each flow's bias; a rejected design gets none unless forced */

@@ -112,6 +112,29 @@ fw_status fw_plan_judge(fw_plan *plan) {
     return fw_plan_measurements_find(plan, false);
 }
 
+fw_status fw_plan_judge_shown(fw_plan *plan) {
+    const fw_device *d = plan->device;
+    const char *wanted = plan->options.scene;
+    fw_verdict_options options = plan->options.verdict;
+    plan->verdict = (fw_verdict){.nvariant = 0};
+    for (int k = 0; k < d->nscene; k++)
+        for (int i = 0; i < plan->nflow; i++) {
+            const fw_device_scene *scene = &d->scene[k];
+            if (wanted && strcmp(wanted, scene->name) != 0) continue;
+            if (!fw_device_in_flow(scene->flow, plan->flow[i].variant.flow)) continue;
+            FW_TRY(fw_plan_need_material(plan));
+            plan->verdict.nvariant = 1;
+            FW_NEED(plan->verdict.variant = fw_arena_one(plan->arena, fw_verdict_variant_verdict));
+            plan->verdict.variant->variant = &plan->flow[i].variant;
+            options.only_scene = scene->name;
+            options.hinges_only = options.at_a_glance = options.bounded = true;
+            options.corners = FW_CORNERS_NONE;
+            return fw_verdict_run(plan->arena, d, &options, &plan->diags, &plan->verdict,
+                                  &plan->layout);
+        }
+    return FW_OK;
+}
+
 static bool loaded(const fw_plan *plan, const char *flow) {
     for (int i = 0; i < plan->nflow; i++)
         if (fw_device_in_flow(flow, plan->flow[i].variant.flow)) return true;

@@ -104,7 +104,7 @@ static fw_status parameters(fw_arena *arena, const fw_device *d, fw_json *out) {
     return FW_OK;
 }
 
-static void scenes_and_flows(const fw_report_preview *in, fw_json *out) {
+static void scenes(const fw_report_preview *in, fw_json *out) {
     fw_json_list(out, "scenes");
     for (int i = 0; in->device && i < in->device->nscene; i++) {
         const fw_device_scene *s = &in->device->scene[i];
@@ -115,7 +115,9 @@ static void scenes_and_flows(const fw_report_preview *in, fw_json *out) {
         fw_json_end(out);
     }
     fw_json_end(out);
-    fw_json_line(out, 0);
+}
+
+static void flows(const fw_report_preview *in, fw_json *out) {
     fw_json_list(out, "flows");
     for (int i = 0; i < in->nflow; i++) {
         const fw_report_flow *f = &in->flow[i];
@@ -309,6 +311,12 @@ static fw_status probes(fw_arena *arena, const fw_report_preview *in, fw_json *o
     return FW_OK;
 }
 
+static void begin_motion(const fw_report_preview *in, fw_json *out) {
+    fw_json_object(out, "motion");
+    fw_json_text(out, "scene", in->scene ? in->scene->name : NULL);
+    fw_json_text(out, "flow", in->mechanism->variant ? in->mechanism->variant->flow : NULL);
+}
+
 static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
     const fw_dynamics_motion *x = in->motion;
     if (!x || !in->mechanism || x->nsample < 1) {
@@ -321,9 +329,7 @@ static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *o
         fw_json_null(out, "hinge_model_why");
         return FW_OK;
     }
-    fw_json_object(out, "motion");
-    fw_json_text(out, "scene", in->scene ? in->scene->name : NULL);
-    fw_json_text(out, "flow", in->mechanism->variant ? in->mechanism->variant->flow : NULL);
+    begin_motion(in, out);
     fw_json_text(out, "method", x->method);
     fw_json_text(out, "integrator", x->integrator);
     fw_json_text(out, "reason", x->reason);
@@ -349,6 +355,26 @@ static fw_status motion(fw_arena *arena, const fw_report_preview *in, fw_json *o
     fw_json_end(out);
     fw_json_line(out, 0);
     ledger(x, out);
+    return FW_OK;
+}
+
+/* of it what a picture shows */
+static fw_status pictured_motion(fw_arena *arena, const fw_report_preview *in, fw_json *out) {
+    const fw_dynamics_motion *x = in->motion;
+    if (!x || !in->mechanism || x->nsample < 1) {
+        fw_json_null(out, "motion");
+        return FW_OK;
+    }
+    begin_motion(in, out);
+    fw_json_line(out, 0);
+    peaks(in->mechanism, x, out);
+    fw_json_line(out, 0);
+    fw_report_preview_factors(in->scene, x, out);
+    fw_json_line(out, 0);
+    FW_TRY(fw_report_preview_tensions(arena, in->mechanism, in->scene, x, out));
+    fw_json_line(out, 0);
+    states(in->mechanism, x, out);
+    fw_json_end(out);
     return FW_OK;
 }
 
@@ -401,6 +427,14 @@ static void left_out(const fw_report_preview *in, fw_json *out) {
     fw_json_end(out);
 }
 
+static void cost(const fw_report_preview *in, fw_json *out) {
+    fw_json_object(out, "cost");
+    fw_json_number(out, "read_s", in->read_s, 4);
+    fw_json_number(out, "judge_s", in->judge_s, DIGITS);
+    fw_json_number(out, "simulate_s", in->simulate_s, DIGITS);
+    fw_json_end(out);
+}
+
 fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, fw_text *text) {
     fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
     fw_json_object(out, NULL);
@@ -419,7 +453,9 @@ fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, f
     fw_json_line(out, 0);
     FW_TRY(parameters(arena, in->device, out));
     fw_json_line(out, 0);
-    scenes_and_flows(in, out);
+    scenes(in, out);
+    fw_json_line(out, 0);
+    flows(in, out);
     fw_json_line(out, 0);
     FW_TRY(fw_report_preview_shapes(arena, in, out));
     fw_json_line(out, 0);
@@ -430,11 +466,27 @@ fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, f
     /* a document of its own, which ends in a line break */
     fw_text_add(fw_json_value(out, "verdict"), in->verdict_json ? in->verdict_json : "null");
     fw_json_line(out, 0);
-    fw_json_object(out, "cost");
-    fw_json_number(out, "read_s", in->read_s, 4);
-    fw_json_number(out, "judge_s", in->judge_s, DIGITS);
-    fw_json_number(out, "simulate_s", in->simulate_s, DIGITS);
+    cost(in, out);
     fw_json_end(out);
+    return fw_json_finish(out, "\n");
+}
+
+fw_status fw_report_picture_json(fw_arena *arena, const fw_report_preview *in, fw_text *text) {
+    fw_json json = fw_json_new(text, FW_JSON_COMPACT), *out = &json;
+    fw_json_object(out, NULL);
+    fw_json_text(out, "schema", "flexwright.picture/1");
+    fw_json_text(out, "status", in->status);
+    fw_json_text(out, "name", in->device ? in->device->name : NULL);
+    fw_json_line(out, 0);
+    scenes(in, out);
+    fw_json_line(out, 0);
+    FW_TRY(fw_report_preview_shapes(arena, in, out));
+    fw_json_line(out, 0);
+    FW_TRY(marks(arena, in, out));
+    fw_json_line(out, 0);
+    FW_TRY(pictured_motion(arena, in, out));
+    fw_json_line(out, 0);
+    cost(in, out);
     fw_json_end(out);
     return fw_json_finish(out, "\n");
 }

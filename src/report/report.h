@@ -285,6 +285,8 @@ typedef struct fw_report_preview {
 
 /* schema flexwright.preview/1 */
 fw_status fw_report_preview_json(fw_arena *arena, const fw_report_preview *in, fw_text *out);
+/* schema flexwright.picture/1: of the same what a picture of the motion shows */
+fw_status fw_report_picture_json(fw_arena *arena, const fw_report_preview *in, fw_text *out);
 
 /* parts of it that other documents have too, each with its key */
 fw_status fw_report_preview_shapes(fw_arena *arena, const fw_report_preview *in, fw_json *out);

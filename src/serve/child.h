@@ -72,6 +72,7 @@ enum { FW_SERVE_WORKERS = 2, FW_SERVE_MOST_QUESTION = 1024 * 1024 }; /* bytes of
 typedef enum fw_serve_compute {
     FW_COMPUTE_TABLE,
     FW_COMPUTE_PREVIEW,
+    FW_COMPUTE_PICTURE,
     FW_COMPUTE_POSE,
     FW_COMPUTE_EDIT,
     FW_COMPUTE_EXPLORE

@@ -349,6 +349,7 @@ static const fw_serve_route table[] = {
     {.method = "GET", .path = "/api/beside/*", .handle = get_beside},
     {.method = "GET", .path = "/api/events", .handle = get_events},
     {.method = "POST", .path = "/api/preview", .handle = compute, .compute = FW_COMPUTE_PREVIEW},
+    {.method = "POST", .path = "/api/picture", .handle = compute, .compute = FW_COMPUTE_PICTURE},
     {.method = "POST", .path = "/api/pose", .handle = compute, .compute = FW_COMPUTE_POSE},
     {.method = "POST", .path = "/api/edit", .handle = compute, .compute = FW_COMPUTE_EDIT},
     {.method = "POST", .path = "/api/explore", .handle = compute, .compute = FW_COMPUTE_EXPLORE},

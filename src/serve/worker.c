@@ -21,8 +21,8 @@
 enum {
     ANSWER_MS = 20000,   /* a computation that takes longer is ended */
     CANCELLED_MS = 1000, /* one that nobody waits for any more has so long to stop */
-    STOPPING_MS = 50,  /* most that a preview waits for the worker that knows its device to stop */
-    RESTART_MS = 1000, /* a worker that ends at once is not started more often than this */
+    STOPPING_MS = 50,    /* most that a preview waits for the worker that knows its device */
+    RESTART_MS = 1000,   /* a worker that ends at once is not started more often than this */
     MEMORY_MIB = 2048
 };
 
@@ -207,16 +207,17 @@ static void give(fw_serve_worker *w, fw_serve_request *r) {
 }
 
 /* A worker remembers the mechanism that it posed last, and the study whose points it judged, so that these go to the
-   same one; previews, of which it remembers what the last one read, go to the other while it is free. A slider that moves
-   on has the preview before given up: its worker stops within moments, and is waited for, since the other one would read
-   everything anew. NULL: nobody is free, or free enough. */
+   same one; previews and their pictures, of which it remembers what the last one read, go to the other while it is free. A
+   slider that moves on has the preview before given up: its worker stops within moments, and is waited for, since the
+   other one would read everything anew. So is a picture, which its preview follows: another processor draws it meanwhile.
+   NULL: nobody is free, or free enough. */
 static fw_serve_worker *free_worker(fw_serve_pool *pool, unsigned what, int64_t now) {
     bool kept = what == FW_COMPUTE_POSE || what == FW_COMPUTE_EXPLORE;
     int first = kept ? FW_SERVE_WORKERS - 1 : 0;
     const fw_serve_worker *usual = &pool->worker[first];
-    if (what == FW_COMPUTE_PREVIEW && usual->pid && usual->cancelled &&
-        now - usual->asked_ms < STOPPING_MS)
-        return NULL;
+    const bool shown = what == FW_COMPUTE_PREVIEW || what == FW_COMPUTE_PICTURE;
+    const bool soon = usual->cancelled || (usual->busy && usual->head.what == FW_COMPUTE_PICTURE);
+    if (shown && usual->pid && soon && now - usual->asked_ms < STOPPING_MS) return NULL;
     for (int i = 0; i < FW_SERVE_WORKERS; i++) {
         fw_serve_worker *w = &pool->worker[(first + i) % FW_SERVE_WORKERS];
         if (w->pid && !w->busy) return w;
@@ -355,6 +356,8 @@ fw_plan_live_answer fw_serve_worker_answer(fw_plan_live *live, fw_serve_compute 
         return fw_plan_live_table(live);
     case FW_COMPUTE_PREVIEW:
         return fw_plan_live_preview(live, request, n);
+    case FW_COMPUTE_PICTURE:
+        return fw_plan_live_picture(live, request, n);
     case FW_COMPUTE_POSE:
         return fw_plan_live_pose(live, request, n);
     case FW_COMPUTE_EDIT:

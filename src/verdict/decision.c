@@ -134,6 +134,27 @@ fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
 
 /* ---- what speaks against a scene ---- */
 
+/* reasons of one flow for what is not in the masks (verdict_scene.c) */
+static int missing_most(const fw_device *device) {
+    int n = device->nbody + device->njoint + device->nspring + device->nrevolute;
+    for (int i = 0; i < device->nscene; i++) {
+        n += device->scene[i].ncomb;
+        for (int t = 0; t < device->scene[i].ntendon; t++)
+            n += device->scene[i].tendon[t].neyelet;
+    }
+    return n;
+}
+
+size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
+    size_t most =
+        (FW_REASONS + 1) * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
+        (size_t)d->nrevolute + (size_t)missing_most(d) +
+        14; /* what no mask draws; strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
+    for (int i = 0; i < d->nscene; i++)
+        most += (size_t)d->scene[i].ncontact;
+    return most;
+}
+
 fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device_scene *scene,
                                   int number, fw_verdict_decision decision, double keep,
                                   const char *text) {

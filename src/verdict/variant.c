@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "verdict/strain.h"
 #include <math.h>
+#include <string.h>
 
 static fw_verdict_decision decide(double low, double high) {
     if (low > 1.0) return FW_REJECT;
@@ -272,16 +273,6 @@ static bool is_brief(const fw_verdict_options *options, const fw_verdict_variant
     return (options->decision_only || v->like) && !options->values;
 }
 
-size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
-    size_t most =
-        (FW_REASONS + 1) * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
-        (size_t)d->nrevolute + (size_t)fw_verdict_missing_most(d) +
-        14; /* what no mask draws; strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
-    for (int i = 0; i < d->nscene; i++)
-        most += (size_t)d->scene[i].ncontact;
-    return most;
-}
-
 /* runs every scene of this variant; watch[i] and other[i] follow the strains of its two runs */
 static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_mechanism *m, const fw_verdict_options *options,
@@ -317,6 +308,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     for (size_t i = 0; i < n; i++) {
         const fw_device_scene *scene = &m->device->scene[i];
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
+        if (options->only_scene && strcmp(options->only_scene, scene->name) != 0) continue;
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &monitor[i]));
         motion.observe = fw_verdict_strain_monitor_record;
         motion.glance = fw_verdict_strain_monitor_glance;
@@ -419,11 +411,11 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         if (!v->motion[i]) continue;
         fw_verdict_hinge_verdict now = blank;
         const fw_verdict_strain_monitor *saw = v->motion[i]->observed;
-        const double *grown = v->shaken[i].grown;
+        const fw_verdict_shaken *shaken = v->shaken ? &v->shaken[i] : NULL; /* NULL: nobody asked */
         FW_TRY(judge_scene(arena, by, v->motion[i], saw ? saw : &monitor[i], k,
                            device->scene[i].name, &now));
-        widen(v->shaken[i].factor + 2 * k, &now);
-        widen(grown ? grown + 2 * k : NULL, &now);
+        widen(shaken ? shaken->factor + 2 * k : NULL, &now);
+        widen(shaken && shaken->grown ? shaken->grown + 2 * k : NULL, &now);
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
@@ -435,6 +427,23 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[device->nscene] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
+    }
+    return FW_OK;
+}
+
+static fw_status judge_hinges(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                              const fw_verdict_strain_monitor *monitor, fw_diags *diags,
+                              fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_layout_hinge_layout *drawn = layout && layout->drawn ? layout->hinge : NULL;
+    for (int k = 0; k < m->nhinge; k++) {
+        const judged by = {.m = m,
+                           .hinge = &m->hinge[k],
+                           .drawn = drawn ? &drawn[m->hinge[k].pin] : NULL,
+                           .youngs_Pa = m->variant->material.youngs.value,
+                           .safety_factor = device->safety_factor,
+                           .repetitions = device->limits.cycles};
+        FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
     }
     return FW_OK;
 }
@@ -534,8 +543,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
                              fw_diags *diags, fw_verdict_variant_verdict *v) {
     v->mechanism = m;
     v->governing = FW_NONE;
-    v->nreason = 0, v->bent = false;
-    v->nhinge = m->nhinge;
+    v->nreason = 0, v->bent = false, v->nhinge = m->nhinge;
     FW_NEED(v->hinge = fw_arena_array(arena, fw_verdict_hinge_verdict, (size_t)m->nhinge));
     size_t rows = (size_t)m->nhinge * ((size_t)device->nscene + 1);
     FW_NEED(v->used = fw_arena_array(arena, double, rows));
@@ -547,6 +555,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_requirements_list(arena, m, v));
     FW_TRY(fw_verdict_bending_begin(arena, layout, m, only_hinges_ask(device, m, options, v), v));
     FW_TRY(run_scenes(arena, device, layout, m, options, diags, v, monitor, other));
+    if (options->only_scene) return judge_hinges(arena, device, layout, monitor, diags, v);
     const bool brief = is_brief(options, v) || v->corner || options->hinges_only;
     double *bodies;
     FW_NEED(bodies = fw_arena_array(arena, double, (size_t)device->nscene));
@@ -566,16 +575,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
                                       is_brief(options, v) || options->bounded, v));
     if (!brief) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
-    for (int k = 0; k < m->nhinge; k++) {
-        const fw_mechanism_hinge *hinge = &m->hinge[k];
-        const judged by = {.m = m,
-                           .hinge = hinge,
-                           .drawn = layout && layout->drawn ? &layout->hinge[hinge->pin] : NULL,
-                           .youngs_Pa = m->variant->material.youngs.value,
-                           .safety_factor = device->safety_factor,
-                           .repetitions = device->limits.cycles};
-        FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
-    }
+    FW_TRY(judge_hinges(arena, device, layout, monitor, diags, v));
     if (!brief) FW_TRY(fw_verdict_tell_still(arena, diags, v));
     FW_TRY(in_series(arena, v));
     FW_TRY(fw_verdict_out_of_plane_strain(arena, v));

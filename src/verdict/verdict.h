@@ -447,8 +447,9 @@ typedef struct fw_verdict_options {
     bool values;        /* of the drawn device they are found all the same: for trials */
     bool ways;          /* of a corner: what would meet first if all went further is looked for */
     bool bounded; /* clearances are bounded where that accepts, tethers not watched: for studies */
-    bool grid_ways;    /* bounded: bodies give too much for plain ways (fw_verdict.soft_bodies) */
-    bool hinges_only;  /* nothing is judged but hinges, requirements, and if motions hold */
+    bool grid_ways;   /* bounded: bodies give too much for plain ways (fw_verdict.soft_bodies) */
+    bool hinges_only; /* nothing is judged but hinges, requirements, and if motions hold */
+    const char *only_scene; /* of a picture: what hinges use in it, nothing else; NULL: all */
     bool all_made;     /* at all corners, whatever is decided before: a response is one quantity */
     bool unheld;       /* what would have to be held is not looked for: nobody reads it */
     bool coarse_first; /* a first look, and what was asked for only where it decides: for trials */
@@ -464,8 +465,7 @@ typedef struct fw_verdict_model_errors {
     double strain; /* closed-form peak strain against 3-D finite elements */
 } fw_verdict_model_errors;
 extern const fw_verdict_model_errors fw_verdict_model_error;
-/* accuracy of a first look */
-extern const double fw_verdict_first_accuracy;
+extern const double fw_verdict_first_accuracy; /* of a first look */
 
 /* What bodies, which the motion takes as rigid, would give of the displacement where the loads act, as a
    share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a

@@ -313,7 +313,6 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
 
 /* ---- verdict_scene.c: what the motion has and the masks lack ---- */
 
-int fw_verdict_missing_most(const fw_device *device); /* reasons of one flow */
 /* reasons of v */
 fw_status fw_verdict_missing(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              fw_verdict_variant_verdict *v);

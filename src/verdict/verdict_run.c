@@ -181,7 +181,7 @@ static fw_status bounded_attempt(fw_arena *arena, const fw_device *device, const
     if (!options->bounded) return first_attempt(arena, device, layout, options, diags, verdict);
     fw_diags first = fw_diags_new(arena);
     fw_status status = first_attempt(arena, device, layout, options, &first, verdict);
-    const bool soft = status == FW_OK && has_soft_bodies(verdict);
+    const bool soft = status == FW_OK && !options->only_scene && has_soft_bodies(verdict);
     /* what is judged as made all the same is so as if it had been found */
     const bool wanted = options->all_made && verdict->decision != FW_ACCEPT;
     if (status != FW_OK || (!soft && !wanted && is_bounded_well(verdict))) {

@@ -354,16 +354,6 @@ void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, i
    Nothing is in the motion, or holds the device, that is not in its masks: what finds no room in the
    drawing rejects it, in the flows whose scenes have it. Test: tests/unit/plan/test_not_drawn.c */
 
-int fw_verdict_missing_most(const fw_device *device) {
-    int n = device->nbody + device->njoint + device->nspring + device->nrevolute;
-    for (int i = 0; i < device->nscene; i++) {
-        n += device->scene[i].ncomb;
-        for (int t = 0; t < device->scene[i].ntendon; t++)
-            n += device->scene[i].tendon[t].neyelet;
-    }
-    return n;
-}
-
 static fw_status text_of(fw_arena *arena, const fw_layout_missing *m, const char **text) {
     char x[32], y[32];
     const bool moves = m->number != 127;

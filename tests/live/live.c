@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The functions behind the page, without a server:
-     live KIND <REQUEST          the answer to one request (table, preview, pose, edit, explore)
+     live KIND <REQUEST          the answer to one request (table, preview, picture, pose, edit, explore)
      live memory [COUNT]         10 000 requests in one process: what it holds must not grow
      live designs [COUNT]        1000 designs, one after the other, as a user of the library makes them: what the process
                                  holds (memory, files) must not grow
@@ -41,6 +41,7 @@ static fw_plan_live_answer table(fw_plan_live *live, const char *request, size_t
 static function named(const char *kind) {
     return strcmp(kind, "table") == 0     ? table
            : strcmp(kind, "preview") == 0 ? fw_plan_live_preview
+           : strcmp(kind, "picture") == 0 ? fw_plan_live_picture
            : strcmp(kind, "pose") == 0    ? fw_plan_live_pose
            : strcmp(kind, "edit") == 0    ? fw_plan_live_edit
            : strcmp(kind, "explore") == 0 ? fw_study_explore
@@ -234,7 +235,7 @@ int main(int argc, char **argv) {
     else if (live && argc > 6 && strcmp(argv[1], "speed") == 0)
         status = speed(live, argc, argv);
     else
-        fputs("live table|preview|pose|edit|memory|speed ...; see tests/live/live.c\n", stderr);
+        fputs("live table|preview|picture|pose|edit|memory|speed ...; see tests/live/live.c\n", stderr);
     fw_plan_live_free(live);
     return status;
 }

@@ -92,7 +92,7 @@ class Talk(unittest.TestCase):
             self.fails(status, method, path)
         self.assertEqual(self.server.ask("POST", "/api/file", b"{}", {"Content-Type": "text/plain"})[0], 415)
         self.assertEqual(self.server.ask("POST", "/api/file", b"", {"Content-Length": str((1 << 20) + 1)})[0], 413)
-        for path in ("/api/file", "/api/draft", "/api/jobs", "/api/preview", "/api/pose", "/api/edit", "/api/explore"):
+        for path in ("/api/file", "/api/draft", "/api/jobs", "/api/preview", "/api/picture", "/api/pose", "/api/edit", "/api/explore"):
             self.fails(400, "POST", path, b"[1, 2")
 
     def test_the_file(self):
@@ -185,6 +185,9 @@ class Talk(unittest.TestCase):
         self.assertEqual(table["schema"], "flexwright.table/1")
         preview = self.server.json("POST", "/api/preview", {"text": TEXT, "options": QUICK})
         self.assertEqual(preview["schema"], "flexwright.preview/1")
+        picture = self.server.json("POST", "/api/picture", {"text": TEXT, "options": QUICK})
+        self.assertEqual(picture["schema"], "flexwright.picture/1")
+        self.assertEqual(picture["motion"]["q"], preview["motion"]["q"])
         pose = self.server.json("POST", "/api/pose", {"text": TEXT, "body": "left", "platform": {"x_m": 1e-6}})
         self.assertEqual(pose["schema"], "flexwright.pose/1")
         edit = self.server.json("POST", "/api/edit", {"text": TEXT, "changes": [{"path": "leaf", "value": "550 um"}]})

@@ -32,7 +32,7 @@ export function watcher() {
         const json = response.json.bind(response);
         response.json = async () => {
             const answer = await json();
-            if (path === "/api/preview") askedBy.set(answer, JSON.parse(init.body));
+            if (["/api/preview", "/api/picture"].includes(path)) askedBy.set(answer, JSON.parse(init.body));
             if (path === "/api/jobs" && init.method === "POST" && answer.id) jobs.set(answer.id, JSON.parse(init.body));
             return answer;
         };
@@ -49,6 +49,7 @@ export function watcher() {
         const now = { text: state.text, set: state.set, options: state.options };
         return {
             preview: state.preview !== null && same(askedBy.get(state.preview), now),
+            picture: state.picture !== null && same(askedBy.get(state.picture), now),
             full: job !== null && same({ ...jobs.get(job.id), options: some(jobs.get(job.id)?.options) }, { ...now, options: some(state.options) }),
         };
     };
@@ -62,7 +63,7 @@ export function watcher() {
         const made = banner.querySelector(".as-drawn")?.textContent === "as it will be made";
         if (banner.dataset.of === "present" && !(made ? is.full : is.preview)) say(`banner: ${banner.textContent.slice(0, 60)}`);
         for (const e of document.querySelectorAll("#right > .card[data-of='present'], #panel-motion [data-of='present']"))
-            if (!is.preview && !e.matches(".problems, .notes")) say(`${e.className} ${e.textContent.slice(0, 40)}`);
+            if (!(e.matches(".stage, .player") ? is.picture : is.preview) && !e.matches(".problems, .notes")) say(`${e.className} ${e.textContent.slice(0, 40)}`);
         if (parts.verdict.full.content.dataset.of === "present" && !is.full) say("as fabricated");
         if (banner.dataset.of === "present") // what a field says is what the verdict is of
             for (const f of document.querySelectorAll("#panel-form .slider input.value")) {

@@ -333,6 +333,38 @@ describe("the six-bar", () => {
         assert.deepEqual(axe.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes[0].html]), []);
     });
 
+    test("while a slider is held the picture is of its value before the verdict is, which stays marked as former until then", async () => {
+        await view(page, "motion");
+        const slider = page.locator('[data-parameter="arc"]');
+        const written = await slider.evaluate((e) => e.value);
+        const looks = () => page.evaluate(() => ({ of: ["#panel-motion .stage", "#panel-motion .plots"].map((x) => document.querySelector(x).dataset.of),
+            verdict: document.querySelector("#banner").dataset.of,
+            d: document.querySelector("#panel-motion .stage path.flexure").getAttribute("d"), labels: [...document.querySelectorAll("#panel-motion .hinge-label")].map((x) => x.textContent) }));
+        let go;
+        const gate = new Promise((resolve) => (go = resolve));
+        const before = await looks();
+        await page.route("**/api/preview", async (r) => (await gate, r.continue().catch(() => {}))); // a later one may have taken its place
+        await slider.evaluate((e) => {
+            e.value = 200;
+            e.dispatchEvent(new Event("input"));
+        });
+        await page.waitForFunction((d) => document.querySelector("#panel-motion .stage path.flexure").getAttribute("d") !== d, before.d);
+        const held = await looks();
+        assert.deepEqual([...held.of, held.verdict], ["present", "former", "former"]);
+        assert.notDeepEqual(held.labels, before.labels);
+        go();
+        await page.unroute("**/api/preview");
+        await page.waitForFunction(() => globalThis.flexwright.state.previewOf === globalThis.flexwright.state.pictureOf && document.querySelector("#panel-motion .plots").dataset.of === "present");
+        const then = await looks();
+        assert.deepEqual([...then.of, then.verdict], ["present", "present", "present"]);
+        assert.deepEqual([then.d, then.labels], [held.d, held.labels], "the same picture");
+        await answered(page, () => slider.evaluate((e, v) => {
+            e.value = v;
+            e.dispatchEvent(new Event("input"));
+            e.dispatchEvent(new Event("change"));
+        }, written));
+    });
+
     test("the slider: how long until the new motion is seen", async (t) => {
         await view(page, "motion");
         const slider = page.locator('[data-parameter="arc"]');

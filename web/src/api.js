@@ -74,7 +74,8 @@ export async function openSession() {
  * usually does: so a slider that moves shows every answer that comes in time, and nothing waits behind a slow one.
  *
  * send(input, signal) makes the request; done(answer, input) gets what came back, failed(error, input) what did not,
- * given(input, why) what was given up: "newer" or "cancelled". Returns {ask(input), cancel(), busy, input}.
+ * given(input, why) what was given up: "newer" or "cancelled". words: of the sign that it is on its way; null: another request
+ * of the same input has one. Returns {ask(input), cancel(), busy, input}.
  */
 export function newest(send, done, failed, { given, words = "computing" } = {}) {
     const usual = []; // ms of the last answers
@@ -99,7 +100,7 @@ export function newest(send, done, failed, { given, words = "computing" } = {}) 
 
     async function run(input, waits = performance.now()) {
         const me = (now = { input, control: new AbortController(), since: performance.now(), why: null });
-        const end = begin({ words, cancel, since: waits });
+        const end = words === null ? () => {} : begin({ words, cancel, since: waits });
         try {
             const answer = await send(input, me.control.signal);
             usual.push(performance.now() - me.since);

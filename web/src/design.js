@@ -135,6 +135,50 @@ export const lab = () => (Object.keys(state.lab).length ? { lab: { ...state.lab 
 
 const OPTIONS_AS_NUMBERS = ["rtol", "accuracy"];
 
+// What is held by hand changes many times a second, and a person looks at the picture: it is asked for alone first, which
+// takes a tenth of what a verdict does. What is read comes with the preview.
+const picture = newest(({ body }, signal) => post("/api/picture", body, { signal }), takePicture, () => {}, { words: null });
+let asked = 0; // inputs, in their order
+let pictured = 0; // that of the picture
+
+// The preview waits for its picture, so that is asked for only where it takes little of the preview's time, and that much.
+const WORTH_SHARE = 0.45;
+const WORTH_S = 0.03;
+const TRY_AGAIN = 50; // changes that were not asked for, after which the times may be others
+const pictures = { name: null, alone_s: 0, skipped: 0 };
+
+function worthAPicture() {
+    const { name, cost } = state.preview;
+    const whole_s = cost.read_s + cost.judge_s + cost.simulate_s;
+    if (name !== pictures.name || pictures.skipped >= TRY_AGAIN) Object.assign(pictures, { name, alone_s: 0, skipped: 0 });
+    const worth = whole_s > WORTH_S && pictures.alone_s < WORTH_SHARE * whole_s;
+    pictures.skipped += Number(!worth);
+    return worth;
+}
+
+function takePicture(answer, input) {
+    if (answer.status !== "ok" || input.at <= pictured) return;
+    pictures.alone_s = answer.cost.read_s + answer.cost.judge_s;
+    state.same = null;
+    show(answer, input);
+    afterFrame(() => timed(input));
+}
+
+function show(answer, input) {
+    pictured = input.at;
+    state.picture = answer;
+    state.pictureOf = input.key;
+    together(() => emit("picture", answer));
+}
+
+/** Of an input the first of its pictures counts. */
+function timed({ clock }) {
+    if (clock.shown) return;
+    clock.shown = true;
+    state.latency.push(performance.now() - clock.since);
+    if (state.latency.length > 400) state.latency.shift();
+}
+
 const preview = newest(
     ({ body }, signal) => post("/api/preview", body, { signal }),
     take,
@@ -179,7 +223,7 @@ function take(answer, input) {
     state.same = !first && alike(answer, state.preview, OWN) ? state.preview : null;
     state.preview = answer;
     state.previewOf = input.key;
-    together(() => emit("picture", answer));
+    if (input.at >= pictured) show(answer, input); // else a newer picture is there
     const mine = (rest = () => {
         if (rest !== mine) return; // a newer picture is there, and its rest is to come
         rest = null;
@@ -189,9 +233,9 @@ function take(answer, input) {
         });
     });
     if (first || state.same || requestKey() === toldOf) rest(); // of the same device the picture stays, and its rest can come with it
+    const another = !state.same; // than the picture that was there
     afterFrame(() => {
-        state.latency.push(performance.now() - input.since);
-        if (state.latency.length > 400) state.latency.shift();
+        if (another) timed(input);
         mine();
     });
 }
@@ -243,11 +287,13 @@ export function startPreviews() {
         clearTimeout(timer);
         timer = 0;
         state.cancelled = null;
-        preview.ask({ body: previewRequest(), key: requestKey(), since: performance.now() });
+        const input = { key: requestKey(), at: ++asked, clock: { since: performance.now(), shown: false } };
+        if (anyHeld() && state.preview?.cost && worthAPicture()) picture.ask({ ...input, body: request() });
+        preview.ask({ ...input, body: previewRequest() });
     });
     on("text", () => {
         clearTimeout(timer); // somebody may be typing
         timer = setTimeout(() => emit("change"), TYPING_MS);
     });
-    mayChange(() => timer !== 0 || state.edits.length > 0 || preview.busy || rest !== null);
+    mayChange(() => timer !== 0 || state.edits.length > 0 || preview.busy || picture.busy || rest !== null);
 }

@@ -81,15 +81,15 @@ export class Draw {
     shown(yes) {
         this.visible = yes;
         if (!yes) return this.#cancel();
-        if (state.preview) this.#base();
+        if (state.picture) this.#base();
         this.#refresh();
     }
 
     // ---- what is drawn ----
 
     #base() {
-        this.mechanism.show(state.preview);
-        this.mechanism.pose(restOf(state.preview));
+        this.mechanism.show(state.picture);
+        this.mechanism.pose(restOf(state.picture));
         this.mechanism.colour(new Map(), state.hinge);
         this.#pinned();
         this.#stands();
@@ -107,7 +107,7 @@ export class Draw {
             this.readOf = state.text;
             this.root = parse(state.text, (name) => this.keys.get(name) ?? null) ?? this.root;
         }
-        const rests = new Map((state.preview?.bodies ?? []).filter((b) => b.rest).map((b) => [b.id, b.rest]));
+        const rests = new Map((state.picture?.bodies ?? []).filter((b) => b.rest).map((b) => [b.id, b.rest]));
         this.places = this.root ? new Places(this.root, this.units, state.set, rests) : null;
     }
 
@@ -126,10 +126,10 @@ export class Draw {
     /** Where the last answer has no picture, or is of another device, what is drawn stands for it; until the next answer it stays so. */
     #stands() {
         const nothing = state.answered === inputKey() && !isPresent();
-        if (nothing || !state.preview || ofAnother(state.previewOf)) this.alone = true;
+        if (nothing || !state.picture || ofAnother(state.pictureOf)) this.alone = true;
         else if (isPresent()) this.alone = false;
         this.stage.classList.toggle("sketch-only", this.alone);
-        this.shownOf.take(this.alone ? null : state.previewOf);
+        this.shownOf.take(this.alone ? null : state.pictureOf);
     }
 
     #handlesOf(places) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The motion of one scene: the mechanism, its plots and the time that couples them; and how it is
 // computed, with what that costs.
+import { alike as same } from "./alike.js";
 import { Shown } from "./belong.js";
 import { curve, dark, dash } from "./colours.js";
 import { coursesOf, ENERGIES, pointAt, pointsOf } from "./courses.js";
@@ -23,6 +24,10 @@ export const ACCURACIES = ["1e-2", "1e-4", "1e-5"];
 
 /** The angle of a pin at which it uses all of the limit that rules in this motion, rad, or null. */
 const limitOf = (pin) => pin.shown_limit_rad ?? null;
+
+/** Of an answer what the picture shows. */
+const seen = (p) => [p.scenes, p.bodies, p.flexures, p.loads, p.ties, p.springs, p.marks, p.scene_box_um, p.pins.map((x) => [x.id, x.at_um, x.shown_limit_rad, x.shown_criterion]),
+    p.motion && ["scene", "t_s", "q", "angle_rad", "load_factor", "tension_N"].map((k) => p.motion[k] ?? null)];
 
 /** Options of a <select> from a list of the table: [value, text, sentence]. */
 const optionNames = (list) => (list ?? []).map((o) => (typeof o === "string" ? [o, o] : [o.name, o.name, o.sentence]));
@@ -62,8 +67,8 @@ export class Motion {
         });
         this.angles.heading.append(this.inDegrees);
         on("options", () => this.picks?.forEach((refresh) => refresh()));
-        on("picture", () => this.visible && (state.same && state.same === this.of ? this.#again() : this.#picture()));
-        on("preview", () => this.visible && (this.of === state.preview ? this.#rest() : this.show()));
+        on("picture", () => this.visible && this.#came());
+        on("preview", () => this.visible && (this.of === state.picture ? this.#rest() : this.show()));
         for (const event of ["hinge", "theme", "pinned"]) on(event, () => this.visible && this.show());
     }
 
@@ -118,8 +123,8 @@ export class Motion {
 
     /** The same device was asked for in another way: all of it is there. */
     #again() {
-        this.of = state.preview;
-        for (const shown of [...this.pictured, ...(this.plotted ? this.written : [])]) shown.take(state.previewOf);
+        this.of = state.picture;
+        for (const shown of [...this.pictured, ...(this.plotted ? this.written : [])]) shown.take(state.pictureOf);
         if (this.plotted) this.plotted = this.of;
     }
 
@@ -129,11 +134,23 @@ export class Motion {
         this.#rest();
     }
 
+    /** Another picture: of the same device in another way, the one that is there already with all else of its answer, or a new one. */
+    #came() {
+        if (state.same && state.same === this.of) return this.#again();
+        if (!this.of || !same(seen(state.picture), seen(this.of))) return this.#picture();
+        this.#begin();
+    }
+
+    #begin() {
+        this.of = state.picture;
+        if (state.picture === state.preview) this.plotted = null; // whose curves are there
+        for (const shown of this.pictured) shown.take(state.pictureOf);
+    }
+
     /** What is looked at first. */
     #picture() {
-        const p = (this.of = state.preview);
-        this.plotted = null; // whose curves are there
-        for (const shown of this.pictured) shown.take(state.previewOf);
+        this.#begin();
+        const p = this.of;
         const scenes = p.scenes.map((x) => [x.name, x.name]);
         const scene = state.options.scene ?? p.motion?.scene ?? ""; // chosen, and maybe none of the list
         setOptions(this.scene, !scene || p.scenes.some((x) => x.name === scene) ? scenes : [...scenes, [scene, scene]], scene);
@@ -143,7 +160,6 @@ export class Motion {
         const share = this.t ? this.time / this.#end() : 0;
         this.t = p.motion.t_s;
         this.time = first ? peakTime(p) : share * this.#end();
-        this.limits = p.pins.map(limitOf);
         const rules = [...new Set(p.pins.map((pin) => pin.shown_criterion).filter(Boolean))];
         this.rule = rules.length === 1 ? `${rules[0]} limit` : "limit";
         this.mechanism.show(p, { posed: true });
@@ -181,7 +197,7 @@ export class Motion {
 
     /** Where the motion takes what moves. */
     #paths() {
-        const p = state.preview;
+        const p = state.picture;
         const shown = this.showPaths.getAttribute("aria-pressed") === "true" && p?.motion;
         if (!shown) return this.paths.replaceChildren();
         this.paths.replaceChildren(...pointsOf(p).map((x) => s("path", { d: `M${p.motion.q.map((row) => pointAt(row, x).map((v) => v.toFixed(3)).join(" ")).join("L")}` })));
@@ -204,16 +220,17 @@ export class Motion {
         if (!p?.motion || this.plotted !== p) return;
         const m = p.motion;
         const ms = m.t_s.map((t) => t * 1e3);
-        const inDegrees = this.inDegrees.getAttribute("aria-pressed") === "true" || this.limits.every((x) => !x);
+        const limits = p.pins.map(limitOf);
+        const inDegrees = this.inDegrees.getAttribute("aria-pressed") === "true" || limits.every((x) => !x);
         const chosen = state.hinge !== null && p.pins.some((x) => x.id === state.hinge) ? state.hinge : null;
         const series = p.pins.map((pin, i) => {
-            const factor = inDegrees ? 180 / Math.PI : this.limits[i] ? 100 / this.limits[i] : NaN;
+            const factor = inDegrees ? 180 / Math.PI : limits[i] ? 100 / limits[i] : NaN;
             return { name: pin.id, key: i, values: m.angle_rad.map((row) => (Number.isFinite(factor) && row[i] !== null ? row[i] * factor : null)) };
         });
         series.push(...this.#anglesThen(ms, inDegrees));
         let marks = [{ y: 100, text: this.rule }, { y: -100 }];
-        if (inDegrees) marks = p.pins.flatMap((pin, i) => (this.limits[i] && (chosen === null || chosen === pin.id) ? [1, -1].map((f) => ({ y: (f * this.limits[i] * 180) / Math.PI, curve: i })) : []));
-        const most = Math.max(...m.angle_rad.map((row) => Math.max(...row.map((a, i) => (this.limits[i] ? Math.abs(a) / this.limits[i] : 0)))));
+        if (inDegrees) marks = p.pins.flatMap((pin, i) => (limits[i] && (chosen === null || chosen === pin.id) ? [1, -1].map((f) => ({ y: (f * limits[i] * 180) / Math.PI, curve: i })) : []));
+        const most = Math.max(...m.angle_rad.map((row) => Math.max(...row.map((a, i) => (limits[i] ? Math.abs(a) / limits[i] : 0)))));
         say(this.angles.heading.firstChild, inDegrees ? "Hinge angle" : "Share of the limit");
         say(this.angles.heading.children[1], inDegrees ? "degrees, over ms" : "%, over ms");
         this.angles.show(ms, series, { marks, chosen, range: inDegrees ? undefined : most > 0.4 ? [-112, 112] : undefined });
@@ -333,14 +350,14 @@ export class Motion {
 
     /** The scene as it is seen here, from its begin to its end, in the time that it takes to play. */
     async #film() {
-        const [p, time] = [state.preview, this.time];
+        const [p, time] = [state.picture, this.time];
         this.toggle(false);
         const seconds = SECONDS / this.speed;
         const n = Math.min(Math.round(seconds * FRAMES_A_SECOND), FRAMES_MOST);
         const end = this.#end();
         try {
             return await record(this.mechanism.svg, {
-                n, seconds, cancelled: () => state.preview !== p || !this.visible || this.playing,
+                n, seconds, cancelled: () => state.picture !== p || !this.visible || this.playing,
                 show: (i) => {
                     this.time = (end * i) / (n - 1);
                     this.paint();
@@ -355,7 +372,7 @@ export class Motion {
 
     /** Everything that goes with time. */
     paint() {
-        const p = state.preview;
+        const p = state.picture;
         if (!p?.motion || !this.t) return;
         const [i, f] = this.#sample(this.time);
         const m = p.motion;
@@ -363,22 +380,28 @@ export class Motion {
         const b = m.q[Math.min(i + 1, m.q.length - 1)];
         this.mechanism.pose(posesOf(p, a.map((x, k) => x + f * (b[k] - x))), { factors: between(p.motion.load_factor, p.loads.length, i, f, 1), tensions: between(p.motion.tension_N, p.motion.tension_N?.length ?? 0, i, f, 0) });
         this.#pinned();
-        const angles = m.angle_rad[i].map((x, k) => x + f * ((m.angle_rad[Math.min(i + 1, m.angle_rad.length - 1)][k] ?? x) - x));
-        const shares = new Map(p.pins.map((pin, k) => [pin.id, this.limits[k] ? Math.abs(angles[k]) / this.limits[k] : null]));
-        this.mechanism.colour(shares, state.hinge);
+        this.mechanism.colour(this.#turned(p).shares, state.hinge);
         this.slider.value = Math.round((1000 * this.time) / this.#end());
         const text = si(this.time, "s", 3);
         put(this.slider, { "aria-valuetext": text });
         say(this.clock, `${text} / ${si(this.#end(), "s", 3)}`);
-        this.at = { i, angles, shares };
-        if (this.plotted === p) this.#cursors();
+        if (this.plotted?.motion) this.#cursors();
+    }
+
+    /** Of an answer at that time: its sample, how far each pin has turned, and what that uses of its limit. */
+    #turned(p) {
+        const m = p.motion;
+        const [i, f] = this.#sample(this.time, m.t_s);
+        const next = m.angle_rad[Math.min(i + 1, m.angle_rad.length - 1)];
+        const angles = m.angle_rad[i].map((x, k) => x + f * ((next[k] ?? x) - x));
+        return { i, angles, shares: new Map(p.pins.map((pin, k) => [pin.id, limitOf(pin) ? Math.abs(angles[k]) / limitOf(pin) : null])) };
     }
 
     /** Of the plots, and what their headings say at that time. */
     #cursors() {
-        const p = state.preview;
+        const p = this.plotted;
         const m = p.motion;
-        const { i, angles, shares } = this.at;
+        const { i, angles, shares } = this.#turned(p);
         const k = state.hinge === null ? -1 : p.pins.findIndex((x) => x.id === state.hinge);
         const worst = [...shares].reduce((best, x) => (x[1] !== null && x[1] > (best?.[1] ?? -1) ? x : best), null);
         const ms = this.time * 1e3;

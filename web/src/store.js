@@ -18,6 +18,8 @@ export const state = {
     rates: false, // velocities of the motion are looked at, and asked for
     preview: null, // last good flexwright.preview/1
     previewOf: null, // its input (belong.js)
+    picture: null, // what the picture shows: that answer, or the picture alone of a newer input, flexwright.picture/1
+    pictureOf: null, // its input
     same: null, // the answer before it, where both are of one device: whoever shows that one shows this one
     answered: null, // input of the last answer, good or not: that of the diagnostics
     cancelled: null, // input whose answer nobody waits for any more
@@ -36,7 +38,7 @@ export const onFirst = (name, f) => bus.addEventListener(name, (e) => f(e.detail
 export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { detail }));
 
 /** Names of events: "text" (editor's text changed), "change" (ask for a preview), "entered" (typed, and in no text yet), "options" (how it is
- *  computed), "picture" (a good answer: of the picture alone), "preview" (the same, a frame later: of the rest), "answer" (any answer), "belong" (what is shown was marked anew), "working"
+ *  computed), "picture" (state.picture is another one), "preview" (a good answer, a frame behind its picture: of the rest), "answer" (any answer), "belong" (what is shown was marked anew), "working"
  *  (what is on its way), "hinge" (looked at), "pinned" (a version, or its answer), "judged" (as made), "jobs" (any job), "view" (a tab was chosen), "time" (of the motion, by hand), "lab" (packs in use), "theme". */
 export function lookAt(hinge) {
     state.hinge = state.hinge === hinge ? null : hinge;

@@ -55,7 +55,7 @@ export class Workspace {
         const pose = () => this.#input();
         this.showing = [this.stage, this.status, this.list].map((element) => new Shown(element, pose));
         this.drawn = new Shown(this.stage);
-        on("picture", () => this.visible && this.show());
+        on("picture", () => this.visible && state.picture === state.preview && this.show());
         on("hinge", () => this.#colour());
     }
 

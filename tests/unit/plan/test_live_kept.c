@@ -116,6 +116,55 @@ static const request course[] = {
     {"value=\"8 um\"", "value=\"9 um\"", NULL},
 };
 
+/* of a picture all members are those of the preview but what only a judged flow has, and those of the motion that it has */
+static void the_same_picture(const json_t *picture, const json_t *preview) {
+    static const char *const same[] = {"name",   "scenes", "box_um",     "scene_box_um", "bodies",
+                                       "ties",   "flexures", "springs", "loads", "not_drawn"};
+    static const char *const moved[] = {"scene", "flow", "peaks", "load_factor",
+                                        "tension_N", "t_s", "q", "angle_rad"};
+    static const char *const used[] = {"id",           "at_um",           "shown_limit_rad",
+                                       "shown_utilisation", "shown_criterion"};
+    for (size_t i = 0; i < sizeof same / sizeof same[0]; i++)
+        assert_true(json_equal(json_object_get(picture, same[i]), json_object_get(preview, same[i])));
+    const json_t *a = json_object_get(picture, "motion"), *b = json_object_get(preview, "motion");
+    assert_int_equal(json_is_object(a), json_is_object(b));
+    for (size_t i = 0; json_is_object(a) && i < sizeof moved / sizeof moved[0]; i++) {
+        assert_non_null(json_object_get(a, moved[i]));
+        assert_true(json_equal(json_object_get(a, moved[i]), json_object_get(b, moved[i])));
+    }
+    const json_t *pins = json_object_get(picture, "pins"), *judged = json_object_get(preview, "pins");
+    assert_int_equal(json_array_size(pins), json_array_size(judged));
+    for (size_t k = 0; k < json_array_size(pins); k++)
+        for (size_t i = 0; i < sizeof used / sizeof used[0]; i++)
+            assert_true(json_equal(json_object_get(json_array_get(pins, k), used[i]),
+                                   json_object_get(json_array_get(judged, k), used[i])));
+}
+
+/* what a page shows first is what comes behind it, for devices that are accepted, rejected, refused and misread; and a
+   picture changes nothing of the preview that follows */
+static void a_picture_is_that_of_its_preview(void **state) {
+    (void)state;
+    const char *directory = FW_TEST_SOURCE_DIR;
+    fw_plan_live *live = of_directory(directory);
+    int pictures = 0;
+    for (size_t i = 0; i < sizeof course / sizeof course[0]; i++) {
+        char *text = composed(&course[i]);
+        fw_plan_live_answer a = fw_plan_live_picture(live, text, strlen(text));
+        json_t *picture = json_loads(a.text, JSON_REJECT_DUPLICATES, NULL);
+        assert_non_null(picture);
+        json_t *preview = the_same(live, directory, &course[i], NULL);
+        const char *how = json_string_value(json_object_get(picture, "status"));
+        assert_int_equal(a.status,
+                         json_integer_value(json_object_get(preview, "status of the call")));
+        if (how && strcmp(how, "ok") == 0) the_same_picture(picture, preview), pictures++;
+        if (how && json_is_object(json_object_get(preview, "motion"))) assert_string_equal(how, "ok");
+        json_decref(picture), json_decref(preview);
+        free(text);
+    }
+    assert_true(pictures >= 12);
+    fw_plan_live_free(live);
+}
+
 static void a_course_of_edits(void **state) {
     (void)state;
     fw_plan_live *live = of_directory(FW_TEST_SOURCE_DIR);
@@ -299,6 +348,7 @@ static void files_that_change(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_course_of_edits),
+        cmocka_unit_test(a_picture_is_that_of_its_preview),
         cmocka_unit_test(what_was_held_is_text),
         cmocka_unit_test(the_one_after_what_was_given_up),
         cmocka_unit_test(files_that_change),
