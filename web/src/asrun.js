@@ -11,6 +11,7 @@ import { fileOf, forget, hasFile, run } from "./jobs.js";
 import { on, state } from "./store.js";
 
 const QUIET_MS = 500;
+const SHORT_S = 60; // a step that takes less begins and ends in one minute
 const NAME = /^[A-Za-z0-9_][A-Za-z0-9_-]{0,59}$/;
 const OTHER_PLAN = /\[FW-D281\]/;
 const said = (job) => (job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m) && !/ note: /.test(m));
@@ -152,7 +153,7 @@ export class AsRun {
         const steps = r.steps.filter((x) => x.times);
         const lot = r.lot ? `, lot ${r.lot}` : "";
         this.said.textContent = this.name ? `${this.name}${lot}: ${r.entries} ${r.entries === 1 ? "entry" : "entries"}, ${r.logged} of ${r.steps.length} steps run, ${r.outside} outside of their limits.${this.without ? " The numbers of the laboratory came after it began: its plan is the one without them." : ""}`
-            : "No log is chosen: the first entry begins one.";
+            : `No log is chosen: the first entry begins one.${this.#onlyHere()}`;
         const row = (x, e, first) => h("tr", { class: e.judged === "in window" || e.judged === "no plan" ? "" : "outside" },
             h("th", { scope: "row" }, first ? `${x.id} ${x.title}` : ""), h("td", {}, e.wafer ?? "lot"), h("td", { class: "n" }, x.at_machine_s === null ? "–" : duration(x.at_machine_s)), h("td", { class: "n" }, e.actual_s === undefined ? "–" : duration(e.actual_s) + (e.runs ? `; ${e.runs} runs, ${duration(e.runs_s)}` : "")), h("td", {}, e.judged ?? "–"),
             h("td", {}, [...(e.measured ?? []).map((m) => [m.accepted, `${m.measure} ${typeof m.value === "number" ? number(m.value, 4) : m.value ?? ""}${units(m.unit ?? "")}`]), ...(e.settings ?? []).map((m) => [m.accepted, `${m.name} ${typeof m.value === "number" ? number(m.value, 4) : m.value ?? ""}${units(m.unit ?? "")}`])]
@@ -168,6 +169,15 @@ export class AsRun {
             r.fates?.length ? h("ul", { class: "log-fates" }, r.fates.map((f) => h("li", {}, `wafer ${f.wafer}: ${f.fate} at ${f.step}, ${f.at}: ${f.why}`))) : null,
             this.name ? h("div", { class: "row" }, link, keep, fit) : null].filter(Boolean));
         this.#steps();
+    }
+
+    /** What a log that begins now is of, and no file has: whoever goes on in the terminal needs it. */
+    #onlyHere() {
+        const text = state.text !== (state.file ? state.file.text : state.base);
+        const packs = Object.keys(state.lab).length > 0;
+        if (!text && !packs) return "";
+        const what = [text ? "a text that is not saved" : null, packs ? "numbers of the laboratory that are in this page" : null].filter(Boolean).join(" and ");
+        return ` It is then of ${what}: save ${text && packs ? "both" : text ? "it" : "them as a pack"} first, so that flexwright log can go on with it.`;
     }
 
     // ---- an entry ----
@@ -233,6 +243,8 @@ export class AsRun {
             for (const [name, value] of [["wafer", wafer.value], ["start", end.value], ["by", by.value], ["note", note.value], [became.value, why.value]]) if (value.trim()) parts.push(`${name}=${value.trim()}`);
             return parts.some((p) => /[;\t\r\n]/.test(p)) ? { why: "No semicolon can stand in an entry." } : { words: parts.join("; ") };
         }
+        const { start, end } = this.fields;
+        if (x.at_machine_s >= SHORT_S && start.value === end.value) return { why: `It began and ended in the same minute, and is planned for ${duration(x.at_machine_s)}: say when it began. What is written into a log stays there.` };
         for (const [name, input] of Object.entries(this.fields)) if (input.value.trim()) parts.push(`${name}=${input.value.trim()}`);
         for (const input of this.form.querySelectorAll("[data-kind]")) {
             const value = input.value.trim();

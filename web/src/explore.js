@@ -18,6 +18,7 @@ const HOW = [["quick", "at a first look: hinges as pins", "as the live verdict: 
 const QUIET_MS = 400; // that nothing changes before it is asked for by itself
 const REQUEST_MS = 250; // that a request is to take: progress is seen, and cancelling is quick
 const FIRST = 3; // points of the first request
+const TOO_LONG = "FW-D286"; // a request was ended: it took longer than the server gives to one
 const LANES = navigator.hardwareConcurrency > 1 ? 2 : 1; // requests at a time: the server has two processes that compute
 const MOST = 64;
 const HALVINGS = 6; // of an interval in which the decision changes
@@ -223,6 +224,7 @@ export class Explore {
         this.wrong.take(null);
         const end = begin({ words: "Exploring", cancel: () => this.#stop("cancelled") });
         this.begun = performance.now();
+        this.lanes = undefined;
         try {
             if (spec.inputs.length === 2) await this.#askMap(spec, key, control.signal);
             else await this.#askLine(spec, key, control.signal);
@@ -275,10 +277,19 @@ export class Explore {
         const values = [...n.value, ...n.low, ...n.high, "governing.utilisation"]; // the last one: that it is judged
         const body = { text: state.text, set, ...lab(), options: this.#options(), inputs: spec.inputs.map((x) => x.what), values };
         for (let i = 0; i < missing.length; ) {
-            const some = missing.slice(i, i + LANES * (this.chunk ?? FIRST));
-            const parts = Array.from({ length: Math.min(LANES, some.length) }, (_, lane) => some.filter((_, j) => j % LANES === lane));
+            const lanes = this.lanes ?? LANES;
+            const some = missing.slice(i, i + lanes * (this.chunk ?? FIRST));
+            const parts = Array.from({ length: Math.min(lanes, some.length) }, (_, lane) => some.filter((_, j) => j % lanes === lane));
             const since = performance.now();
-            const answers = await Promise.all(parts.map((part) => post("/api/explore", { ...body, points: part.map((k) => texts[k]) }, { signal })));
+            let answers;
+            try {
+                answers = await Promise.all(parts.map((part) => post("/api/explore", { ...body, points: part.map((k) => texts[k]) }, { signal })));
+            } catch (error) {
+                if (signal.aborted || error.body?.error?.code !== TOO_LONG || some.length === 1) throw error;
+                this.chunk = Math.max(Math.floor((this.chunk ?? FIRST) / 4), 1); // a machine that does other work, too: fewer at once
+                if (parts[0].length === 1) this.lanes = 1;
+                continue;
+            }
             if (signal.aborted) throw new Error("given up");
             answers.forEach((answer, lane) => {
                 if (answer.status !== "ok") throw new Error(answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "this cannot be computed");
@@ -354,7 +365,7 @@ export class Explore {
         if (this.legendOf !== map) this.legend.replaceChildren(...legendOf(map ? "map" : "line"));
         this.legendOf = map;
         if (map) this.plot.show({ kind: "map", x: inputs[0], y: inputs[1], cells: [...this.done.values()].sort((a, b) => b.w - a.w), limit: limits[0] ?? null, unit: n.unit, at: this.at });
-        else this.plot.show({ kind: "line", x: inputs[0], points: this.#sorted(), limits, unit: n.unit, ylabel: `${n.label} (${n.unit})`, at: this.at });
+        else this.plot.show({ kind: "line", x: inputs[0], points: this.#sorted(), whole: this.whole, limits, unit: n.unit, ylabel: `${n.label} (${n.unit})`, at: this.at });
         this.summary.textContent = map ? this.#mapWords() : this.#lineWords(inputs[0]);
         this.plot.svg.setAttribute("aria-label", `${n.label} over ${inputs.map((x) => x.label).join(" and ")}. ${this.summary.textContent}`);
         this.slider.hidden = map;
@@ -366,7 +377,7 @@ export class Explore {
         const words = list.length > 6 ? [...list.slice(0, 6), `and ${list.length - 6} more stretches`] : list;
         const text = words.join("; ");
         const why = [...this.done.values()].find((p) => p.why)?.why;
-        const said = this.whole ? `${text.charAt(0).toUpperCase()}${text.slice(1)}` : `So far, by ${this.done.size} devices: ${text}`;
+        const said = this.whole ? `${text.charAt(0).toUpperCase()}${text.slice(1)}` : `So far, by ${this.done.size} ${this.done.size === 1 ? "device" : "devices"}: ${text}`;
         return `${said}.${why ? ` ${why}` : ""}`;
     }
 

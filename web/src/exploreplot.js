@@ -61,7 +61,7 @@ export class ExplorePlot {
     }
 
     #line(w, height) {
-        const { x, points, limits, unit, at } = this.what;
+        const { x, points, limits, unit, at, whole } = this.what;
         const good = points.filter((p) => Number.isFinite(p.value));
         const all = [...good.flatMap((p) => [p.value, p.low, p.high]), ...limits].filter(Number.isFinite);
         let [low, high] = all.length ? [Math.min(...all), Math.max(...all)] : [0, 1];
@@ -87,7 +87,7 @@ export class ExplorePlot {
         if (at !== null && at !== undefined) inside.append(s("path", { class: "explore-at", d: `M${px(at)} ${TOP}V${bottom}` }));
         out.push(area, inside);
         limits.forEach((v) => py(v) >= TOP && out.push(s("text", { class: "explore-word limit", x: right - 4, y: py(v) - 5, "text-anchor": "end" }, "limit")));
-        for (const r of stretches(points)) {
+        for (const r of stretches(points, whole)) {
             const [a, b] = [px(r.from), px(r.to)];
             out.push(s("rect", { class: `explore-strip ${r.state}`, x: a, y: bottom + 1, width: Math.max(b - a, 1), height: STRIP - 4 }, s("title", {}, WORDS[r.state])));
         }

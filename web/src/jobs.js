@@ -108,12 +108,13 @@ export function giveWay() {
 }
 
 const AUTO_MS = 500; // an automatic job waits until nothing has changed for so long
+const WAITS_MS = 1500; // a longer wait is told
 
 export class JobView {
     /**
      * kind, options(): of the job; intro: what it gives, shown while there is nothing; action: label of
      * the button; render(job, holder): fills the holder, may be async; auto: runs by itself while shown,
-     * when nothing has changed for `quiet` ms; humble: then it gives way to other jobs.
+     * when nothing has changed for `quiet` ms, a number or what gives it; humble: then it gives way to other jobs.
      */
     constructor(holder, { kind, options = () => ({}), intro, action, render, auto = false, accept, quiet = AUTO_MS, humble = false }) {
         Object.assign(this, { kind, options, action, render, auto, accept, quiet });
@@ -161,6 +162,7 @@ export class JobView {
     }
 
     #moved() {
+        this.waits = "";
         this.#look();
         const auto = typeof this.auto === "function" ? this.auto() : this.auto;
         const key = this.key;
@@ -168,10 +170,13 @@ export class JobView {
         clearTimeout(this.timer);
         this.timer = 0;
         if (!auto || !this.shown || key === this.of || key === this.tried || !isPresent()) return;
+        const quiet = typeof this.quiet === "function" ? this.quiet() : this.quiet;
         this.timer = setTimeout(() => {
             this.timer = 0;
             this.run(true);
-        }, this.quiet);
+        }, quiet);
+        this.waits = quiet > WAITS_MS ? `; made anew when nothing changes for ${Math.round(quiet / 1e3)} s` : "";
+        this.#look();
     }
 
     giveWay() {
@@ -259,7 +264,7 @@ export class JobView {
             const seconds = Math.max(j.seconds ?? 0, ms / 1000);
             say(this.message, `${j.stage ?? (j.state === "queued" ? "waiting" : "working")} · ${seconds.toFixed(1)} s`);
         } else if (job) {
-            say(this.message, this.stale ? "of the former input: something has changed since" : `computed in ${duration(job.seconds)}`);
+            say(this.message, this.stale ? `of the former input: something has changed since${this.waits ?? ""}` : `computed in ${duration(job.seconds)}`);
         } else say(this.message, "");
     }
 }

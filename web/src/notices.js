@@ -9,25 +9,29 @@ const RETRY_MS = 2000;
 const SHOWN_MS = 6000;
 let lost = null;
 
-function strip(kind, content, actions = []) {
+/** passing: it goes by itself, and lies over the page: nothing under the pointer moves away for it. */
+function strip(kind, content, actions = [], passing = false) {
     const box = h("div", { class: `notice ${kind}` }, h("div", {}, content), h("div", { class: "notice-actions" }, actions));
-    $("notices").append(box);
+    let holder = $("notices");
+    if (passing) holder = holder.querySelector(".passing") ?? holder.appendChild(h("div", { class: "passing" }));
+    holder.append(box);
     return box;
 }
 
 /** {kind: "info" | "warn" | "bad", text, actions: [[label, function, {stay: it does not end the notice}]], stay,
  *  dismiss: may go without an answer} */
 export function notice({ kind = "info", text, actions = [], stay = false, dismiss = true }) {
-    for (const former of [...$("notices").children]) if (former.says === text) former.remove(); // said once, and of now
+    for (const former of $("notices").querySelectorAll(".notice")) if (former.says === text) former.remove(); // said once, and of now
+    const passing = !stay && !actions.length;
     const box = strip(kind, text, [
         ...actions.map(([label, act, how]) => button(label, { class: "small" }, () => {
             if (!how?.stay) box.remove();
             act();
         })),
         dismiss ? button("Dismiss", { icon: "close", hidden: true, class: "quiet" }, () => box.remove()) : null,
-    ]);
+    ], passing);
     box.says = text;
-    if (!stay && !actions.length) setTimeout(() => box.remove(), SHOWN_MS);
+    if (passing) setTimeout(() => box.remove(), SHOWN_MS);
     return box;
 }
 

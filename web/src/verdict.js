@@ -10,7 +10,8 @@ import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
 import { emit, lookAt, on, state } from "./store.js";
 
-const SLOW_S = 3;
+const QUIET_MS = 900; // without a change, after which the same is judged as it will be made
+const QUIET_MOST_MS = 10000;
 const MOST = 100; // diagnostics in a list
 const MOST_LINES = 5; // of the banner
 const WORDS = {
@@ -48,7 +49,8 @@ export class Verdict {
         this.full = new JobView(full, {
             kind: "check", action: "Judge as fabricated", options: judging,
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
-            auto: () => (this.full?.job?.seconds ?? 0) < SLOW_S && Boolean(state.preview?.verdict), quiet: 900, humble: true, // a long one is only made when it is asked for
+            auto: () => Boolean(state.preview?.verdict), humble: true,
+            quiet: () => Math.min(Math.max(QUIET_MS, 1e3 * (this.full?.job?.seconds ?? 0)), QUIET_MOST_MS), // what takes long waits longer for the last change
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
         this.ofFull = [this.banner, use].map((element) => new Shown(element, () => this.full.key));
@@ -75,6 +77,7 @@ export class Verdict {
     /** Colour of the banner, and its word for programs; null: there is no decision. */
     #decided(decision, colour = decision === "failed" ? "reject" : decision) {
         for (const name of Object.keys(WORDS)) this.banner.classList.toggle(name, name === colour);
+        this.banner.classList.remove("first");
         if (decision) this.banner.dataset.verdict = decision;
         else delete this.banner.dataset.verdict;
     }
@@ -158,10 +161,12 @@ export class Verdict {
         // nothing is good about a device that bears its motion and that no flow can make: no green
         const unmade = top.verdict === "accept" && lines.some((line) => line.label === "cannot be made");
         const [bears, fine] = WORDS[top.verdict] ?? WORDS.inconclusive;
-        const [word, sign] = unmade ? [`${bears}, but cannot be made`, "cross"] : [bears, fine];
+        const first = top.verdict === "accept" && !unmade && !full && state.preview.provisional; // a look at the drawing accepts nothing yet
+        const [word, sign] = unmade ? [`${bears}, but cannot be made`, "cross"] : [first ? `${bears} as drawn` : bears, fine];
         const changed = this.last !== word;
         this.last = word;
         this.#decided(top.verdict, unmade ? "reject" : top.verdict);
+        this.banner.classList.toggle("first", first);
         refill(this.banner,
             h("div", { class: "decision" }, icon(sign), h("strong", {}, was(), word), h("span", { class: "as-drawn", "data-of": full ? "check" : "preview", title: full ? "" : (state.preview.left_out ?? []).map((x) => x.sentence).join(" ") }, this.#basis(full))),
             ...lines.slice(0, MOST_LINES).map(topLine),
