@@ -365,6 +365,26 @@ describe("the six-bar", () => {
         }, written));
     });
 
+    test("what took long to judge as fabricated is judged again when nothing changes; until then it is accepted as drawn", async () => {
+        const made = () => page.waitForFunction(() => { // of the present input
+            const banner = document.querySelector("#banner");
+            return banner.dataset.of === "present" && banner.querySelector(".as-drawn")?.textContent === "as it will be made";
+        });
+        await page.route("**/api/jobs/*", async (r) => {
+            if (r.request().method() !== "GET") return r.continue();
+            const response = await r.fetch();
+            return r.fulfill({ response, json: { ...(await response.json()), seconds: 3.2 } });
+        });
+        const slider = page.locator('[data-parameter="link"]');
+        for (const key of ["ArrowRight", "ArrowLeft"]) {
+            await answered(page, () => slider.press(key));
+            await page.waitForFunction(() => document.querySelector("#banner strong").innerText.endsWith("Accepted as drawn") && document.querySelector("#banner.accept.first"));
+            await made();
+            assert.match(await page.locator("#banner strong").innerText(), /Accepted$/);
+        }
+        await page.unroute("**/api/jobs/*");
+    });
+
     test("the slider: how long until the new motion is seen", async (t) => {
         await view(page, "motion");
         const slider = page.locator('[data-parameter="arc"]');
