@@ -262,7 +262,7 @@ export class JobView {
         if (busy) {
             const j = this.working;
             const seconds = Math.max(j.seconds ?? 0, ms / 1000);
-            say(this.message, `${j.stage ?? (j.state === "queued" ? "waiting" : "working")} · ${seconds.toFixed(1)} s`);
+            say(this.message, `${j.state === "queued" ? "waits for the job before it" : j.stage || "working"} · ${seconds.toFixed(1)} s`);
         } else if (job) {
             say(this.message, this.stale ? `of the former input: something has changed since${this.waits ?? ""}` : `computed in ${duration(job.seconds)}`);
         } else say(this.message, "");

@@ -95,6 +95,7 @@ export class Studies {
             await taken();
             mine.of = this.#key(name, requestKey);
             const job = await run("study", { options: this.#options(name), resume, results, signal: control.signal, onprogress: (j) => {
+                mine.far = /\d+ of (?:at most )?\d+ devices/.exec(j.stage ?? "")?.[0] ?? mine.far;
                 mine.stage = `${j.stage ?? j.state} · ${((performance.now() - begun) / 1e3).toFixed(1)} s`;
                 mine.job = j;
                 this.#show();
@@ -144,7 +145,7 @@ export class Studies {
         const mine = kept && !kept.control && ofAnother(kept.of) ? undefined : kept; // a study of another device may have the same name
         const present = mine?.of === this.#key(name);
         const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
-        const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
+        const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${mine.far ? ` after ${mine.far}` : ""}${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
         const part = mine?.control && /(\d+) of (?:at most )?(\d+) devices/.exec(mine.stage);
         const goOn = Boolean(mine?.stopped && present && mine.job);
         // buttons stay while a field is left whose edit changes the words: a click is not lost between its two halves
