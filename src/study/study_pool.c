@@ -10,8 +10,6 @@ fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample) {
     return study->store ? fw_study_store_add(study->store, sample) : FW_OK;
 }
 
-/* ---- the same work many times ---- */
-
 int fw_study_jobs(const fw_study *study) {
     return study->options.jobs > 0 ? study->options.jobs : fw_processors();
 }
@@ -24,67 +22,114 @@ void fw_study_tell(const fw_study *study) {
                 fw_study_now_s() - t->begun_s);
 }
 
-/* a fifth of a second, or until it is signalled */
-static void wait_a_little(pthread_cond_t *signal, pthread_mutex_t *lock) {
+/* ---- threads that do the same beside the calling one ---- */
+
+typedef struct crew {
+    const fw_study *study;
+    void (*work)(void *context); /* of a thread, until nothing is left for it */
+    void (*lead)(void *context); /* of the calling thread meanwhile */
+    void *context;
+    pthread_mutex_t lock;        /* of what follows, and of the context's own */
+    pthread_cond_t given, ended; /* there is work; some of it, or a thread, is at its end */
+    int alive;
+} crew;
+
+static void *member(void *argument) {
+    crew *c = argument;
+    locale_t before = uselocale(c->study->design->locale);
+    c->work(c->context);
+    uselocale(before);
+    pthread_mutex_lock(&c->lock);
+    c->alive--;
+    pthread_cond_signal(&c->ended);
+    pthread_mutex_unlock(&c->lock);
+    return NULL;
+}
+
+/* with so many threads, as far as the system gives them; false: it gave none, and nothing was done */
+static bool crew_works(crew *c, int threads) {
+    pthread_t thread[FW_JOBS_MOST];
+    int n = 0;
+    pthread_mutex_init(&c->lock, NULL);
+    pthread_cond_init(&c->given, NULL);
+    pthread_cond_init(&c->ended, NULL);
+    pthread_mutex_lock(&c->lock);
+    while (n < threads && n < FW_JOBS_MOST && pthread_create(&thread[n], NULL, member, c) == 0)
+        n++;
+    c->alive = n;
+    pthread_mutex_unlock(&c->lock);
+    if (n > 0) c->lead(c->context);
+    for (int i = 0; i < n; i++)
+        pthread_join(thread[i], NULL);
+    pthread_cond_destroy(&c->ended);
+    pthread_cond_destroy(&c->given);
+    pthread_mutex_destroy(&c->lock);
+    return n > 0;
+}
+
+/* a fifth of a second, or until something has ended; the lock is held before and behind */
+static void wait_ended(crew *c) {
     struct timespec until;
     clock_gettime(CLOCK_REALTIME, &until);
     until.tv_nsec += 200000000L;
     if (until.tv_nsec >= 1000000000L) until.tv_sec++, until.tv_nsec -= 1000000000L;
-    pthread_cond_timedwait(signal, lock, &until);
+    pthread_cond_timedwait(&c->ended, &c->lock, &until);
 }
 
+/* ---- the same work many times ---- */
+
 typedef struct queue {
-    const fw_study *study;
+    crew crew;
     fw_status (*one)(void *context, long i);
     void *context;
-    pthread_mutex_t lock; /* of what follows */
-    pthread_cond_t ended; /* a thread is at its end */
-    int running;
     long n, next;
     fw_status status; /* the first that is not FW_OK */
 } queue;
 
-static void *in_thread(void *argument) {
-    queue *q = argument;
-    locale_t before = uselocale(q->study->design->locale);
-    pthread_mutex_lock(&q->lock);
+static void take_next(void *context) {
+    queue *q = context;
+    pthread_mutex_lock(&q->crew.lock);
     while (q->next < q->n && q->status == FW_OK) {
         long i = q->next++;
-        pthread_mutex_unlock(&q->lock);
+        pthread_mutex_unlock(&q->crew.lock);
         fw_status status = q->one(q->context, i);
-        pthread_mutex_lock(&q->lock);
+        pthread_mutex_lock(&q->crew.lock);
         if (q->status == FW_OK) q->status = status;
     }
-    q->running--;
-    pthread_cond_signal(&q->ended);
-    pthread_mutex_unlock(&q->lock);
+    pthread_mutex_unlock(&q->crew.lock);
+}
+
+/* others work, and this thread says how far they are */
+static void tell_meanwhile(void *context) {
+    queue *q = context;
+    pthread_mutex_lock(&q->crew.lock);
+    while (q->crew.alive > 0) {
+        wait_ended(&q->crew);
+        pthread_mutex_unlock(&q->crew.lock);
+        fw_study_tell(q->crew.study);
+        pthread_mutex_lock(&q->crew.lock);
+    }
+    pthread_mutex_unlock(&q->crew.lock);
+}
+
+static fw_status all_alone(queue *q) {
+    locale_t before = uselocale(q->crew.study->design->locale);
+    while (q->next < q->n && q->status == FW_OK)
+        q->status = q->one(q->context, q->next++);
     uselocale(before);
-    return NULL;
+    return q->status;
 }
 
 fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *context, long i),
                         void *context) {
-    queue q = {.study = study, .one = one, .context = context, .n = n};
-    pthread_t thread[FW_JOBS_MOST];
-    int jobs = fw_study_jobs(study), running = 0;
-    pthread_mutex_init(&q.lock, NULL);
-    pthread_cond_init(&q.ended, NULL);
-    pthread_mutex_lock(&q.lock);
-    for (; jobs > 1 && running < jobs && running < n; running++, q.running++)
-        if (pthread_create(&thread[running], NULL, in_thread, &q) != 0) break;
-    while (q.running > 0) { /* others work, and this thread says how far they are */
-        wait_a_little(&q.ended, &q.lock);
-        pthread_mutex_unlock(&q.lock);
-        fw_study_tell(study);
-        pthread_mutex_lock(&q.lock);
-    }
-    pthread_mutex_unlock(&q.lock);
-    if (running == 0) in_thread(&q);
-    for (int i = 0; i < running; i++)
-        pthread_join(thread[i], NULL);
-    pthread_cond_destroy(&q.ended);
-    pthread_mutex_destroy(&q.lock);
-    return q.status;
+    queue q = {.crew = {.study = study, .work = take_next, .lead = tell_meanwhile},
+               .one = one,
+               .context = context,
+               .n = n};
+    int jobs = fw_study_jobs(study);
+    q.crew.context = &q;
+    if (jobs > n) jobs = (int)n;
+    return jobs > 1 && crew_works(&q.crew, jobs) ? q.status : all_alone(&q);
 }
 
 /* ---- samples ----
@@ -106,8 +151,7 @@ typedef struct pool {
     fw_study *study;
     fw_arena *scratch; /* of one run */
     const fw_study_work *work;
-    pthread_mutex_t lock;
-    pthread_cond_t given, ended;
+    crew crew;
     slot *slot;
     int nslot;
     bool over; /* no more samples come */
@@ -123,27 +167,26 @@ static slot *find(pool *p, slot_state state) {
     return NULL;
 }
 
-static void *worker(void *argument) {
-    pool *p = argument;
-    pthread_mutex_lock(&p->lock);
+static void judge_given(void *context) {
+    pool *p = context;
+    pthread_mutex_lock(&p->crew.lock);
     for (;;) {
         slot *s = find(p, GIVEN);
         if (!s && p->over) break;
         if (!s) {
-            pthread_cond_wait(&p->given, &p->lock);
+            pthread_cond_wait(&p->crew.given, &p->crew.lock);
             continue;
         }
         s->state = TAKEN;
-        pthread_mutex_unlock(&p->lock);
+        pthread_mutex_unlock(&p->crew.lock);
         bool changed = false;
         s->status = fw_study_evaluate(p->study, p->study->options.cancel, &s->sample, &changed);
-        pthread_mutex_lock(&p->lock);
+        pthread_mutex_lock(&p->crew.lock);
         p->changed = p->changed || changed;
         s->state = ENDED;
-        pthread_cond_signal(&p->ended);
+        pthread_cond_signal(&p->crew.ended);
     }
-    pthread_mutex_unlock(&p->lock);
-    return NULL;
+    pthread_mutex_unlock(&p->crew.lock);
 }
 
 /* ---- the calling thread ---- */
@@ -169,7 +212,7 @@ static void take_ended(pool *p) {
     slot *s;
     while ((s = find(p, ENDED)) != NULL) {
         if (s->status != FW_OK) end_with(p, s->status);
-        pthread_mutex_unlock(&p->lock);
+        pthread_mutex_unlock(&p->crew.lock);
         if (s->status == FW_OK) {
             fw_status status = fw_study_keep(p->study, &s->sample);
             if (status == FW_OK && p->work->take)
@@ -178,16 +221,16 @@ static void take_ended(pool *p) {
             count(p);
         }
         tell(p);
-        pthread_mutex_lock(&p->lock);
+        pthread_mutex_lock(&p->crew.lock);
         s->state = FREE;
     }
 }
 
-static void wait_ended(pool *p) {
-    wait_a_little(&p->ended, &p->lock);
-    pthread_mutex_unlock(&p->lock);
+static void wait_and_tell(pool *p) {
+    wait_ended(&p->crew);
+    pthread_mutex_unlock(&p->crew.lock);
     tell(p);
-    pthread_mutex_lock(&p->lock);
+    pthread_mutex_lock(&p->crew.lock);
 }
 
 /* a sample that the store has is taken as it is; the lock is not held */
@@ -222,34 +265,35 @@ static fw_status give(pool *p, slot *s, long k, bool *given) {
     return FW_OK;
 }
 
-static void run(pool *p) {
-    pthread_mutex_lock(&p->lock);
+static void run(void *context) {
+    pool *p = context;
+    pthread_mutex_lock(&p->crew.lock);
     for (long k = 0; k < p->work->n && p->status == FW_OK;) {
         take_ended(p);
         slot *s = find(p, FREE);
         if (!s) {
-            wait_ended(p);
+            wait_and_tell(p);
             continue;
         }
         bool given;
-        pthread_mutex_unlock(&p->lock);
+        pthread_mutex_unlock(&p->crew.lock);
         fw_status status = give(p, s, k++, &given);
-        pthread_mutex_lock(&p->lock);
+        pthread_mutex_lock(&p->crew.lock);
         if (status != FW_OK) end_with(p, status);
         if (status != FW_OK || !given) continue;
         s->state = GIVEN;
-        pthread_cond_signal(&p->given);
+        pthread_cond_signal(&p->crew.given);
     }
     p->over = true;
     if (p->status != FW_OK) /* what was not begun is not */
         for (int i = 0; i < p->nslot; i++)
             if (p->slot[i].state == GIVEN) p->slot[i].state = FREE;
-    pthread_cond_broadcast(&p->given);
+    pthread_cond_broadcast(&p->crew.given);
     while (find(p, GIVEN) || find(p, TAKEN) || find(p, ENDED)) {
         take_ended(p);
-        if (find(p, GIVEN) || find(p, TAKEN)) wait_ended(p);
+        if (find(p, GIVEN) || find(p, TAKEN)) wait_and_tell(p);
     }
-    pthread_mutex_unlock(&p->lock);
+    pthread_mutex_unlock(&p->crew.lock);
 }
 
 /* one thread: this one */
@@ -270,36 +314,12 @@ static void run_alone(pool *p) {
     }
 }
 
-static fw_status with_threads(pool *p, int jobs) {
-    pthread_t *thread = fw_arena_array(p->scratch, pthread_t, (size_t)jobs);
-    int n = 0;
-    FW_NEED(thread);
-    pthread_mutex_init(&p->lock, NULL);
-    pthread_cond_init(&p->given, NULL);
-    pthread_cond_init(&p->ended, NULL);
-    while (n < jobs && pthread_create(&thread[n], NULL, worker, p) == 0)
-        n++;
-    if (n > 0)
-        run(p);
-    else
-        run_alone(p);
-    for (int i = 0; i < n; i++)
-        pthread_join(thread[i], NULL);
-    pthread_mutex_destroy(&p->lock);
-    pthread_cond_destroy(&p->given);
-    pthread_cond_destroy(&p->ended);
-    return FW_OK;
-}
-
 static fw_status run_work(pool *p, int jobs) {
     p->nslot = jobs > 1 ? 2 * jobs : 1;
     FW_NEED(p->slot = fw_arena_array(p->scratch, slot, (size_t)p->nslot));
     for (int i = 0; i < p->nslot; i++)
         FW_TRY(fw_study_sample_new(p->scratch, p->study, &p->slot[i].sample));
-    if (jobs > 1)
-        FW_TRY(with_threads(p, jobs));
-    else
-        run_alone(p);
+    if (jobs < 2 || !crew_works(&p->crew, jobs)) run_alone(p);
     if (p->changed)
         return fw_diag_error(&p->study->diags, 500, (fw_place){.file = p->study->device_path},
                              "the device file, or a pack or drawing that it names, was changed "
@@ -311,7 +331,10 @@ static fw_status run_work(pool *p, int jobs) {
 fw_status fw_study_pool_run(fw_study *study, const fw_study_work *work) {
     int jobs = fw_study_jobs(study);
     if (jobs > work->n) jobs = work->n > 0 ? (int)work->n : 1;
-    pool p = {.study = study, .work = work, .scratch = fw_arena_part(study->arena, 0)};
+    pool p = {.study = study,
+              .work = work,
+              .crew = {.study = study, .work = judge_given, .lead = run, .context = &p},
+              .scratch = fw_arena_part(study->arena, 0)};
     FW_NEED(p.scratch);
     p.begun_s = fw_study_now_s();
     fw_status status = run_work(&p, jobs);
