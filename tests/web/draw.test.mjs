@@ -69,6 +69,7 @@ describe("a gripper from an empty page", () => {
         await changed(page, () => click(page, [-400, 0]));
         await changed(page, () => click(page, [400, 0]));
         assert.equal((await text(page)).match(/<flexure /g).length, 1, "hinges of the same sizes share their flexure");
+        await page.waitForSelector("#right .problems:has-text('Nothing moves it yet')"); // what comes next, and no mistake
         await tool(page, "force");
         await changed(page, () => drag(page, [-400, 600], [-200, 600]));
         await changed(page, () => drag(page, [400, 600], [200, 600]));

@@ -768,6 +768,7 @@ export class Draw {
         const before = state.text;
         await edit(made.changes, `${made.id} made, the mirror image of ${body}`);
         if (state.text === before) return;
+        this.mirror.open = false; // a second click at the same place is no second copy
         if (made.left.length) emit("notice", { kind: "info", text: `${made.id}: what could not be mirrored was left out: ${made.left.join(", ")}.` });
         this.#refresh();
         this.#choose(this.list.find((x) => x.element.name === "body" && x.element.id === made.id)?.id ?? null);

@@ -26,7 +26,7 @@ function twoBodies(c, at) {
 
 function hinge(c, [at]) {
     const [a, b] = twoBodies(c, at);
-    if (!b) return { refuse: "There is no link at this point. A hinge joins two links, or a link and the ground." };
+    if (!b) return { refuse: "There is no body at this point. A hinge joins two bodies, or a body and the ground." };
     if (a === b) return { refuse: "A hinge joins two bodies." };
     const v = c.values;
     const um = (x) => `${x} um`;

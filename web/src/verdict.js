@@ -115,8 +115,12 @@ export class Verdict {
 
     #list(errors, empty, words) {
         const unheld = errors.length > 0 && errors.every((d) => d.code === "FW-D082" && / no hinge holds it yet/.test(d.message));
-        this.problems.classList.toggle("none-yet", empty || unheld); // an empty page is no mistake, nor is a link whose hinge comes next
-        if (unheld) {
+        const still = errors.length > 0 && errors.every((d) => d.code === "FW-D202") && !/<(scene|workspace)\b/.test(state.text);
+        this.problems.classList.toggle("none-yet", empty || unheld || still); // an empty page is no mistake, nor is a link whose hinge comes next, nor what nothing moves yet
+        if (still) {
+            this.problems.replaceChildren(h("h2", {}, "Nothing moves it yet"), h("p", {}, "Choose Force, Cable or Electrodes, and draw where it acts; of a six-bar a Workspace box does, too. Then it is judged."),
+                button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
+        } else if (unheld) {
             this.problems.replaceChildren(h("h2", {}, "Not held yet"), h("p", {}, "No hinge holds it yet. Choose Hinge, and click where a link turns on the ground."),
                 button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")),
                 h("details", {}, h("summary", {}, `${words} in the description until then`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d)))));
