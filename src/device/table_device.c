@@ -445,7 +445,9 @@ static const fw_xml_element_row own[] = {
     {"line", "flexure", .most = 40000, ROWS(line_rows), .sentence = "A straight piece of a path."},
     {"arc", "flexure", .most = 40000, ROWS(arc_rows), .sentence = "A circular piece of a path."},
     {"workspace", "device", .most = 200, ROWS(workspace_rows),
-     .sentence = "Platform poses that must be reachable, relative to the drawn pose."},
+     .sentence = "Platform poses that must be reachable, relative to the drawn pose: displacements "
+                 "of the platform's centre of mass (of its drawing, or where its mass is stated), "
+                 "and rotations about it."},
     {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},
     {"wafer", "device", .once = true, ROWS(wafer_rows),
      .sentence = "Step and repeat of the die on a wafer, and the mask plate for it."},
