@@ -5,11 +5,13 @@
    Where the first eigenvalue of the reduced stiffness passes zero is a root along the arc to
    round-off (statics_path.c): at a limit point s has an error of second order; at a bifurcation it
    is found again from the eigenvalue beside it. Lengths of the arc count displacements in gaps. The
-   unit of s comes from the stiffness that the fields take as drawn, S = Phi^T (K(0) - K(1)) Phi
-   over the eigenvalues mu: 1/|S_kl/sqrt(mu_k mu_l)| is less than where the linear theory loses its
-   stiffness, and from the linear displacement, a gap; it is raised while nothing is found. Inputs:
+   first estimate of s is the lesser of two. With S = Phi^T (K(0) - K(1)) Phi, what the fields take of
+   the stiffness as drawn, one over the Frobenius norm of S_kl/sqrt(mu_k mu_l), mu the eigenvalues, lies below where
+   the linear theory loses its stiffness; and s at which the linear displacement is a gap. It is raised while nothing
+   is found. Drives that do not act together are followed for each ratio of their voltages (decision 201), up to RATIOS. Inputs:
    a mechanism as statics takes it. Valid where the capacitance's formula is; a path that leaves it
-   says so. Cost: about 100 to 500 evaluations (30 n^3). Source: J. A. Pelesko and D. H. Bernstein,
+   says so. Cost: about 100 to 500 evaluations (30 n^3) for each
+   ratio, and as many where electrodes stand on soft arms. Source: J. A. Pelesko and D. H. Bernstein,
    Modeling MEMS and NEMS 2002, ch. 7; Keller 1977. Test: test_pull_in.c. */
 #include "statics/statics.h"
 #include "effects/effects.h"
@@ -170,8 +172,8 @@ static fw_status extrapolate(seeker *k, const double *near, double s, double h, 
 
 /* Branches cross at a bifurcation, so that paths stop some 1e-9 beside it. The lowest eigenvalue is
    smooth there, but only until it meets the next one, of a softer mode that the field does not
-   touch: h becomes smaller until two cubics agree. Error about h^4, 1e-15 where the first two
-   do. */
+   touch: h becomes smaller until two cubics agree, and where none do the last one stands. Error about h^4, 1e-15 where the first
+   two agree already. */
 static fw_status refine(seeker *k, const double *near, double *s) {
     const double first = 2e-4, agreed = 1e-12, found = *s;
     double before = (double)NAN;
@@ -531,8 +533,8 @@ static fw_status seek_with(fw_arena *arena, const fw_mechanism *mechanism,
 }
 
 /* Drives of one law, or of laws that keep their ratio, at the largest of it. Else whatever ratio their laws come to, and all other
-   loads as they are then; the one that is nearest to its pull-in counts. Ratios that are more than are looked at have all drives
-   at their largest besides. Error: of fw_quantity_law_ratios. Test: test_near_pull_in.py, Drives */
+   loads as they are then; the one that is nearest to its pull-in counts. Where there are more ratios than RATIOS all drives at their
+   largest are followed as well. Error: of fw_quantity_law_ratios. Test: test_near_pull_in.py, Drives */
 static fw_status seek_all(fw_arena *arena, const fw_mechanism *mechanism,
                           const fw_device_scene *scene, const fw_effect_choice *effects,
                           fw_diags *silent, seeker **best) {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes that end while the device goes up.
+/* Scenes that are moved again, since one motion does not give the band: longer, where the device still goes up at their end;
+   with larger and smaller loads, where these leave little of the stiffness; with other stiffnesses, where contacts throw the
+   device; with bending and stiffness along flexures apart, where the layer presses them. And scenes in which nothing moves (FW-D655).
 
-   A hinge whose peak is at the last instant and that still turns on, by more than a few per cent of it in the lowest mode:
+   Longer: a hinge whose peak is at the last instant and that still turns on, by more than a few per cent of it in the lowest mode:
    v/omega. The same scene then lasts a period of that mode longer, in which every single mode comes to its next peak, and
    its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
-   comes behind it. Test: test_program.py, EndsEarly
-
-   The last part of the file are scenes in which nothing moves (FW-D655). */
+   comes behind it. Test: test_program.py, EndsEarly */
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
@@ -110,15 +110,15 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
 /* ---- what loads leave of the stiffness, and what may be missing of a pull ----
    Bands hold what a stiffness is off by in proportion, and a displacement goes by what loads leave of it: by the inverse of
    that share, and without end at a fold. So where a scene's loads leave less than `soft` of it, the scene is moved twice
-   more, with its loads (1 + e) and 1/(1 + e) times as large, e = what hinges, and bodies where that moves anything, may give more than computed: that is
+   more, with its loads (1 + e) and 1/(1 + e) times as large. e is the relative error of the hinges' compliance, with that of
+   bodies where that changes the motion: that is
    the device with all of its stiffness so much less, or more. Electrodes may pull more than computed by what is missing of
    their fringe (fw_effects_comb_fringe), and over a carrier that conducts as much less: the softer device has all of that pull
    wherever electrodes act, the stiffer one the least of it. What probes read in these motions is in their bands, forces over (1 + e); of
-   hinges what strains go beyond proportion is a factor, as near a resonance, and of bodies what that one goes by which goes
-   most; those that go less than a
-   twentieth of the largest way are left out. Where there is no such motion the device may have snapped: undecided.
+   hinges what strains go beyond proportion is a factor, as near a resonance, and of bodies the largest ratio of displacements
+   of any body that moves by more than a twentieth of the farthest. Where there is no such motion the device may have snapped: undecided.
    Inputs: v->left, motions. Error: one e for all that gives; heat, stress and drivers stay as they are. Cost: two motions,
-   of such scenes alone; one where only electrodes may pull more. Test: test_effects.py, NearAFold; test_near_pull_in.py, Motions */
+   of such scenes alone; where only electrodes may pull more one, or two over a carrier that conducts. Test: test_effects.py, NearAFold; test_near_pull_in.py, Motions */
 
 static const double soft = 0.8;
 
@@ -127,9 +127,9 @@ static double moved(const fw_dynamics_motion *x, int n, int row, int body, int a
     return body == FW_GROUND ? 0 : x->q[row * n + 3 * body + axis] - x->q[3 * body + axis];
 }
 
-/* 0 for what moves less than a thousandth of the rest: what a symmetric device has of turns is rounding, of which no ratio tells
-   anything. Turns count by how far from their body's frame its pins lie */
-static void at_rest(const fw_mechanism *m, double *far) {
+/* 0 for what moves less than a thousandth of the farthest: what a symmetric device has of turns is rounding, of which no ratio
+   tells anything. Rotations count by the longest distance of a pin from its body's frame */
+static void drop_rounding(const fw_mechanism *m, double *far) {
     const double hardly = 1e-3;
     const int nb = m->nbody, n = 2 * nb + m->nhinge;
     double arm = 0, most = 0;
@@ -159,7 +159,7 @@ void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, dou
             far[2 * nb + h] = fmax(far[2 * nb + h], fabs(angle));
         }
     }
-    at_rest(m, far);
+    drop_rounding(m, far);
 }
 
 static double largest_of(const double *x, int n) {
@@ -169,13 +169,13 @@ static double largest_of(const double *x, int n) {
     return most;
 }
 
-/* largest (way 1) or least (-1) of now over was, of those of n that moved at all; 1: none did */
-static double change(const double *was, const double *now, int n, int way) {
+/* largest (sign 1) or least (-1) of now over was, of those of n that move by more than hardly_moves of the farthest; 1: none moves */
+static double change(const double *was, const double *now, int n, int sign) {
     const double most = largest_of(was, n);
-    double by = way > 0 ? 0 : HUGE_VAL;
+    double by = sign > 0 ? 0 : HUGE_VAL;
     for (int i = 0; i < n; i++)
         if (was[i] > hardly_moves * most)
-            by = way > 0 ? fmax(by, now[i] / was[i]) : fmin(by, now[i] / was[i]);
+            by = sign > 0 ? fmax(by, now[i] / was[i]) : fmin(by, now[i] / was[i]);
     return most > 0 ? by : 1;
 }
 
