@@ -18,6 +18,7 @@ enum { FW_POINTS = 2000, FW_CORRECTIONS = 14 };
 static const double fw_first_length = 0.02, fw_longest = 0.05, fw_shortest = 1e-10;
 static const double fw_beside = 1e-6;   /* step onto a point where stability may be lost */
 static const double fw_turn = 0.995;    /* cosine between two tangents, at least */
+static const double fw_own_turn = 0.95; /* with displacements in units of what the load moves */
 static const double fw_most_move = 0.1; /* of any coordinate in one step, scaled */
 static const double fw_far_away = 32;   /* |u| or |s| */
 
@@ -55,10 +56,17 @@ static double product(const fw_statics_equilibrium *w, const double *x, const do
    branch just where another one crosses it. Once its force is above round-off it takes part. Near zero is a thousandth of
    the softest where the path begins: of a device whose softest motion has a millionth of its stiffest, a thousandth of that
    one is no zero, and leaving it out broke a smooth path where its force passed 1e-8 of all. */
-static bool idle(const fw_statics_equilibrium *w, int k) {
+static bool hardly_pushed(const fw_statics_equilibrium *w, int k) {
     const double small = 1e-8 / (64 * DBL_EPSILON); /* in units of the noise */
-    return fabs(w->reduced.value[k]) <= fmax(w->reduced.zero[k], w->hardly_stiff) &&
-           fabs(w->push[k]) <= small * w->noise[k] && fabs(w->gradient[k]) <= w->noise[k];
+    return fabs(w->push[k]) <= small * w->noise[k];
+}
+
+static bool hardly_stiff(const fw_statics_equilibrium *w, int k) {
+    return fabs(w->reduced.value[k]) <= fmax(w->reduced.zero[k], w->hardly_stiff);
+}
+
+static bool idle(const fw_statics_equilibrium *w, int k) {
+    return hardly_stiff(w, k) && hardly_pushed(w, k) && fabs(w->gradient[k]) <= w->noise[k];
 }
 
 /* step (n) and *ds with the arc-length row (tangent, rate): product(tangent, step) + rate ds = rho.
@@ -311,6 +319,13 @@ static fw_status state_at(follower *f, double length, double step) {
     return status;
 }
 
+/* At an evaluated state where the mode has no stiffness: another branch crosses there only where the load does not push along
+   it. Else that is a limit point, or the step went from one branch to another that no equilibrium joins. Paths that end
+   where they become unstable come as near as they go. Source: Seydel 1994, ch. 2. */
+static bool meets_another(const follower *f, int mode) {
+    return f->w->until_unstable || (hardly_stiff(f->w, mode) && hardly_pushed(f->w, mode));
+}
+
 /* records the events of the step; *ended when one of them is s = 1; *searched: the model is
    elsewhere now */
 static fw_status record_events(follower *f, double length, bool *ended, bool *searched) {
@@ -323,6 +338,7 @@ static fw_status record_events(follower *f, double length, bool *ended, bool *se
         fw_status status = state_at(f, found[i].length, length);
         if (status == FW_SOLVER) continue;
         FW_TRY(status);
+        if (found[i].mark == FW_PATH_BIFURCATION && !meets_another(f, found[i].which)) continue;
         *ended = found[i].mark == FW_PATH_END;
         int which = found[i].mark == FW_PATH_SWITCH ? found[i].which : FW_NONE;
         FW_TRY(record(f, &f->probe, found[i].mark, which));
@@ -333,6 +349,14 @@ static fw_status record_events(follower *f, double length, bool *ended, bool *se
 
 /* ---- the walk ---- */
 
+/* the mode's stiffness passes zero within the step at a point that meets another branch; the model is there then */
+static bool crosses_another(follower *f, int mode, double length) {
+    const event passes = {FW_PATH_BIFURCATION, mode, length};
+    const search in = {f, &passes};
+    const double where = fw_maths_brent_root(probe, &in, 0, length, 1e-16);
+    return isfinite(where) && state_at(f, where, length) == FW_OK && meets_another(f, mode);
+}
+
 static double largest_move(const follower *f) {
     double most = 0;
     for (int i = 0; i < f->w->model->nq; i++)
@@ -340,23 +364,47 @@ static double largest_move(const follower *f) {
     return most;
 }
 
+/* a stop, a cable or a contact takes hold or lets go in the step */
+static bool switches_between(const follower *f) {
+    for (int i = 0; i < f->switches; i++)
+        if ((f->at.hold[i] > 0) != (f->next.hold[i] > 0)) return true;
+    return false;
+}
+
+/* Between the tangents, displacements in units of what the load moves at the first of them, so that it counts like the load
+   there: of what moves by micrometres in a device of millimetres nothing is seen in units of its size. */
+static double own_cosine(const follower *f) {
+    const double most = 1e6; /* displacements below a millionth of the unit are none */
+    const state *a = &f->at, *b = &f->next;
+    const double aa = product(f->w, a->tangent, a->tangent),
+                 bb = product(f->w, b->tangent, b->tangent),
+                 ab = product(f->w, a->tangent, b->tangent);
+    const double times = fmin(fmax(1, fabs(a->rate) / sqrt(fmax(aa, DBL_MIN))), most);
+    const double scale = times * times;
+    return (scale * ab + a->rate * b->rate) /
+           sqrt((scale * aa + a->rate * a->rate) * (scale * bb + b->rate * b->rate));
+}
+
 /* small enough that the tangent turns little and nothing jumps; a switch may bend the path */
 static bool acceptable(const follower *f, double length) {
-    bool bends = false;
-    for (int i = 0; i < f->switches; i++)
-        bends = bends || (f->at.hold[i] > 0) != (f->next.hold[i] > 0);
-    if (bends && length < 1e-3) return true;
+    if (length < 1e-3 && switches_between(f)) return true;
     double cosine = product(f->w, f->at.tangent, f->next.tangent) + f->at.rate * f->next.rate;
-    return cosine >= fw_turn && largest_move(f) <= fw_most_move * f->w->reach;
+    return cosine >= fw_turn && own_cosine(f) >= fw_own_turn &&
+           largest_move(f) <= fw_most_move * f->w->reach;
 }
 
 /* An eigenvalue passes zero without a limit point: a bifurcation, or the step went across from a
-   branch that turns back onto another one. Imperfections d (of the load) make the first the second,
+   branch that turns back, or away, onto another one. Imperfections d (of the load) make the first the second,
    with a turn of radius d^(1/3) that long steps pass over; the loss of stability would be found at
-   a place that is off by up to d^(2/3). */
-static bool may_have_crossed(const follower *f, double length) {
-    return f->w->until_unstable && length > fw_beside && f->at.dof == f->next.dof &&
-           f->next.negative > f->at.negative && !sign_changes(f->at.rate, f->next.rate);
+   a place that is off by up to d^(2/3). Where the load does not push along that mode it is the first. */
+static bool may_have_crossed(follower *f, double length) {
+    const state *a = &f->at, *b = &f->next;
+    if (a->dof != b->dof || a->negative == b->negative || sign_changes(a->rate, b->rate))
+        return false;
+    if (f->w->until_unstable) return b->negative > a->negative && length > fw_beside;
+    if (length < 1e-3 && switches_between(f)) return false;
+    const int mode = a->negative < b->negative ? a->negative : b->negative;
+    return length > fw_beside ? !hardly_pushed(f->w, mode) : !crosses_another(f, mode, length);
 }
 
 static bool out_of_reach(const follower *f) {

@@ -233,6 +233,27 @@ class Statics(InTemporary):
         held, rest = (json.loads(run("modes", device, "--json", *at).stdout)["modes"][0]["f_Hz"] for at in (["--at", "equilibrium"], []))
         self.assertGreater(held, 2 * rest)  # the bead's stiffness beside the hinges'
 
+    def test_paths_bend_with_slight_imperfections(self):
+        """A link on two leaves that a stage presses, and a side force of 2.5e-7 to 2.5e-4 of the load. Beams of finite elements have no
+        bifurcation and end at x = 0.1373 mm, 0.400 deg. The path went on along the straight link, to 0.0272 mm and 8.90 deg"""
+        link = ROOT / "tests/data/pressed-link.xml"
+        for side in ("3 nN", "30 nN", "0.3 uN", "3 uN"):
+            data = json.loads(self.expect(run("statics", link, "--path", "--json", "--set", f"side={side}")).stdout)
+            self.assertEqual((data["stable"], data["path"]["complete"], data["path"]["events"][:-1]), (True, True, []))
+            x, _, phi = data["q"]["l"]
+            self.close(x, 0.1373e-3, 0.003)
+            self.close(math.degrees(phi), 0.400, 0.02)
+
+    def test_a_contact_that_never_acts_changes_no_equilibrium(self):
+        """scenes with contacts go by the path, and a face 1 mm away put the link at -39 nm, unstable"""
+        link, q = ROOT / "tests/data/pressed-link.xml", []
+        for scene in ("p", "far"):
+            data = json.loads(self.expect(run("statics", link, "--scene", scene, "--json")).stdout)
+            self.assertTrue(data["stable"])
+            q.append(data["q"]["l"])
+        for a, b in zip(*q):
+            self.assertAlmostEqual(a, b, delta=1e-10)
+
     def test_snap_through_is_located(self):
         length = math.hypot(1, 0.4)
         fold = math.sqrt(length ** (2 / 3) - 1)
