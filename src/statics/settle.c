@@ -96,18 +96,32 @@ static bool line_search(fw_statics_equilibrium *w, const double *from, const dou
     return false;
 }
 
-/* a pose so far along the mode from the equilibrium, to the side where the energy is less; 0: neither can be had */
+/* of the loads that come yet, along the lowest mode */
+static double slope_of(const fw_statics_equilibrium *w) {
+    double slope = 0;
+    for (int i = 0; i < w->reduced.n; i++)
+        slope += w->slope[i] * w->reduced.shape[i];
+    return slope;
+}
+
+/* A pose so far along the mode from the equilibrium, to the side where the energy is less, or, before any load acts, to that
+   of the loads that come yet; or to the other one, where that is asked for. 0: neither can be had */
 static double side_of(fw_statics_equilibrium *w, double far, double *to) {
     const fw_statics_reduced *r = &w->reduced;
     double best = (double)INFINITY, size, length = 0;
+    int sides = 0;
     for (int side = 1; side >= -1; side -= 2) {
         for (int i = 0; i < r->n; i++)
             to[i] = w->y[i] + side * far * r->shape[i];
         if (!fw_statics_equilibrium_close(w, to)) continue;
         double energy = fw_statics_equilibrium_energy(w, to, &size);
         if (energy < best - 1e-12 * size) best = energy, length = side * far;
+        sides++;
     }
-    return length;
+    if (sides < 2) return length;
+    const double push = w->factor == 0 ? slope_of(w) : 0;
+    if (fabs(push) > w->noise[0]) length = push > 0 ? far : -far;
+    return w->other_side ? -length : length;
 }
 
 /* An equilibrium that is no minimum is left along its most unstable mode, to the side where the
@@ -185,7 +199,7 @@ fw_status fw_statics_equilibrium_descend(fw_statics_equilibrium *w, bool *left_u
             status = fw_statics_equilibrium_lowest(w, FW_STATICS_LOWEST);
             if (status != FW_OK) break;
             if (escapes == FW_ESCAPES || !escape(w, next)) break;
-            escapes++;
+            escapes++, w->sides++;
             *left_unstable = true;
             before = (double)INFINITY;
             memcpy(w->y, next, bytes);
@@ -275,7 +289,7 @@ static fw_status with_strain(const follower *f, double share) {
     if (status == FW_OK) {
         if (share > 0) take_pose(&at, f->q);
         status = fw_statics_equilibrium_descend(&at, &left);
-        w->iterations = at.iterations;
+        w->iterations = at.iterations, w->sides = at.sides;
     }
     if (status == FW_OK) fw_statics_equilibrium_pose(&at, at.y, f->q, NULL);
     if (status == FW_OK && left) *f->left_unstable = true;
@@ -322,11 +336,41 @@ static fw_status along_strain(fw_statics_equilibrium *w, double s, bool *left_un
     return s > 0 ? grow(&f, 1) : FW_OK;
 }
 
+/* What the layer's strain buckles does so when it is made, before any load of a scene acts: these do not decide the side, though
+   the descent under both goes to theirs. In the assembled pose without loads: it is unstable, and the descent stays on it */
+static fw_status strain_buckles(fw_statics_equilibrium *w, bool *buckles) {
+    const int before = w->sides, iterations = w->iterations;
+    *buckles = false;
+    if (!w->frozen || !w->frozen->strained || w->sparse) return FW_OK;
+    memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
+    fw_statics_equilibrium_factor(w, 0);
+    fw_status status = fw_statics_equilibrium_evaluate(w);
+    bool left = false;
+    if (status == FW_OK && w->reduced.dof > 0 && w->reduced.value[0] < -w->reduced.zero[0])
+        status = fw_statics_equilibrium_descend(w, &left);
+    *buckles = status == FW_OK && left;
+    if (!*buckles || !w->other_side) w->sides = before, w->iterations = iterations;
+    return status == FW_SOLVER ? FW_OK : status;
+}
+
+/* on the other side of what the strain buckles: the loads come once it has */
+static fw_status against_loads(fw_statics_equilibrium *w, double s, bool *left_unstable) {
+    follower f = {.w = w, .end = s, .left_unstable = left_unstable};
+    *left_unstable = true;
+    FW_NEED(f.q = fw_arena_array(w->arena, double, (size_t)w->model->nq));
+    fw_statics_equilibrium_pose(w, w->y, f.q, NULL);
+    return grow(&f, 1);
+}
+
 fw_status fw_statics_equilibrium_begin(fw_statics_equilibrium *w, double s, bool *left_unstable) {
+    bool buckles = false;
+    if (s > 0) FW_TRY(strain_buckles(w, &buckles));
+    if (buckles && w->other_side) return against_loads(w, s, left_unstable);
     *left_unstable = false;
     memset(w->y, 0, (size_t)w->model->ny * sizeof(double));
     fw_statics_equilibrium_factor(w, s);
     fw_status status = fw_statics_equilibrium_descend(w, left_unstable);
+    if (status == FW_OK && buckles && !*left_unstable) *left_unstable = true, w->sides++;
     if (status != FW_SOLVER || !w->invalid || !w->frozen || !w->frozen->strained) return status;
     if (w->beams_next && w->invalid->class_->closed_form) return status;
     const fw_effects_force_element *first = w->invalid;
@@ -493,7 +537,6 @@ static fw_status walk(walker *k, bool *left_unstable) {
             if (ds < fw_least_share) return cannot_follow(k, s);
             continue;
         }
-        *left_unstable = false;
         if (w->reduced.dof > 0) {
             fw_status status = fw_statics_equilibrium_descend(w, left_unstable);
             if (status != FW_OK)

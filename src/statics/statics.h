@@ -194,6 +194,7 @@ typedef struct fw_statics_mode_options {
                                  the assembled pose, drivers at their start, without the loads */
     double accuracy;          /* of the hinges' level, where auto chooses it; 0: 1e-3 */
     int drawn;                /* for so many modes frames are made */
+    bool other_side; /* unstable equilibria on the way are left to the other side than without */
 } fw_statics_mode_options;
 
 typedef enum fw_statics_mode_kind {
@@ -234,6 +235,9 @@ typedef struct fw_statics_modes {
     int nbody, npin, count,
         dof; /* count: modes; of a large mechanism fewer than degrees of freedom */
     bool at_equilibrium;
+    /* Unstable equilibria that the way there left to one of their sides. Nothing that is described decides to which a
+       symmetric device goes: what stands on the other (options) may be as well */
+    int sides;
     double *q;             /* (3 nbody) the pose */
     double unit_length_m;  /* of the shapes */
     fw_statics_mode *mode; /* (count) by stiffness: unstable, free, then slow to fast */

@@ -130,7 +130,9 @@ typedef struct fw_statics_equilibrium {
     double drive_unit; /* squared voltages of comb drives per s */
     double reach;      /* of paths: the displacement, scaled, that counts like s = 1 */
     const struct fw_statics_pull_in *pull_in; /* NULL: none, or not looked for */
-    bool until_unstable;                      /* paths end where the first eigenvalue passes zero */
+    bool other_side;     /* unstable equilibria are left to the side that is not taken otherwise */
+    int sides;           /* unstable equilibria that the way here left to one of their sides */
+    bool until_unstable; /* paths end where the first eigenvalue passes zero */
     double hardly_stiff; /* of paths: below this an eigenvalue is near zero, scaled */
     double *force;       /* (n) Q */
     double *slope;       /* (n) dQ/ds */

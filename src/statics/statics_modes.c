@@ -405,7 +405,9 @@ static fw_status reach_pose(fw_statics_equilibrium *w, const fw_statics_mode_opt
                             fw_statics_modes *out) {
     if (!o->at_equilibrium) return at_rest(w, out);
     bool unstable = false;
+    w->other_side = o->other_side;
     fw_status status = fw_statics_equilibrium_reach(w, 0, &unstable, NULL);
+    out->sides = w->sides;
     if (status == FW_OK) out->out_of_rest = 0;
     if (status == FW_OK) status = fw_statics_equilibrium_lowest(w, FW_STATICS_LOWEST_MODES);
     return status;

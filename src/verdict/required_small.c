@@ -117,6 +117,15 @@ static const char *no_equilibrium(fw_arena *arena, const ways *w, double missing
                                              : "");
 }
 
+static const char other_side[] =
+    "the way to its equilibrium leaves an unstable one to a side that nothing in the description "
+    "decides, and on the other side no stable one was found: decide the side, by a force that is "
+    "there from the beginning or by an angle of the flexures";
+static const char many_sides[] =
+    "the way to its equilibrium leaves more than one unstable one, each to a side that nothing in "
+    "the description decides: decide the sides, by forces that are there from the beginning or by "
+    "angles of the flexures";
+
 fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
                                  int scene, const fw_statics_mode_options *given,
                                  const fw_statics_modes *modes, const fw_verdict_variant_verdict *v,
@@ -132,19 +141,24 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
     FW_TRY(pull_times(arena, 1 / (1 + missing), &now[2]));
     for (int k = 0; k < w.n * pulls; k++) {
         fw_statics_mode_options o = *given;
-        fw_diags own = fw_diags_new(arena);
         o.effects.hinge = modes->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
         o.effects.stiffer = w.of[k % w.n].stiffer, o.effects.along = w.of[k % w.n].along;
-        const fw_statics_modes *found = NULL;
-        const fw_status status =
-            fw_statics_small_motions(arena, m, &now[k / w.n], &o, &own, &found);
-        if (status == FW_NOMEM || status == FW_CANCELLED) return status;
-        const bool stands = status == FW_OK && found &&
-                            !(found->count > 0 && found->mode[0].kind == FW_MODE_UNSTABLE);
-        if (stands)
-            to->modes[to->count++] = found;
-        else if (!to->lost)
-            FW_NEED(to->lost = no_equilibrium(arena, &w, missing, k));
+        for (int sides = 1; sides > 0; o.other_side = true) {
+            const fw_statics_modes *found = NULL;
+            const bool other = o.other_side;
+            fw_diags own = fw_diags_new(arena);
+            const fw_status status =
+                fw_statics_small_motions(arena, m, &now[k / w.n], &o, &own, &found);
+            if (status == FW_NOMEM || status == FW_CANCELLED) return status;
+            const bool stands = status == FW_OK && found &&
+                                !(found->count > 0 && found->mode[0].kind == FW_MODE_UNSTABLE);
+            sides = stands && !other ? found->sides : 0;
+            if (stands)
+                to->modes[to->count++] = found;
+            else if (!to->lost)
+                FW_NEED(to->lost = other ? other_side : no_equilibrium(arena, &w, missing, k));
+            if (stands && found->sides > 1) to->lost = many_sides;
+        }
     }
     return FW_OK;
 }

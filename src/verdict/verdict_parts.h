@@ -270,9 +270,9 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *mechanism,
 /* most of a pull that may be missing in a scene (fw_effects_comb_fringe), relative; 0: no electrodes act */
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
 /* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with the pull as
-   it may be; without a scene there are none */
+   it may be, and on the other side of an unstable one that was left on the way there; without a scene there are none */
 typedef struct fw_verdict_small_others {
-    const fw_statics_modes *modes[3 * FW_VERDICT_WAYS]; /* (count) */
+    const fw_statics_modes *modes[2 * 3 * FW_VERDICT_WAYS]; /* (count) */
     int count;
     const char *lost; /* a clause: one of them is not there; NULL: all are */
 } fw_verdict_small_others;
