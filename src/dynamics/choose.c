@@ -131,21 +131,35 @@ static double stated_square(const fw_multibody_model *m, const fw_effects_force_
     return e->size_N_per_m * unit * free;
 }
 
-/* the same with all switches of elements on: a stiff contact may be open at the start. 0: none is
-   off. Where the formula of one means nothing there (two points that coincide have no direction),
-   the rate depends on how far it is looked at; then what they state counts. */
+/* a contact so many times farther open than the motion is long by linear statics: taken for one that never acts */
+static bool is_out_of_reach(const fw_dynamics_problem *problem, const fw_effects_force_element *e,
+                            double value) {
+    const double far_m = 100 * problem->amplitude * problem->model->scale.length_m;
+    return e->class_->pressing && -value > far_m * e->size_N_per_m;
+}
+
+/* the same with all switches of elements on: a stiff contact may be open at the start. 0: none is off, or all that are stay
+   out of reach. Where the formula of one means nothing there (two points that coincide have no direction), the rate depends
+   on how far it is looked at; then what they state counts. */
 static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double before, double *rate) {
     const fw_multibody_model *m = problem->model;
     bool *on = problem->system->on.element;
-    double stated = 0, farther;
+    double stated = 0, farther, *value;
     bool idle = false;
     *rate = 0;
+    fw_mark mark = fw_arena_mark(problem->arena);
+    FW_NEED(value = fw_arena_array(problem->arena, double, (size_t)fw_multibody_switch_count(m)));
+    fw_multibody_switch_values(problem->system,
+                               fw_multibody_pose_at(problem->system, 0, problem->start),
+                               problem->start + m->nq, value);
+    value += m->nstop + m->ncable;
     for (int i = 0; i < m->nelement; i++)
-        for (int k = 0; k < m->element[i].own->switches; k++, on++) {
-            if (*on) continue;
+        for (int k = 0; k < m->element[i].own->switches; k++, on++, value++) {
+            if (*on || is_out_of_reach(problem, m->element[i].own, *value)) continue;
             stated += stated_square(m, m->element[i].own);
             *on = idle = true;
         }
+    fw_arena_rewind(problem->arena, mark);
     if (!idle) return FW_OK;
     stated = sqrt(before * before + stated);
     FW_TRY(fastest(problem, 0, problem->start, 1e-6, rate, NULL));
@@ -156,7 +170,7 @@ static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double bef
     return FW_OK;
 }
 
-/* omega^2 = F.u / u^T M u for the static response u to F (SI), scaled; 0 when there is none */
+/* omega^2 = |F.u| / u^T M u for the static response u to F, scaled; of what is buckled the rate at which it leaves; 0: none */
 static fw_status rayleigh(const fw_dynamics_problem *problem, const fw_effects_loads *loads,
                           const double *force, double *u, double *rotation, double *rate) {
     double work = 0, mass = 0;
@@ -168,7 +182,7 @@ static fw_status rayleigh(const fw_dynamics_problem *problem, const fw_effects_l
         work += force[i] * u[i];
         mass += (i % 3 == 2 ? b->inertia_kg_m2 : b->mass_kg) * u[i] * u[i];
     }
-    *rate = valid && work > 0 && mass > 0 ? sqrt(work / mass) * problem->model->scale.time_s : 0;
+    *rate = valid && mass > 0 ? sqrt(fabs(work) / mass) * problem->model->scale.time_s : 0;
     return FW_OK;
 }
 
