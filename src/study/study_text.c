@@ -302,10 +302,13 @@ static void say_size(fw_text *out, const fw_study *study) {
             fw_text_add(out, "\n");
         }
     } else {
-        fw_text_printf(out,
-                       r->nfound == 1 ? "the best that was found (accepted, number %ld):\n"
-                                      : "%ld devices that no other beats in both goals:\n",
-                       r->nfound == 1 ? r->found[0].i : (long)r->nfound);
+        if (r->nfound == 1)
+            fw_text_printf(out, "the best that was found (accepted, number %ld):\n", r->found[0].i);
+        else
+            fw_text_printf(out, "%ld devices that no other beats in both goals", r->unbeaten);
+        if (r->nfound > 1 && r->unbeaten > r->nfound)
+            fw_text_printf(out, "; %d of them, evenly along the front", r->nfound);
+        if (r->nfound > 1) fw_text_add(out, ":\n");
         for (int i = 0; i < r->nfound; i++)
             say_found(out, study, &r->found[i]);
     }
