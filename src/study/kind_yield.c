@@ -5,8 +5,8 @@
    A device is a point u of independent standard normal numbers: one for every input of the flow (edges,
    etch, thickness, modulus, as the pack states them) and for every <uncertain>. Its limit state is g = -ln of
    the largest share of a limit that it uses; g <= 0 fails. The probability is estimated by src/chance (which
-   method, and why, is in the result). What the model itself may be off by is no chance: the band of the hinge that governs the
-   nominal device moves the limit up and down, and the yield is a range from the one to the other. An
+   method, and why, is in the result). What the model itself may be off by is no chance: the band of the hinge or pull-in that
+   governs the nominal device moves the limit up and down, and the yield is a range from the one to the other. An
    input that a pack does not know (an assumed range) and spread="interval" make a range as well.
    Theory: docs/theory/chance.md. Test: tests/cli/test_study.py */
 #include "chance/estimate.h"
@@ -145,7 +145,7 @@ static fw_status describe(fw_study_yielding *y, const bounds *b, fw_study_flow_y
     return FW_OK;
 }
 
-/* what the model may be off by is that of the hinge that governs the nominal device */
+/* what the model may be off by is that of the hinge or pull-in that governs the nominal device */
 static fw_status judge_nominal(const fw_study_yielding *y, const fw_verdict_variant_verdict *v,
                                fw_verdict_made *made) {
     double x[FW_FABRICATION_INPUTS];
