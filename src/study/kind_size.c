@@ -264,10 +264,7 @@ static fw_status try_ends(sizing *s, const aim *a, int *left) {
                 if (fabs(share - end) > 1e-6) move[n][0] = v, move[n++][1] = end;
         }
         if (n > *left) n = *left;
-        at_ends e = {.s = s,
-                     .from = &s->kept[from],
-                     .first = FW_STUDY_SEARCH_PART / 2 + s->nend,
-                     .move = move};
+        at_ends e = {s, &s->kept[from], FW_STUDY_SEARCH_PART / 2 + s->nend, move};
         const fw_study_work work = {.n = n, .fill = fill_end, .take = take_end, .context = &e};
         FW_TRY(fw_study_pool_run(s->study, &work));
         fw_study_sort_samples(&s->kept[before], n); /* they came in any order */
@@ -334,8 +331,8 @@ static fw_status finish(sizing *s) {
 /* ---- what is in the way ---- */
 
 enum { LIMITS_MOST = 8 /* sentences */ };
-static const double at_limit =
-    0.97; /* of a limit: where what uses so much of it is, for a search */
+/* share of a limit that a search takes for all of it */
+static const double at_limit = 0.97;
 
 static fw_status tell(fw_study *study, fw_study_found *f, const fw_text *text) {
     FW_TRY(fw_text_end(text));
@@ -343,6 +340,19 @@ static fw_status tell(fw_study *study, fw_study_found *f, const fw_text *text) {
         if (strcmp(f->limit[k], text->data) == 0) return FW_OK;
     if (f->nlimit == LIMITS_MOST) return FW_OK;
     FW_NEED(f->limit[f->nlimit++] = fw_arena_strdup(study->arena, text->data));
+    return FW_OK;
+}
+
+/* a flow that says no to what hinges bear, and why, as `check` says it */
+static fw_status tell_unmade(fw_study *study, const fw_plan *plan, fw_study_found *f) {
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_process_flow *flow = plan->flow[i].flow;
+        fw_text text = fw_text_new(study->arena);
+        if (!flow || flow->manufacturable != 0) continue;
+        const char *why = flow->fails ? flow->fails : flow->nreason > 0 ? flow->reason[0] : "";
+        fw_text_printf(&text, "it cannot be made in %s: %s", flow->id, why);
+        FW_TRY(tell(study, f, &text));
+    }
     return FW_OK;
 }
 
@@ -358,7 +368,7 @@ static fw_status tell_reasons(fw_study *study, const fw_plan *plan, fw_study_fou
             fw_text_add(&text, words);
             FW_TRY(tell(study, f, &text));
         }
-    if (!plan->layout || plan->layout->nfault == 0) return FW_OK;
+    if (!plan->layout || plan->layout->nfault == 0) return tell_unmade(study, plan, f);
     fw_text text = fw_text_new(study->arena);
     fw_text_printf(&text, "it cannot be made: %s [FW-D%03d]", plan->layout->fault[0].message,
                    plan->layout->fault[0].number);
@@ -531,8 +541,7 @@ static fw_status prepare(sizing *s, int *most) {
                                &s->sobol);
 }
 
-/* what was judged so far, and searches from the best of it with the dies that are worst for it; none without a device
-   that is accepted */
+/* what was judged so far, and searches from the best accepted one with the dies that are worst for it */
 static fw_status at_yield(sizing *s, int most, long *first) {
     const aim a = {.s = s, .goal = &s->goal[0]};
     const fw_study_search like = search_of(&a, most, first);

@@ -323,6 +323,13 @@ class Lever(unittest.TestCase):
         sets = [w for s in result["found"][0]["set"] for w in ("--set", f"{s['path']}={s['value']}")]
         self.assertEqual(run("check", self.path, "--corners", "none", "--quiet", *sets).returncode, 0)
 
+    def test_what_no_flow_makes_says_why_nothing_was_found(self):
+        """all are accepted but for their release: no window without holes"""
+        said, result, rows = self.study(9, SECOND_GOAL, "")
+        self.assertEqual((result["found"], {r["state"] for r in rows}), ([], {"reject"}))
+        self.assertIn("cannot be made in soi-deep-rie: step D12 has no window", result["nearest"]["limits"][0])
+        self.assertRegex(said, r"in the way: it cannot be made in soi-deep-rie: step D12 has no window.*\n")
+
     def test_ends_of_the_ranges_are_looked_at(self):
         _, result, rows = self.study(22, "")
         self.assertLessEqual(len(rows), 22)
