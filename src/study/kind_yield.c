@@ -251,7 +251,7 @@ static fw_status yield_of(fw_study *study, int flow, int first_input, fw_study_f
     return status;
 }
 
-fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
+static fw_status yields(fw_study *study, fw_study_result *result) {
     int flows = study->plan->nflow, column = study->nvary + study->nsetting;
     FW_NEED(result->yield = fw_arena_array(study->arena, fw_study_flow_yield, (size_t)flows));
     for (int i = 0; i < flows; i++) {
@@ -260,6 +260,15 @@ fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
         column += v->ninput;
     }
     return FW_OK;
+}
+
+fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
+    fw_study_told told = {
+        .most = study->most, .begun_s = fw_study_now_s(), .thread = pthread_self()};
+    study->told = &told;
+    fw_status status = yields(study, result);
+    study->told = NULL;
+    return status;
 }
 
 /* ---- the dies of a device that a size looks at ---- */
