@@ -330,6 +330,20 @@ class Lever(unittest.TestCase):
         self.assertIn("cannot be made in soi-deep-rie: step D12 has no window", result["nearest"]["limits"][0])
         self.assertRegex(said, r"in the way: it cannot be made in soi-deep-rie: step D12 has no window.*\n")
 
+    def test_text_says_what_governs_as_json_does(self):
+        """the requirement uses more of its bound than the hinge, of which the first line is, of its limit"""
+        path = pathlib.Path(tempfile.mkdtemp()) / "lever.xml"
+        self.addCleanup(shutil.rmtree, path.parent)
+        text = LEVER_FILE.replace("PITCH", 'release-pitch="40 um"').replace("SAMPLES", "9").replace("SECOND", "")
+        path.write_text(text)
+        options = ("--corners", "none", "--advice", "none")
+        used = json.loads(run("check", path, *options, "--json").stdout)["governing"]["utilisation"]
+        said = run("check", path, *options).stdout
+        self.assertRegex(said, r"required, as drawn: turn .*; it governs: %.3g %% of its bound is used" % (100 * used))
+        soft = path.with_name("soft.xml")
+        soft.write_text(text.replace('min="1 deg"', 'min="0.01 deg"'))
+        self.assertNotIn("it governs", run("check", soft, *options).stdout)
+
     def test_ends_of_the_ranges_are_looked_at(self):
         _, result, rows = self.study(22, "")
         self.assertLessEqual(len(rows), 22)
