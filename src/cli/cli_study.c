@@ -212,6 +212,7 @@ int fw_cli_command_study(fw_cli_options *options) {
                           .resume = options->resume,
                           .cancel = options->interrupted,
                           .waits = waits};
+    o.timed = options->plan_only;
     if (!options->no_progress && !options->quiet && isatty(2))
         o.progress = progress, o.progress_context = &last;
     else if (options->verbose && !options->quiet)

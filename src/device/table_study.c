@@ -76,8 +76,11 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
          WHOLE,                                                                                    \
          RANGE(1, 1e7, "more than ten million devices are several studies"),                       \
          .fallback = "as many as the kind asks for",                                               \
-         .sentence = "Devices of a Sobol' sequence or of indices; most of them of a yield (at "    \
-                     "least 200, and a yield has no <respond>) or a size."},                       \
+         .sentence = "Devices of a Sobol' sequence or of indices; most of them of a size, or of "  \
+                     "each estimate of a yield (at least 200, and a yield has no <respond>): "     \
+                     "there are three at each corner of what is only assumed, as computed and "    \
+                     "with the limit moved either way by the model's band, and one that merely "   \
+                     "counts takes 16 times a power of two."},                                     \
         {"seed",          D_PURE,                                                                  \
          WHOLE,           RANGE(0, 2147483647, "seeds have 31 bits"),                              \
          .fallback = "1", .sentence = "Of random numbers: the same seed gives the same study."},   \

@@ -74,7 +74,7 @@ static fw_status hinges(fw_arena *arena, const fw_verdict *v, fw_report_summary 
 }
 
 /* the requirement that is nearest to its bound; one that speaks against the device is among the
-   reasons already */
+   reasons already. Where it governs, no hinge uses as much of its limit: the line before is not what governs */
 static fw_status required(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     fw_verdict_check tightest;
     const char *text;
@@ -82,6 +82,12 @@ static fw_status required(fw_arena *arena, const fw_verdict *v, fw_report_summar
     FW_TRY(fw_verdict_governing(arena, v, FW_CHECK_REQUIREMENTS, true, &tightest, &found));
     if (!found || tightest.decision != FW_ACCEPT) return FW_OK;
     FW_TRY(check_text(arena, &tightest, &text));
+    if (s->governing.requirement && s->has_drawn && isfinite(tightest.used)) {
+        char used[32];
+        fw_number_text(used, sizeof used, 100 * tightest.used, 3);
+        FW_NEED(text = fw_arena_printf(arena, "%s; it governs: %s %% of its bound is used", text,
+                                       used));
+    }
     return add(s, tightest.corner ? "required, as made" : "required, as drawn", text);
 }
 

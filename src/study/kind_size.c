@@ -3,10 +3,11 @@
    two responses the Pareto front.
 
    The description as it stands and a Sobol' sequence over the ranges are judged first; from the best of them, apart from
-   each other, local searches (study_search.c); from the best of all these one more, by models of all that was judged, with
-   what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
-   is sought alone, then the first with the second held at nine levels between (epsilon constraints; Haimes, Lasdon, Wismer
-   1971), and the front is what nothing that was judged beats. Nothing is proved: a better one may be where nobody looked.
+   each other, local searches (study_search.c); the best of these with its inputs at the ends of their ranges; and one search
+   more, by models of all that was judged, with what the searches left of their devices. What is returned is a device that
+   was judged as its texts say. Of two goals each is sought alone, then the first with the second held at nine levels between
+   (epsilon constraints; Haimes, Lasdon, Wismer 1971), and the front is what no other one of all that was judged and accepted
+   beats. Nothing is proved: a better one may be where nobody looked.
 
    At a wanted yield all of these are only what further searches begin with (study_search.c).
    Test: tests/cli/test_study.py, tests/cli/test_sizing.py */
@@ -22,7 +23,7 @@ enum {
     EACH = 19,         /* devices of a search for each input, and so many more */
     LEVELS = 9,        /* of the second goal */
     DIGITS = 5,        /* of what is tried: more no mask resolves */
-    FRONT_MOST = 200,  /* devices of a front */
+    FRONT_MOST = 100,  /* devices of a front that are listed */
     LISTS_MOST = 1000, /* combinations of listed values */
 };
 
@@ -39,11 +40,9 @@ typedef struct sizing {
     fw_chance_sobol sobol;
     long first_n;          /* samples of the first look */
     long lists;            /* combinations of listed values */
-    fw_study_sample *kept; /* (nkept) of the first look, the best first */
-    double *f, *c;
+    fw_study_sample *kept; /* (nkept) all that was judged, of the first look in their order */
     int nkept;
-    const fw_study_sample **judged; /* (njudged) all, at a wanted yield */
-    int njudged;
+    long nend; /* devices at ends of ranges */
 } sizing;
 
 /* ---- what is small, and what must not be above 0 ---- */
@@ -166,13 +165,14 @@ static fw_study_search search_of(const aim *a, int most, long *first) {
                              .most = most,
                              .digits = DIGITS,
                              .first = *first - FW_STUDY_SEARCH_PART,
-                             .keeps_all = a->s->study->asked->yield > 0};
+                             .keeps_all = true};
 }
 
-/* all that a search judged may be the answer at a wanted yield, also what is not the best without one */
+/* All that a search judged may be the answer, also what is not the best of this search: of two goals one that is best for
+   neither may be on the front, and at a wanted yield one that uses less. */
 static void join(sizing *s, const fw_study_search *search) {
-    for (int k = 0; search->all && k < search->used; k++)
-        s->judged[s->njudged++] = &search->all[k];
+    for (int k = 0; k < search->used; k++)
+        s->kept[s->nkept++] = search->all[k];
 }
 
 /* starts of searches for an aim: the best of what was judged, each a tenth of a range from the others */
@@ -200,67 +200,118 @@ static fw_status starts(sizing *s, const aim *a, fw_study_search *search, int *n
     return FW_OK;
 }
 
-/* one more search, from all that was judged: the first look (nfirst), and by these searches (n), which left it devices */
-static fw_status go_on(sizing *s, const aim *a, const fw_study_search *search, int n, int nfirst,
-                       int most, long *first) {
-    int from = best_for(s, a), left = SEARCHES * most;
-    for (int i = 0; i < n; i++)
-        left -= search[i].used;
+/* one more search, from all that was judged, with the devices that the others left */
+static fw_status go_on(sizing *s, const aim *a, int left, long *first) {
+    int from = best_for(s, a);
     if (from == FW_NONE || left <= 0) return FW_OK;
     fw_study_search one = search_of(a, left, first);
     FW_TRY(fw_study_search_from(s->study, &s->kept[from], &one));
-    FW_TRY(fw_study_search_knows(s->study, &one, s->kept, nfirst, search, n));
+    FW_TRY(fw_study_search_knows(s->study, &one, s->kept, s->nkept, NULL, 0));
     FW_TRY(fw_study_search_run(s->study, &one, 1));
     join(s, &one);
-    if (one.used > 0 && one.best.run) s->kept[s->nkept++] = one.best;
     return FW_OK;
 }
 
-/* devices that a local search begins with and its first step: with fewer one search from all that was judged has them */
-static int simplex(const fw_study *study) {
-    return study->nvary + 1;
+/* ---- the ends of the ranges ---- */
+
+typedef struct at_ends {
+    sizing *s;
+    const fw_study_sample *from;
+    long first;           /* number of the first one */
+    const int (*move)[2]; /* (n) the input, and 1 for the upper end of its range, 0 for the lower */
+} at_ends;
+
+static fw_status fill_end(void *context, long k, fw_study_sample *sample, bool *wanted) {
+    const at_ends *e = context;
+    const fw_study *study = e->s->study;
+    const int moved = e->move[k][0];
+    *wanted = true;
+    sample->i = e->first + k;
+    for (int v = 0; v < study->nvary; v++) {
+        memcpy(sample->text[v], e->from->text[v], FW_STUDY_TEXT);
+        sample->value[v] = e->from->value[v];
+    }
+    return fw_study_input_at(&study->input[moved], e->move[k][1], DIGITS, sample->text[moved],
+                             &sample->value[moved]);
 }
 
-/* searches for one aim; all that they found joins what was judged */
+static fw_status take_end(void *context, const fw_study_sample *sample) {
+    const at_ends *e = context;
+    bool wanted;
+    fw_study_sample *to = &e->s->kept[e->s->nkept++];
+    FW_TRY(fw_study_sample_new(e->s->study->arena, e->s->study, to));
+    fw_study_sample_copy(e->s->study, sample, to);
+    return fill_end(context, sample->i - e->first, to, &wanted);
+}
+
+/* The best for an aim with one of its inputs at an end of its range, each in turn; then the best of these, until none is
+   better. A search of few devices ends before the end of a range that its goal leads to, and where several do, in no corner.
+   *left: devices that there are for it. Test: tests/cli/test_sizing.py, Ends */
+static fw_status try_ends(sizing *s, const aim *a, int *left) {
+    const fw_study *study = s->study;
+    int(*move)[2] = fw_arena_alloc(study->arena, 2 * (size_t)study->nvary + 1, sizeof *move);
+    FW_NEED(move);
+    for (int round = 0, was = FW_NONE; round <= study->nvary; round++) {
+        const int from = best_for(s, a), before = s->nkept;
+        int n = 0;
+        if (from == FW_NONE || from == was) return FW_OK;
+        was = from;
+        for (int v = 0; v < study->nvary; v++) {
+            const fw_study_input *in = &study->input[v];
+            if (in->ntext > 0) continue;
+            const double share = fw_study_input_share(in, s->kept[from].value[v]);
+            for (int end = 0; end < 2; end++)
+                if (fabs(share - end) > 1e-6) move[n][0] = v, move[n++][1] = end;
+        }
+        if (n > *left) n = *left;
+        at_ends e = {s, &s->kept[from], FW_STUDY_SEARCH_PART / 2 + s->nend, move};
+        const fw_study_work work = {.n = n, .fill = fill_end, .take = take_end, .context = &e};
+        FW_TRY(fw_study_pool_run(s->study, &work));
+        fw_study_sort_samples(&s->kept[before], n); /* they came in any order */
+        s->nend += n, *left -= n;
+    }
+    return FW_OK;
+}
+
+/* devices with which a local search comes farther than its first steps, one for each input: with fewer the ends of the
+   ranges and one search from all that was judged have them */
+static int worth_it(const fw_study *study) {
+    return 2 * (study->nvary + 1);
+}
+
+/* searches for one aim; all that they judged joins what was judged */
 static fw_status seek(sizing *s, aim *a, int most, long *first) {
     fw_study_search *search = fw_arena_array(s->study->arena, fw_study_search, STARTS);
-    int n;
+    int n, left = SEARCHES * most;
     FW_NEED(search);
     FW_TRY(starts(s, a, search, &n, most, first));
-    if (most < simplex(s->study)) n = 0;
+    if (most < worth_it(s->study)) n = 0;
     FW_TRY(fw_study_search_run(s->study, search, n));
-    const int nfirst = s->nkept;
-    for (int i = 0; i < n; i++) {
-        join(s, &search[i]);
-        if (search[i].used > 0 && search[i].best.run) s->kept[s->nkept++] = search[i].best;
-    }
-    return go_on(s, a, search, n, nfirst, most, first);
+    for (int i = 0; i < n; i++)
+        join(s, &search[i]), left -= search[i].used;
+    if (!a->held) FW_TRY(try_ends(s, a, &left));
+    return go_on(s, a, left, first);
 }
 
-/* devices that hold every limit and that no other one beats in both goals, by the first */
+/* The front, of the devices that are accepted and hold every limit; of several with the same goals the first one */
 static fw_status front(sizing *s) {
-    const fw_study *study = s->study;
     fw_study_result *r = s->result;
-    FW_NEED(r->found = fw_arena_array(study->arena, fw_study_found, FRONT_MOST));
-    double after = -HUGE_VAL;
-    while (r->nfound < FRONT_MOST) {
-        int next = FW_NONE;
-        for (int i = 0; i < s->nkept; i++) {
-            const fw_study_sample *k = &s->kept[i];
-            double c = constraint_of(study, k), f0 = goal_of(k, &s->goal[0]);
-            bool beaten = !(c <= 0) || !(f0 > after);
-            for (int j = 0; j < s->nkept && !beaten; j++) {
-                const fw_study_sample *o = &s->kept[j];
-                double d0 = goal_of(o, &s->goal[0]) - f0,
-                       d1 = goal_of(o, &s->goal[1]) - goal_of(k, &s->goal[1]);
-                beaten = constraint_of(study, o) <= 0 && d0 <= 0 && d1 <= 0 && (d0 < 0 || d1 < 0);
-            }
-            if (!beaten && (next == FW_NONE || f0 < goal_of(&s->kept[next], &s->goal[0]))) next = i;
-        }
-        if (next == FW_NONE) break;
-        after = goal_of(&s->kept[next], &s->goal[0]);
-        FW_TRY(fw_study_keep_found(s->study, &s->kept[next], constraint_of(study, &s->kept[next]),
-                                   &r->found[r->nfound++]));
+    fw_study_on_front *p = fw_arena_array(s->study->arena, fw_study_on_front, (size_t)s->nkept + 1);
+    int n = 0;
+    FW_NEED(p);
+    for (int i = 0; i < s->nkept; i++) {
+        const fw_study_sample *k = &s->kept[i];
+        if (k->decision == FW_ACCEPT && constraint_of(s->study, k) <= 0)
+            p[n++] = (fw_study_on_front){.at = i,
+                                         .f = {goal_of(k, &s->goal[0]), goal_of(k, &s->goal[1])}};
+    }
+    n = fw_study_front(p, n);
+    r->unbeaten = n;
+    n = fw_study_front_thinned(p, n, FRONT_MOST);
+    FW_NEED(r->found = fw_arena_array(s->study->arena, fw_study_found, (size_t)n + 1));
+    for (; r->nfound < n; r->nfound++) {
+        const fw_study_sample *k = &s->kept[p[r->nfound].at];
+        FW_TRY(fw_study_keep_found(s->study, k, constraint_of(s->study, k), &r->found[r->nfound]));
     }
     return FW_OK;
 }
@@ -280,8 +331,8 @@ static fw_status finish(sizing *s) {
 /* ---- what is in the way ---- */
 
 enum { LIMITS_MOST = 8 /* sentences */ };
-static const double at_limit =
-    0.97; /* of a limit: where what uses so much of it is, for a search */
+/* share of a limit that a search takes for all of it */
+static const double at_limit = 0.97;
 
 static fw_status tell(fw_study *study, fw_study_found *f, const fw_text *text) {
     FW_TRY(fw_text_end(text));
@@ -289,6 +340,19 @@ static fw_status tell(fw_study *study, fw_study_found *f, const fw_text *text) {
         if (strcmp(f->limit[k], text->data) == 0) return FW_OK;
     if (f->nlimit == LIMITS_MOST) return FW_OK;
     FW_NEED(f->limit[f->nlimit++] = fw_arena_strdup(study->arena, text->data));
+    return FW_OK;
+}
+
+/* a flow that says no to what hinges bear, and why, as `check` says it */
+static fw_status tell_unmade(fw_study *study, const fw_plan *plan, fw_study_found *f) {
+    for (int i = 0; i < plan->nflow; i++) {
+        const fw_process_flow *flow = plan->flow[i].flow;
+        fw_text text = fw_text_new(study->arena);
+        if (!flow || flow->manufacturable != 0) continue;
+        const char *why = flow->fails ? flow->fails : flow->nreason > 0 ? flow->reason[0] : "";
+        fw_text_printf(&text, "it cannot be made in %s: %s", flow->id, why);
+        FW_TRY(tell(study, f, &text));
+    }
     return FW_OK;
 }
 
@@ -304,7 +368,7 @@ static fw_status tell_reasons(fw_study *study, const fw_plan *plan, fw_study_fou
             fw_text_add(&text, words);
             FW_TRY(tell(study, f, &text));
         }
-    if (!plan->layout || plan->layout->nfault == 0) return FW_OK;
+    if (!plan->layout || plan->layout->nfault == 0) return tell_unmade(study, plan, f);
     fw_text text = fw_text_new(study->arena);
     fw_text_printf(&text, "it cannot be made: %s [FW-D%03d]", plan->layout->fault[0].message,
                    plan->layout->fault[0].number);
@@ -390,6 +454,15 @@ static fw_status tell_what_limits(sizing *s) {
     return r->nfound == 1 && s->ngoal == 1 ? tell_limits(s->study, r->found) : FW_OK;
 }
 
+/* Devices of each search for a goal alone, where two share the budget: at least as many as get somewhere, up to half of
+   what there is, since a front reaches no farther than its ends. *most: of each search with one held, then fewer. */
+static int for_its_ends(const fw_study *study, long budget, int *most) {
+    const int single = (int)fmin(worth_it(study), (double)(budget / 4) / SEARCHES);
+    if (single <= *most) return *most;
+    *most = (int)((budget - 2 * SEARCHES * single) / (LEVELS * SEARCHES));
+    return single;
+}
+
 static fw_status two_goals(sizing *s, int most, long *first) {
     const goal *a = &s->goal[0], *b = &s->goal[1];
     int low = best_of(s, b), high = best_of(s, a);
@@ -415,17 +488,6 @@ static long count_lists(const fw_study *study, int *at) {
         if (lists > LISTS_MOST) *at = k;
     }
     return lists;
-}
-
-fw_status fw_study_check_apart(fw_study *study) {
-    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
-    return fw_diag_error(
-        &study->diags, 490, study->asked->place,
-        "shards: a study of kind %s chooses each of its samples by the ones before; "
-        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
-        "a study on each "
-        "with a part of the ranges, of which the best is the answer",
-        fw_device_study_kind_text(study->asked->kind));
 }
 
 fw_status fw_study_check_size(fw_study *study) {
@@ -472,21 +534,23 @@ static fw_status prepare(sizing *s, int *most) {
     s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
     *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
-    size_t room = (size_t)s->first_n + 2 * (size_t)searches;
-    FW_NEED(s->judged = fw_arena_array(study->arena, const fw_study_sample *, (size_t)budget + 1));
-    FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, room));
+    FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, (size_t)budget + 1));
     for (long i = 0; i < s->first_n; i++)
         FW_TRY(fw_study_sample_new(study->arena, study, &s->kept[i]));
     return fw_chance_sobol_new(study->arena, (size_t)study->nvary, (uint64_t)study->asked->seed,
                                &s->sobol);
 }
 
-/* what was judged so far, and searches from the best of it with the dies that are worst for it; none without a device
-   that is accepted */
+/* what was judged so far, and searches from the best accepted one with the dies that are worst for it */
 static fw_status at_yield(sizing *s, int most, long *first) {
     const aim a = {.s = s, .goal = &s->goal[0]};
     const fw_study_search like = search_of(&a, most, first);
-    FW_TRY(fw_study_at_yield(s->study, &like, s->judged, s->njudged, s->result));
+    const fw_study_sample **judged =
+        fw_arena_array(s->study->arena, const fw_study_sample *, (size_t)s->nkept + 1);
+    FW_NEED(judged);
+    for (int i = 0; i < s->nkept; i++)
+        judged[i] = &s->kept[i];
+    FW_TRY(fw_study_at_yield(s->study, &like, judged, s->nkept, s->result));
     const int best = best_of(s, &s->goal[0]);
     if (s->result->nfound > 0 || s->result->nearest.text || best == FW_NONE) return FW_OK;
     const double missed = constraint_of(s->study, &s->kept[best]);
@@ -501,22 +565,22 @@ static fw_status size(fw_study *study, fw_study_result *result) {
     const fw_study_work work = {.n = s.first_n, .fill = fill, .take = take, .context = &s};
     FW_TRY(fw_study_pool_run(study, &work));
     fw_study_sort_samples(s.kept, s.nkept); /* they came in any order */
-    for (int i = 0; i < s.nkept && study->asked->yield > 0; i++)
-        s.judged[s.njudged++] = &s.kept[i];
-    for (int g = 0; g < s.ngoal && most > 0; g++) {
+    const long left = fw_study_count_size(study) - s.first_n;
+    const int single = s.ngoal == 2 && most > 0 ? for_its_ends(study, left, &most) : most;
+    for (int g = 0; g < s.ngoal && single > 0; g++) {
         aim *a = fw_arena_one(study->arena, aim);
         FW_NEED(a);
         *a = (aim){.s = &s, .goal = &s.goal[g]};
-        FW_TRY(seek(&s, a, most, &first));
+        FW_TRY(seek(&s, a, single, &first));
     }
     if (s.ngoal == 2 && most > 0) FW_TRY(two_goals(&s, most, &first));
     FW_NEED(
         result->how = fw_arena_printf(
             study->arena,
             "%ld devices over the ranges, then local searches (COBYLA) from the best of them, at "
-            "most %d devices each%s, and one from all of them (quadratic models)%s; a better one "
-            "may be where none was tried",
-            s.first_n, most, most < simplex(study) ? " (too few: left out)" : "",
+            "most %d devices each%s, the best at ends of the ranges, and one search from all of "
+            "them (quadratic models)%s; a better one may be where none was tried",
+            s.first_n, most, most < worth_it(study) ? " (too few: left out)" : "",
             study->asked->yield > 0
                 ? ", the last ones with the dies that are worst for the best device"
                 : ""));

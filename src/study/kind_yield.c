@@ -5,8 +5,8 @@
    A device is a point u of independent standard normal numbers: one for every input of the flow (edges,
    etch, thickness, modulus, as the pack states them) and for every <uncertain>. Its limit state is g = -ln of
    the largest share of a limit that it uses; g <= 0 fails. The probability is estimated by src/chance (which
-   method, and why, is in the result). What the model itself may be off by is no chance: the band of the hinge that governs the
-   nominal device moves the limit up and down, and the yield is a range from the one to the other. An
+   method, and why, is in the result). What the model itself may be off by is no chance: the band of the hinge or pull-in that
+   governs the nominal device moves the limit up and down, and the yield is a range from the one to the other. An
    input that a pack does not know (an assumed range) and spread="interval" make a range as well.
    Theory: docs/theory/chance.md. Test: tests/cli/test_study.py */
 #include "chance/estimate.h"
@@ -145,7 +145,7 @@ static fw_status describe(fw_study_yielding *y, const bounds *b, fw_study_flow_y
     return FW_OK;
 }
 
-/* what the model may be off by is that of the hinge that governs the nominal device */
+/* what the model may be off by is that of the hinge or pull-in that governs the nominal device */
 static fw_status judge_nominal(const fw_study_yielding *y, const fw_verdict_variant_verdict *v,
                                fw_verdict_made *made) {
     double x[FW_FABRICATION_INPUTS];
@@ -251,7 +251,7 @@ static fw_status yield_of(fw_study *study, int flow, int first_input, fw_study_f
     return status;
 }
 
-fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
+static fw_status yields(fw_study *study, fw_study_result *result) {
     int flows = study->plan->nflow, column = study->nvary + study->nsetting;
     FW_NEED(result->yield = fw_arena_array(study->arena, fw_study_flow_yield, (size_t)flows));
     for (int i = 0; i < flows; i++) {
@@ -260,6 +260,15 @@ fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
         column += v->ninput;
     }
     return FW_OK;
+}
+
+fw_status fw_study_kind_yield(fw_study *study, fw_study_result *result) {
+    fw_study_told told = {
+        .most = study->most, .begun_s = fw_study_now_s(), .thread = pthread_self()};
+    study->told = &told;
+    fw_status status = yields(study, result);
+    study->told = NULL;
+    return status;
 }
 
 /* ---- the dies of a device that a size looks at ---- */

@@ -33,6 +33,7 @@ typedef struct fw_study_options {
     int jobs;           /* threads; 0: as many as there are processors */
     int shard, shards;  /* from 1; 0: all of it */
     bool resume;        /* go on with the store that is there */
+    bool timed;         /* one die of a yield is judged for its time, which a plan says */
     const fw_cancel *cancel;
     /* called now and then from the thread that runs the study; NULL: nobody asks */
     /* all below 0: so many at most, since searches end earlier; 0: nobody knows how many */
@@ -115,10 +116,13 @@ typedef struct fw_study {
     /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
     int npart, nhinge;
     int neach; /* of a die: how many of them each hinge has (scenes and workspace); else 0 */
-    fw_design *design;            /* the description as it stands; of a yield judged as drawn */
-    fw_design *former;            /* as it was first read: places are of it; NULL: the same */
-    fw_plan *plan;                /* of `design` */
-    double seconds_each;          /* what the description as it stands took, all its stages; CPU */
+    fw_design *design; /* the description as it stands; of a yield judged as drawn */
+    fw_design *former; /* as it was first read: places are of it; NULL: the same */
+    fw_plan *plan;     /* of `design` */
+    /* what the description as it stands took, all its stages, or one die of a yield; CPU */
+    double seconds_each;
+    /* of a yield: dies of one estimate that merely counts; estimates; dies where all are counted, and at most */
+    long counted, estimates, likely, most;
     struct fw_study_store *store; /* NULL: none was asked for */
     const struct fw_study_result *result;
     struct fw_study_engines *engines; /* what samples have in common */

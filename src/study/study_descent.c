@@ -10,11 +10,13 @@
    says so (a region where check accepts nothing, and says no number by which it does not). Next is judged what is best by
    these within a radius. Each answer turns the plane, so the border of such a region is halved, and followed where the
    objective falls along it. Nothing is proved. Test: tests/unit/study/test_descent.c */
+#include "base/sort.h"
 #include "chance/random.h"
 #include "maths/dense.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <nlopt.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool fw_study_search_better(double fa, double ca, double fb, double cb) {
@@ -515,4 +517,41 @@ fw_status fw_study_descent_models(fw_study_descent *d, const fw_study_tried *kno
         }
     }
     return FW_OK;
+}
+
+/* ---- two goals ---- */
+
+static int by_goals(const void *a, const void *b) {
+    const fw_study_on_front *p = a, *q = b;
+    int order = fw_order_doubles(p->f[0], q->f[0]);
+    if (!order) order = fw_order_doubles(p->f[1], q->f[1]);
+    return order ? order : fw_order_wholes(p->at, q->at);
+}
+
+int fw_study_front(fw_study_on_front *p, int n) {
+    int all = 0, on = 0;
+    for (int i = 0; i < n; i++)
+        if (isfinite(p[i].f[0]) && isfinite(p[i].f[1])) p[all++] = p[i];
+    qsort(p, (size_t)all, sizeof *p, by_goals);
+    for (int i = 0; i < all; i++)
+        if (on == 0 || p[i].f[1] < p[on - 1].f[1]) p[on++] = p[i];
+    return on;
+}
+
+/* Again and again the one goes whose neighbours are nearest to each other, by the sum of both goals in shares of what the
+   front covers of them: so they stay where they are sparse, and both ends do. */
+int fw_study_front_thinned(fw_study_on_front *p, int n, int most) {
+    if (n <= most) return n;
+    const double wide = p[n - 1].f[0] - p[0].f[0], high = p[0].f[1] - p[n - 1].f[1];
+    for (; n > most; n--) {
+        double least = HUGE_VAL;
+        int at = 1;
+        for (int i = 1; i < n - 1; i++) {
+            const double gap =
+                (p[i + 1].f[0] - p[i - 1].f[0]) / wide + (p[i - 1].f[1] - p[i + 1].f[1]) / high;
+            if (gap < least) least = gap, at = i;
+        }
+        memmove(&p[at], &p[at + 1], (size_t)(n - at - 1) * sizeof *p);
+    }
+    return n;
 }

@@ -11,14 +11,9 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-enum { /* stages of a design, by what responses ask for */
-       FW_STUDY_STAGE_JUDGE = 1,
-       FW_STUDY_STAGE_FABRICATE = 2,
-       FW_STUDY_STAGE_SIMULATE = 4,
-       FW_STUDY_STAGE_STATICS = 8,
-       FW_STUDY_STAGE_MODES = 16,
-       FW_STUDY_STAGE_WORKSPACE = 32
-};
+/* stages of a design, by what responses ask for */
+enum { FW_STUDY_STAGE_JUDGE = 1, FW_STUDY_STAGE_FABRICATE = 2, FW_STUDY_STAGE_SIMULATE = 4 };
+enum { FW_STUDY_STAGE_STATICS = 8, FW_STUDY_STAGE_MODES = 16, FW_STUDY_STAGE_WORKSPACE = 32 };
 
 /* ---- study_response.c: numbers of documents ---- */
 
@@ -42,7 +37,7 @@ bool fw_study_response_find(const fw_study_response *response, const json_t *roo
 
 /* ---- study_evaluate.c: values of inputs as text and back ---- */
 
-/* the text of a value (SI), so many digits in the input's unit, and the value that this text has */
+/* the text of a value (SI), so many digits in the input's unit, and its value */
 fw_status fw_study_input_write(const fw_study_input *input, double value, int digits,
                                char text[FW_STUDY_TEXT], double *shown);
 /* a number that was told and not judged, in as many digits as that may have */
@@ -184,6 +179,14 @@ fw_status fw_study_descent_models(fw_study_descent *d, const fw_study_tried *kno
                                   fw_arena *arena);
 /* a is better than b: feasible before infeasible, then by objective, or by constraint */
 bool fw_study_search_better(double fa, double ca, double fb, double cb);
+typedef struct fw_study_on_front { /* a device, and two goals, the less the better */
+    double f[2];
+    int at;
+} fw_study_on_front;
+/* those of n that no other one beats, first, by the first goal: how many; of the same goals one. NaN: left out */
+int fw_study_front(fw_study_on_front *p, int n);
+/* a front with at most so many (>= 2) of its devices, evenly along it, both ends among them: how many */
+int fw_study_front_thinned(fw_study_on_front *p, int n, int most);
 
 typedef struct fw_study_search {
     /* of a sample that was run: what is to be small, and what must not be above 0 (NaN: as bad as can be), as many as
@@ -250,9 +253,8 @@ void fw_study_sort_samples(fw_study_sample *sample, int n);
 double fw_study_excess(const fw_study *study, const fw_study_sample *sample);
 /* the same of each limit by itself: c, as many as is answered; c NULL: only counted */
 int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double *c);
-extern const double
-    fw_study_beyond; /* what a device uses, of which no number says by how much it is not accepted */
-
+/* what a device uses, of which no number says by how much it is not accepted */
+extern const double fw_study_beyond;
 /* ---- study_fitted.c: devices that are told and not judged ---- */
 
 struct fw_study_result;
@@ -512,11 +514,10 @@ typedef struct fw_study_extreme { /* of one response over all samples that were 
     double first;
 } fw_study_extreme;
 
-typedef struct
-    fw_study_derivative { /* of a response by an input, at the description as it stands */
-    double value;         /* SI over SI; NaN: not there */
-    double error;         /* of it, estimated by halving the step */
-    double spread;        /* value times half the input's range: what the tornado shows */
+/* of a response by an input, at the description as it stands */
+typedef struct fw_study_derivative {
+    double value, error; /* SI over SI, NaN: not there; by halving the step */
+    double spread;       /* value times half the input's range: what the tornado shows */
 } fw_study_derivative;
 
 typedef struct fw_study_index { /* share of a response's variance, with its interval */
@@ -536,8 +537,8 @@ typedef struct fw_study_found {  /* size: a design */
     double excess;               /* <= 0: every limit holds */
     int decision;
     long i; /* its sample */
-    const char *
-        *limit; /* (nlimit) sentences: what keeps it from being accepted, or from being better */
+    /* (nlimit) sentences: what keeps it from being accepted, or from being better */
+    const char **limit;
     int nlimit;
 } fw_study_found;
 
@@ -557,8 +558,7 @@ typedef struct fw_study_flow_yield { /* yield of one flow */
     int nassumed;                                     /* what is only assumed */
     const char *const *assumed, *const *assumed_unit; /* (nassumed) */
     long each; /* devices of one estimate; there is one at each corner of what is only assumed */
-    double sampled_low,
-        sampled_high; /* interval of sampling alone, by the utilisations themselves */
+    double sampled_low, sampled_high;      /* of sampling alone, by the utilisations themselves */
     const char *method, *reason, *caution; /* sentences; caution may be NULL */
     long evaluations, unevaluated;
     double band; /* of the model at the governing check: factor between best and worst reading */
@@ -574,8 +574,7 @@ typedef struct fw_study_flow_yield { /* yield of one flow */
 typedef struct fw_study_fitted { /* a sweep of which response surfaces told the most */
     long judged, open, told;     /* of which they were made; that they left open; the others */
     long checked; /* devices of the last round that were told and then judged: all came as told */
-    double *off;  /* (nresponse) what a response that is told may be off by */
-    double used_off; /* likewise of limit_used */
+    double *off, used_off; /* (nresponse) what a response that is told may be off by; limit_used */
 } fw_study_fitted;
 
 typedef struct fw_study_result {
@@ -590,6 +589,7 @@ typedef struct fw_study_result {
     /* (nfound) size: the best; of two goals the Pareto front, by the first */
     fw_study_found *found;
     int nfound;
+    long unbeaten;              /* of two goals: devices of the front, of which these are listed */
     fw_study_found nearest;     /* where nothing was found; text NULL: nothing was run */
     const char *how;            /* a sentence: what was tried */
     fw_study_flow_yield *yield; /* (nyield) a flow each */

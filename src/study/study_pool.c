@@ -341,3 +341,14 @@ fw_status fw_study_pool_run(fw_study *study, const fw_study_work *work) {
     fw_arena_free(p.scratch);
     return status;
 }
+
+fw_status fw_study_check_apart(fw_study *study) {
+    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: a study of kind %s chooses each of its samples by the ones before; "
+        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
+        "a study on each "
+        "with a part of the ranges, of which the best is the answer",
+        fw_device_study_kind_text(study->asked->kind));
+}

@@ -108,10 +108,38 @@ static fw_status usual_dies(const fw_study *study, long *n) {
     return FW_OK;
 }
 
+static void about(const fw_study *study, fw_text *out, double devices) {
+    fw_text_add(out, ", about ");
+    seconds(out, study->seconds_each * devices / fw_study_jobs(study));
+}
+
+static fw_status plan_of_yield(const fw_study *study, fw_text *out) {
+    fw_text_printf(out, "%ld devices where they are merely counted", study->likely);
+    if (study->seconds_each > 0) about(study, out, (double)study->likely);
+    fw_text_printf(out, "; at most %ld, where failures are rare", study->most);
+    if (study->seconds_each > 0) about(study, out, (double)study->most);
+    fw_text_printf(out, "; in %d threads", fw_study_jobs(study));
+    if (study->seconds_each > 0) {
+        fw_text_add(out, " (one took ");
+        seconds(out, study->seconds_each);
+        fw_text_add(out, ")");
+    }
+    fw_text_printf(
+        out,
+        "\n  %ld estimates of at most %ld devices: as computed, and with the limit moved "
+        "either way by what the model may be off by%s; one that merely counts takes %ld, "
+        "16 times a power of two\n",
+        study->estimates, fw_study_count(study),
+        study->estimates > 3 ? ", of each flow and at each corner of what is only assumed" : "",
+        study->counted);
+    return fw_text_end(out);
+}
+
 fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
     long n = fw_study_count(study), dies;
     int jobs = fw_study_jobs(study);
     FW_TRY(fw_study_asked_text(study, out));
+    if (study->asked->kind == FW_STUDY_IS_yield) return plan_of_yield(study, out);
     FW_TRY(usual_dies(study, &dies));
     fw_text_printf(out, "%s%ld devices%s in %d threads",
                    study->asked->kind == FW_STUDY_IS_sweep ? "" : "at most ", n,
@@ -123,8 +151,7 @@ fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
         fw_text_add(out, "; if all were judged");
     }
     if (study->seconds_each > 0) {
-        fw_text_add(out, ", about ");
-        seconds(out, study->seconds_each * (double)n / jobs);
+        about(study, out, (double)n);
         fw_text_add(out, " (one took ");
         seconds(out, study->seconds_each);
         if (study->asked->kind == FW_STUDY_IS_sensitivity)
@@ -302,10 +329,13 @@ static void say_size(fw_text *out, const fw_study *study) {
             fw_text_add(out, "\n");
         }
     } else {
-        fw_text_printf(out,
-                       r->nfound == 1 ? "the best that was found (accepted, number %ld):\n"
-                                      : "%ld devices that no other beats in both goals:\n",
-                       r->nfound == 1 ? r->found[0].i : (long)r->nfound);
+        if (r->nfound == 1)
+            fw_text_printf(out, "the best that was found (accepted, number %ld):\n", r->found[0].i);
+        else
+            fw_text_printf(out, "%ld devices that no other beats in both goals", r->unbeaten);
+        if (r->nfound > 1 && r->unbeaten > r->nfound)
+            fw_text_printf(out, "; %d of them, evenly along the front", r->nfound);
+        if (r->nfound > 1) fw_text_add(out, ":\n");
         for (int i = 0; i < r->nfound; i++)
             say_found(out, study, &r->found[i]);
     }

@@ -3,6 +3,7 @@
    and what of it is kept. Called a corner here, as in the tables of results, even where only one
    input is off its nominal value.
    Theory: docs/theory/as-fabricated.md. */
+#include "verdict/verdict_fabrication.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -54,9 +55,10 @@ bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, boo
 
 /* Logarithms of all checks of one run, in the order of fw_verdict_search: the utilisation of each
    hinge in each scene and in the workspace, then for each scene the pull-in margin that is needed
-   over the one that there is, the utilisation of each requirement, and the share of each clearance that
-   is used, and what tips and strains it across the plane, which are 1 at their limits. Logarithms, because the estimates at corners are of first order in them. NaN: there is no such check, or the hinge uses
-   less than 1e-9 of its limit, which no corner brings near it. */
+   over the one that there is (by value: 1 is needed), the utilisation of each requirement, and the share of each clearance
+   that is used, and what tips and strains it across the plane, which are 1 at their limits. Logarithms, because the
+   estimates at corners are of first order in them. NaN: there is no such check, or the hinge uses less than 1e-9 of its
+   limit, which no corner brings near it. */
 static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                         double *ln) {
     int scenes = s->device->nscene, hinges = s->v->nhinge * (scenes + 1);
@@ -77,7 +79,49 @@ static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_ver
     for (int i = 0; i < scenes; i++) {
         const fw_statics_pull_in *p = now->pull_in[i];
         bool near = p && p->kind != FW_PULL_IN_NONE && p->margin > 0.0;
-        ln[hinges + i] = near ? log(fw_statics_pull_in_margin(p) / p->margin) : (double)NAN;
+        const double needed = near && !s->by_value ? fw_statics_pull_in_margin(p) : 1;
+        ln[hinges + i] = near ? log(needed / p->margin) : (double)NAN;
+    }
+}
+
+/* What leaves open where a device is by value, and no band does: an equilibrium that was not found or is left, strains that
+   nobody knows, a run that ended before its scene did. */
+static bool leaves_open(const fw_verdict_reason *r) {
+    static const int number[] = {242, 249, 259, 597};
+    for (size_t i = 0; i < sizeof number / sizeof number[0]; i++)
+        if (r->number == number[i] && r->decision != FW_ACCEPT && !r->met) return true;
+    return false;
+}
+
+/* a bound of what is drawn has no share of it, and its value is beyond it or not */
+static void required_by_value(const fw_verdict_requirement *r, fw_verdict_by_value *b) {
+    if (!isnan(r->utilisation) || r->decision == FW_ACCEPT) return;
+    if (isnan(r->value))
+        b->open = true;
+    else if (r->value < r->min || r->value > r->max) /* NaN: no bound */
+        b->fails = true;
+}
+
+/* What a die is by value beside its shares. The pull-in that governs is as far off as what is left out of its force and
+   what its flexures are off by: V^2 is in proportion to their stiffness. */
+static void take_by_value(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+                          fw_verdict_by_value *b) {
+    double least = HUGE_VAL;
+    for (int i = 0; i < now->nreason; i++) {
+        b->fails = b->fails || now->reason[i].met;
+        b->open = b->open || leaves_open(&now->reason[i]);
+    }
+    for (int i = 0; i < now->nrequirement; i++)
+        required_by_value(&now->requirement[i], b);
+    for (int k = 0; k < now->nhinge; k++)
+        b->open = b->open || (now->hinge[k].scene && now->hinge[k].touches);
+    for (int i = 0; i < s->device->nscene; i++) {
+        const fw_statics_pull_in *p = now->pull_in[i];
+        if (!p || p->kind == FW_PULL_IN_NONE || !(p->margin < least)) continue;
+        const double less = p->fringe_counted ? fmin(p->fringe, 0.9) : 0;
+        least = p->margin;
+        b->up = log(fw_statics_pull_in_margin(p));
+        b->down = 0.5 * (log1p(p->stiffness_error) - log1p(-less));
     }
 }
 
@@ -167,6 +211,7 @@ static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdi
     FW_TRY(take_reason(s, now, corner));
     FW_TRY(fw_verdict_stators_keep(s->arena, now, corner));
     take_checks(s, now, ln);
+    if (s->by_value) take_by_value(s, now, s->by_value);
     return FW_OK;
 }
 

@@ -173,8 +173,8 @@ typedef struct fw_verdict_reason { /* why a scene is not accepted, beside the ba
     fw_verdict_decision decision;
     double keep; /* share of its loads that may be accepted: where advice starts to look */
     bool not_by_loads, not_by_width; /* less load, or wider flexures, are no help */
-    bool
-        either_way; /* other flexures may help or harm: no change of theirs is for it, or is kept back by it */
+    bool met; /* what must not met: whatever the model may be off by, this device is beyond */
+    bool either_way;  /* other flexures may help or harm: no change is for it, or kept back by it */
     const char *text; /* a sentence */
 } fw_verdict_reason;
 
@@ -527,10 +527,9 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
                                   const fw_verdict_fabrication_input *input, int ninput, int hinge,
                                   fw_verdict_ranges *out);
 typedef struct fw_verdict_made { /* one device that a flow may make */
-    /* logarithm of the largest share of a limit that any check uses; above 0 is too much; NaN: it could
-       not be run */
+    /* logarithm of the largest share of a limit that any check uses, by value; above 0 is too much; NaN: not known */
     double ln;
-    /* how far the band of the hinge that governs reaches, as logarithms, both >= 0 */
+    /* how far the band of the hinge or pull-in that governs reaches, as logarithms, both >= 0 */
     double up, down;
     int hinge; /* that governs, of v; FW_NONE: none */
     fw_verdict_decision decision;

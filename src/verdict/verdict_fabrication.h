@@ -77,4 +77,10 @@ typedef struct fw_verdict_edge_room {
     double looked_m; /* how far the corners themselves move edges either way */
 } fw_verdict_edge_room;
 
+/* of one die, by value: a reason without a share fails it, or leaves open whether it holds; the band of its pull-in */
+typedef struct fw_verdict_by_value {
+    bool fails, open;
+    double up, down;
+} fw_verdict_by_value;
+
 #endif

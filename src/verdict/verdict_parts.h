@@ -407,7 +407,8 @@ typedef struct fw_verdict_ahead {
     double *ln; /* (ncheck) */
 } fw_verdict_ahead;
 typedef struct fw_verdict_search {
-    fw_arena *arena; /* of the plan */
+    fw_arena *arena;                      /* of the plan */
+    struct fw_verdict_by_value *by_value; /* NULL: margins are with the bands that corners need */
     const fw_device *device;
     const fw_layout *layout;
     fw_verdict_options options;
@@ -420,8 +421,7 @@ typedef struct fw_verdict_search {
     double across_error; /* as fabricated->error, of those across the plane */
     bool tipping;        /* fw_verdict_across_counts */
     bool clearances; /* some pair uses so much of its distance that corners are asked how much */
-    bool
-        nearest; /* the nearest one of a scene or box does: its distance is found at corners, not bounded */
+    bool nearest;    /* the nearest of a scene or box does: its distance is found at corners */
     double *ln; /* (points x ncheck) ln of the utilisation at each point that was run; NaN: none */
     unsigned *bits; /* (points) of a corner, bit i: input i is high; FW_NO_CORNER: no corner */
     const fw_verdict_known *known; /* (nknown) */
@@ -587,8 +587,7 @@ void fw_verdict_displaced(const fw_statics_modes *modes, const double *f, double
    closely: as solids, which stay in v; mode: its number in the plane */
 typedef struct fw_verdict_soft {
     bool looked;
-    double
-        of_scenes; /* share that bodies give there, where forces of small motions are not known */
+    double of_scenes;              /* share that bodies give there, where no forces are known */
     const fw_statics_modes *modes; /* at rest, flexures give; NULL: they are not all known */
 } fw_verdict_soft;
 fw_status fw_verdict_soft_new(fw_arena *arena, const fw_effect_choice *with, double of_scenes,

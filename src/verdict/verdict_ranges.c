@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The search over what a flow may make (verdict_corners.c) once more: with other ranges than those that the device
    was judged with, and at any point of them. Behind it, which check a verdict rests on, and why a design is rejected. */
+#include "verdict/verdict_fabrication.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -239,7 +240,9 @@ fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_l
     fw_verdict_made *out = &die->made;
     glance.at_a_glance = true; /* the value counts, not the decision */
     FW_TRY(as_judged(arena, v, &device));
+    fw_verdict_by_value by_value = {0};
     FW_TRY(fw_verdict_search_begin(arena, device, layout, &glance, v, &s));
+    s.by_value = &by_value;
     s.told->of = 0; /* who draws them counts them */
     FW_TRY(fw_verdict_search_run(&s, x, FW_NO_CORNER));
     const fw_verdict_fabricated_corner *c = &s.fabricated->corner[0];
@@ -262,8 +265,13 @@ fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_l
         out->down = h->utilisation_low > 0 ? log(h->utilisation / h->utilisation_low) : HUGE_VAL;
     }
     if (most == 0) out->hinge = FW_NONE;
+    const int pulls = v->nhinge * (device->nscene + 1);
+    for (int r = pulls; r < pulls + device->nscene; r++)
+        if (s.ln[r] >= out->ln) out->up = by_value.up, out->down = by_value.down;
     out->why = c->why;
     if (c->decision == FW_REJECT && out->ln <= 0 && c->why) out->ln = beyond;
+    if (by_value.fails && out->ln <= 0) out->ln = beyond;
+    if (by_value.open && out->ln <= 0) out->ln = (double)NAN;
     if (!isfinite(out->ln)) out->ln = c->decision == FW_REJECT ? beyond : (double)NAN;
     return FW_OK;
 }

@@ -92,8 +92,10 @@ static fw_status touched(fw_arena *arena, const fw_device_scene *scene, const fw
     char *text = fw_arena_printf(arena, "%s%s%s%s%s%s", ended->message, p ? "; " : "", why,
                                  still ? "" : " (not at voltages lower by the ", still ? "" : less,
                                  still ? "" : " % that the model may be wrong by)");
-    return fw_verdict_scene_reason(v, scene, 242, still ? FW_REJECT : FW_INCONCLUSIVE, share_for(p),
-                                   text);
+    FW_TRY(fw_verdict_scene_reason(v, scene, 242, still ? FW_REJECT : FW_INCONCLUSIVE, share_for(p),
+                                   text));
+    v->reason[v->nreason - 1].met = true;
+    return FW_OK;
 }
 
 /* ---- runs that end well, and may not ---- */

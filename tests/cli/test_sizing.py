@@ -264,6 +264,92 @@ class Sizing(unittest.TestCase):
         self.assertGreater(area(found, corner), (1 - PERCENT) * area(points, corner))
 
 
+LEVER_FILE = """<?xml version="1.0" encoding="UTF-8"?>
+<device xmlns="urn:flexwright:device:1" name="lever">
+  <parameter name="width" value="8 um" min="3 um" max="20 um"/>
+  <parameter name="leaf" value="400 um" min="150 um" max="800 um"/>
+  <material ref="silicon-100" thickness="50 um"/>
+  <limits safety-factor="2"/>
+  <flow ref="soi-deep-rie"/>
+  <flexure id="leaf" kind="leaf" length="leaf" width="width"/>
+  <mechanism>
+    <body id="arm" x="0 mm" y="0.6 mm" width="120 um" plate-width="0.5 mm" plate-height="0.4 mm"/>
+    <revolute id="A" a="ground" b="arm" b-y="-0.6 mm" hinge="leaf" axis="0 deg"/>
+  </mechanism>
+  <probe id="turn" kind="angle" on="arm"/>
+  <scene name="bend" duration="40 ms">
+    <torque on="arm" value="30 nJ" law="ramp" rise="20 ms"/>
+    <material-damping loss-factor="0.05"/>
+  </scene>
+  <die title="LEVER" PITCH clearance="300 um"/>
+  <require probe="turn" measure="final" min="1 deg"/>
+  <study name="front" kind="size" as="drawn" samples="SAMPLES">
+    <vary what="width" from="4 um" to="14 um"/>
+    <vary what="leaf" from="200 um" to="600 um"/>
+    <respond name="turned" value="requirements[turn,bend].value" goal="maximise"/>
+    SECOND
+  </study>
+</device>
+"""
+SECOND_GOAL = '<respond name="used" value="governing.utilisation" goal="minimise"/>'
+
+
+class Lever(unittest.TestCase):
+    """the softest lever turns most: both of its inputs are then at an end of their ranges"""
+
+    def study(self, samples, second, pitch='release-pitch="40 um"'):
+        place = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, place)
+        self.path = place / "lever.xml"
+        self.path.write_text(LEVER_FILE.replace("PITCH", pitch).replace("SAMPLES", str(samples)).replace("SECOND", second))
+        done = run("study", self.path, "--study", "front", "-o", place / "out")
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        rows = csv.DictReader((place / "out/study.csv").read_text().splitlines())
+        return done.stdout, json.loads((place / "out/study.json").read_text()), list(rows)
+
+    def at_the_corner(self, found):
+        return [float(s["value"].split()[0]) for s in found["set"]] == [4, 600]
+
+    def test_a_front_is_all_that_no_accepted_device_beats(self):
+        said, result, rows = self.study(80, SECOND_GOAL)
+        made = {int(r["i"]): (-float(r["turned"]), float(r["used"])) for r in rows if r["state"] == "accept"}
+        best = {p for p in made.values() if not any(q[0] <= p[0] and q[1] <= p[1] and q != p for q in made.values())}
+        listed = [made[f["i"]] for f in result["found"]]
+        self.assertEqual(len(listed), len(set(listed)))
+        self.assertEqual(set(listed), best)
+        self.assertGreater(len(listed), 10)
+        self.assertIn(f"{len(listed)} devices that no other beats in both goals:", said)
+        self.assertTrue(self.at_the_corner(result["found"][0]), result["found"][0])
+        sets = [w for s in result["found"][0]["set"] for w in ("--set", f"{s['path']}={s['value']}")]
+        self.assertEqual(run("check", self.path, "--corners", "none", "--quiet", *sets).returncode, 0)
+
+    def test_what_no_flow_makes_says_why_nothing_was_found(self):
+        """all are accepted but for their release: no window without holes"""
+        said, result, rows = self.study(9, SECOND_GOAL, "")
+        self.assertEqual((result["found"], {r["state"] for r in rows}), ([], {"reject"}))
+        self.assertIn("cannot be made in soi-deep-rie: step D12 has no window", result["nearest"]["limits"][0])
+        self.assertRegex(said, r"in the way: it cannot be made in soi-deep-rie: step D12 has no window.*\n")
+
+    def test_text_says_what_governs_as_json_does(self):
+        """the requirement uses more of its bound than the hinge, of which the first line is, of its limit"""
+        path = pathlib.Path(tempfile.mkdtemp()) / "lever.xml"
+        self.addCleanup(shutil.rmtree, path.parent)
+        text = LEVER_FILE.replace("PITCH", 'release-pitch="40 um"').replace("SAMPLES", "9").replace("SECOND", "")
+        path.write_text(text)
+        options = ("--corners", "none", "--advice", "none")
+        used = json.loads(run("check", path, *options, "--json").stdout)["governing"]["utilisation"]
+        said = run("check", path, *options).stdout
+        self.assertRegex(said, r"required, as drawn: turn .*; it governs: %.3g %% of its bound is used" % (100 * used))
+        soft = path.with_name("soft.xml")
+        soft.write_text(text.replace('min="1 deg"', 'min="0.01 deg"'))
+        self.assertNotIn("it governs", run("check", soft, *options).stdout)
+
+    def test_ends_of_the_ranges_are_looked_at(self):
+        _, result, rows = self.study(22, "")
+        self.assertLessEqual(len(rows), 22)
+        self.assertTrue(self.at_the_corner(result["found"][0]), result["found"][0])
+
+
 def area(points, corner):
     """that is beaten by points of which both are to be small, up to the corner"""
     total, least = 0.0, corner[1]

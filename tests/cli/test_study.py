@@ -434,6 +434,19 @@ class Study(unittest.TestCase):
         self.assertGreater(int(dies[1]), 700)  # three first estimates, and one whole
         self.assertLess(int(dies[1]), 3000)
 
+    def test_a_plan_of_a_yield_counts_all_of_its_estimates(self):
+        """as computed and with the limit moved either way; where dies are merely counted all three have the same ones"""
+        path = self.write(ONE_LEAF, "one.xml")
+        file = self.write(study("s", "yield", '<uncertain what="push" mean="0.15 mN" sd="0.01 mN"/>', path, samples=400))
+        done = run("study", file, "--plan")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        said = re.search(r"(\d+) devices where they are merely counted, about .*; at most (\d+), .*about .*one took", done.stdout)
+        self.assertTrue(said, done.stdout)
+        estimates = re.search(r"(\d+) estimates of at most 400 devices: .* counts takes 256, ", done.stdout)
+        self.assertTrue(estimates, done.stdout)
+        self.assertEqual(int(said[2]), 400 * int(estimates[1]))
+        self.assertEqual(int(said[1]), 256 * int(estimates[1]) // 3)
+
     def test_a_study_of_the_device_file_and_the_choice_of_one(self):
         text = GALLERY.read_text().replace("</device>", '<study name="a" kind="sweep" as="drawn">' + SWEEP +
                                            '</study><study name="b" kind="worst-case" as="drawn">' +

@@ -237,11 +237,8 @@ static void is_held_to_what_is_allowed(void **state) {
                 known[i].x[0] = 0.2 + 0.1 * i, known[i].x[1] = 0.5 - 0.1 * i;
                 judge(NULL, &known[i]);
             }
-            fw_study_descent d = {.n = 2,
-                                  .m = 1,
-                                  .most = most,
-                                  .judge = judge,
-                                  .tried = room(arena, asked, most)};
+            fw_study_descent d = {
+                .n = 2, .m = 1, .most = most, .judge = judge, .tried = room(arena, asked, most)};
             assert_int_equal(fw_study_descent_models(&d, known, 4, arena), FW_OK);
             assert_true(d.used <= most);
             f[again] = d.tried[d.used - 1].f;
@@ -251,10 +248,46 @@ static void is_held_to_what_is_allowed(void **state) {
     }
 }
 
+/* of made-up devices: those that no other one beats, each once, both ends among them also where only some are listed */
+static void front_is_what_nothing_beats(void **state) {
+    enum { N = 3000, MOST = 100 };
+    static fw_study_on_front p[N], all[N];
+    (void)state;
+    for (int i = 0; i < N; i++) {
+        const double x = fw_chance_uniform(1, (uint64_t)i, 0),
+                     y = fw_chance_uniform(1, (uint64_t)i, 1);
+        all[i] = p[i] = (fw_study_on_front){.f = {x * x, 1 - x + 0.02 * (i % 2) * y}, .at = i};
+    }
+    p[7].f[1] = (double)NAN, p[8] = p[6], p[8].at = 8; /* one is not known, two are the same */
+    for (int i = 0; i < N; i++)
+        all[i] = p[i];
+    const int n = fw_study_front(p, N);
+    assert_in_range(n, 2 * MOST, N);
+    for (int i = 0; i < N; i++) {
+        bool beaten = isnan(all[i].f[1]), listed = false;
+        for (int k = 0; k < N; k++)
+            beaten |= all[k].f[0] <= all[i].f[0] && all[k].f[1] <= all[i].f[1] &&
+                      (all[k].f[0] < all[i].f[0] || all[k].f[1] < all[i].f[1]);
+        for (int k = 0; k < n; k++)
+            listed |= p[k].at == all[i].at || (p[k].at == 6 && i == 8);
+        assert_true(listed != beaten);
+    }
+    const fw_study_on_front first = p[0], last = p[n - 1];
+    const int kept = fw_study_front_thinned(p, n, MOST);
+    assert_int_equal(kept, MOST);
+    assert_true(p[0].at == first.at && p[kept - 1].at == last.at);
+    for (int i = 1; i < kept; i++) /* evenly: no gap of more than three steps of it */
+        assert_true(p[i].f[0] - p[i - 1].f[0] < 3.0 * 2 / MOST &&
+                    p[i - 1].f[1] - p[i].f[1] < 3.0 * 2 / MOST);
+    assert_int_equal(fw_study_front_thinned(p, kept, MOST), kept);
+    assert_int_equal(fw_study_front(p, 0), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(within_a_percent),
         cmocka_unit_test(is_held_to_what_is_allowed),
+        cmocka_unit_test(front_is_what_nothing_beats),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,11 +119,39 @@ static void what_is_gone_fails(void **state) {
     fw_plan_free(plan);
 }
 
+/* a margin is used by value, as a hinge is, and its band is told beside it: both times it would count twice */
+static void pull_in_is_by_value(void **state) {
+    (void)state;
+    fw_plan_options options = fw_plan_options_default();
+    options.data_directory = FW_TEST_SOURCE_DIR;
+    options.verdict.with_advice = false;
+    options.measurements = FW_MEASUREMENTS_NONE;
+    fw_plan *plan = fw_plan_new(&options);
+    assert_non_null(plan);
+    assert_int_equal(fw_plan_load(plan, FW_TEST_SOURCE_DIR "/tests/data/near-pull-in.xml"), FW_OK);
+    assert_int_equal(fw_plan_judge(plan), FW_OK);
+    const fw_verdict_variant_verdict *v = &plan->verdict.variant[0];
+    const fw_statics_pull_in *p = v->pull_in[0];
+    double x[FW_FABRICATION_INPUTS];
+    for (int k = 0; k < v->ninput; k++)
+        x[k] = v->input[k].nominal;
+    fw_verdict_made made;
+    assert_int_equal(fw_verdict_made_at(plan->arena, plan->device, plan->layout,
+                                        &plan->options.verdict, v, x, &made),
+                     FW_OK);
+    assert_true(p->margin > 1 && p->margin < fw_statics_pull_in_margin(p));
+    assert_true(made.up > 0.04 && made.down > 0.02 && made.up < 0.1);
+    if (!(fabs(made.ln + log(p->margin)) < 0.01)) /* with its band 0.055 more */
+        fail_msg("%g, not %g", made.ln, -log(p->margin));
+    fw_plan_free(plan);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_point_is_its_corner),
         cmocka_unit_test(what_counts_is_what_is_made),
         cmocka_unit_test(what_is_gone_fails),
+        cmocka_unit_test(pull_in_is_by_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
