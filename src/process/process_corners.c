@@ -249,17 +249,17 @@ static void of_planned(fw_verdict_fabrication_input *in, double planned_m) {
    faces, (1 - A)(E - (D + lag)/2), against the m that the mask adds, and one face is left
    2 (1 - A)(D + lag) wider than the other; lag beside the open field, where flexures stand. E, D,
    lag and m are those of the fixed point, so that mask, time and corner cannot differ. A masking
-   layer counts with its foot, E - D - lag. D, E m; A 1. Edges are even where (1 - A) edge_m = m.
+   layer counts with its foot, E - D - lag. D, E m; A 1. An unknown lag counts as none: it is open besides. Edges are even where (1 - A) edge_m = m.
    Source: docs/theory/etching.md; test_corners.c against fw_process_undercut_widths,
    test_fixed_point.c. */
 static bool anisotropy(const fw_process_fixed_point *p, const fw_process_corner *c,
                        fw_verdict_fabrication_input *in) {
     const fw_process_cut *cut = fw_process_fixed_point_cut(p, c->q);
-    if (!cut || isnan(cut->etched_m)) return false;
+    if (!cut) return false;
     double field = p->ncls ? p->cls[p->field].opening_m : (double)INFINITY;
     double foot = fw_process_cut_foot(cut, field);
-    in->edge_m = cut->device ? 0.5 * (cut->etched_m + foot) : foot;
-    in->flare_m = cut->device ? foot - cut->etched_m : 0.0;
+    in->edge_m = cut->device ? 0.5 * (cut->least_m + foot) : foot;
+    in->flare_m = cut->device ? foot - cut->least_m : 0.0;
     in->drawn = 1.0;
     in->even = in->edge_m > 0.0 ? 1.0 - cut->mask_m / in->edge_m : 1.0;
     in->high = fmin(in->high, 1.0);
@@ -291,7 +291,7 @@ static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
         in->drawn = in->nominal;
         in->even = unknown ? 0.0 : in->nominal;
         break;
-    case FW_CORNER_LOCAL: /* about what all have in common */
+    case FW_CORNER_LOCAL: /* about what all have in common, by as much as q may be, either way */
         in->local = 1.0;
         in->drawn = in->nominal;
         break;
@@ -370,6 +370,55 @@ static int expansions(const fw_mechanism_variant *v, fw_verdict_fabrication_inpu
     return n;
 }
 
+/* ---- what nobody knows, and nothing is assumed of ----
+   A corner whose quantity is unknown and has no assumed range, an anisotropy of a cut that is no corner's, a lag that the
+   time of a cut needs, the depth of an isotropic etch: each moves what is made by nobody knows how much. It stands among
+   the inputs, moves nothing, and holds the verdict open. Test: test_corners.c, what_nobody_knows */
+
+static void add_open(const char *name, const fw_quantity *q, fw_place place,
+                     fw_verdict_fabrication_input *list, int *n) {
+    const char *id = q && q->id ? q->id : name;
+    for (int i = 0; i < *n; i++)
+        if (list[i].open && strcmp(list[i].unknown, id) == 0) return;
+    if (*n == FW_FABRICATION_INPUTS)
+        return; /* others are open; the flow's own judgement names all */
+    list[*n] = (fw_verdict_fabrication_input){.name = name, .unknown = id, .open = true};
+    if (q) list[*n].q = *q;
+    list[*n].q.value = list[*n].q.uncertainty = 0.0;
+    if (!list[*n].q.place.file) list[*n].q.place = place;
+    ++*n;
+}
+
+static bool nothing_assumed(const fw_process_corner *c) {
+    return c->q && c->q->unknown && (!c->assumed || c->assumed->unknown);
+}
+
+static void open_inputs(const fw_process_flow *flow, const fw_process_fixed_point *p,
+                        fw_verdict_fabrication_input *list, int *n) {
+    for (int i = 0; i < flow->ncorner; i++) {
+        const fw_process_corner *c = &flow->corner[i];
+        if (!nothing_assumed(c) || !fw_process_corner_counts(c)) continue;
+        if (c->of != FW_CORNER_ANISOTROPY || fw_process_fixed_point_cut(p, c->q))
+            add_open(c->name, c->q, c->place, list, n);
+    }
+    for (int k = 0; k < p->ncut; k++) {
+        const fw_process_cut *c = &p->cut[k];
+        const bool lag = isnan(c->lag_value) || !c->lag_quantity;
+        if (isnan(c->low)) add_open("anisotropy", c->quantity, c->step->place, list, n);
+        if (isnan(c->etched_m))
+            add_open(lag ? "lag of narrow openings" : "opening that an etch is timed by",
+                     lag ? c->lag_quantity : fw_process_step_argument(c->step, "width"),
+                     c->step->place, list, n);
+    }
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (c->isotropic && c->thickness && c->thickness->unknown &&
+                fw_process_where_is_of_device(flow, c->where))
+                add_open("depth of an isotropic etch", c->thickness, c->place, list, n);
+        }
+}
+
 fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flow,
                                      const fw_process_mask_facts *facts,
                                      const fw_mechanism_variant *variant,
@@ -383,9 +432,11 @@ fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flo
     for (int i = 0; i < flow->ncorner && *ninput < FW_FLOW_INPUTS; i++)
         *ninput += fill(edges, &flow->corner[i], variant, &list[*ninput]);
     if (*ninput < FW_FLOW_INPUTS) *ninput += wear_input(&edges->wear, variant, &list[*ninput]);
-    *ninput += expansions(variant, list + *ninput, FW_FABRICATION_INPUTS - *ninput);
+    *ninput += expansions(variant, list + *ninput, FW_RANGED_INPUTS - *ninput);
     *input = list;
-    return fw_process_corners_independent(arena, list, *ninput);
+    FW_TRY(fw_process_corners_independent(arena, list, *ninput));
+    open_inputs(flow, edges, list, ninput);
+    return FW_OK;
 }
 
 /* ---- do corners move what is made? ----

@@ -187,7 +187,10 @@ static const fw_xml_attribute_row corner_rows[] = {
      .sentence =
          "Its range is the corner; none for youngs. Of a thickness: a length beside the planned "
          "one, or the share of it that comes out, which follows whatever is planned."},
-    {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},
+    {"assumed", TO(QUANTITY),
+     .sentence =
+         "Whose range holds where q is unknown. Without it an unknown q has no range: nothing "
+         "that the flow makes is accepted before it is known (FW-D694)."},
     {"within", TO(QUANTITY),
      .sentence =
          "A quantity that holds this one, too, once it was measured: the corner falls away then."},

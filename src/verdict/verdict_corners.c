@@ -510,11 +510,6 @@ static fw_status add_reason(fw_verdict_search *s, fw_verdict_variant_verdict *v)
     return FW_OK;
 }
 
-int fw_verdict_checks(const fw_device *device, const fw_verdict_variant_verdict *v) {
-    return v->nhinge * (device->nscene + 1) + 4 * device->nscene + v->nrequirement +
-           device->nworkspace;
-}
-
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s) {
@@ -552,10 +547,12 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *v) {
     fw_verdict_search s;
+    const char *open; /* what nobody knows; NULL: nothing */
     bool decided, alone = options->corners == FW_CORNERS_SUSPECT && v->nsuspect > 0;
     bool quick = alone || options->corners != FW_CORNERS_AUTO;
     if (v->ninput == 0 || options->corners == FW_CORNERS_NONE) return FW_OK;
     if (v->drawn == FW_REJECT && !options->all_made) return FW_OK;
+    FW_TRY(fw_verdict_not_known(arena, v, &open));
     /* What is undecided as drawn stays so, but for what the flow makes of it without any deviation; a glance, which does not
        refine, is told how much further its corner is from the limit */
     const bool nominal = v->drawn != FW_ACCEPT && !options->all_made && !alone;
@@ -589,8 +586,10 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
         v->decision = FW_INCONCLUSIVE;
         return FW_OK;
     }
+    s.fabricated->reason = open;
+    if (s.fabricated->corner[s.fabricated->at].decision == FW_ACCEPT) return FW_OK;
     FW_TRY(explain(&s));
-    if (s.fabricated->decision == FW_INCONCLUSIVE && !options->unheld)
+    if (s.fabricated->decision == FW_INCONCLUSIVE && !options->unheld && !open)
         FW_TRY(fw_verdict_fabrication_control(&s));
     v->decision = fw_verdict_worse(v->decision, s.fabricated->decision);
     return add_reason(&s, v);
