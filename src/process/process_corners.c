@@ -25,6 +25,14 @@ static void effects_of(fw_verdict_fabrication_input *in, effect e[EFFECTS]) {
     e[5] = (effect){&in->substrate, &in->substrate_at, in->drawn};
 }
 
+/* what has one value goes with nothing, and how hinges differ moves nothing that all have in common */
+static double correlation(const fw_verdict_fabrication_input *a,
+                          const fw_verdict_fabrication_input *b) {
+    return a->sigma > 0.0 && b->sigma > 0.0 && a->local == 0.0 && b->local == 0.0
+               ? fw_quantity_correlation(&a->q, &b->q)
+               : 0.0;
+}
+
 /* Cholesky's factor of the correlations; a pivot is held above 1e-6, so that inputs that are fully correlated keep a range
    of a thousandth of their own. false: all are independent */
 static bool factor(const fw_verdict_fabrication_input *in, int n,
@@ -32,7 +40,7 @@ static bool factor(const fw_verdict_fabrication_input *in, int n,
     bool any = false;
     for (int i = 0; i < n; i++)
         for (int k = 0; k <= i; k++) {
-            double sum = i == k ? 1.0 : fw_quantity_correlation(&in[i].q, &in[k].q);
+            double sum = i == k ? 1.0 : correlation(&in[i], &in[k]);
             any = any || (i != k && sum != 0.0);
             for (int j = 0; j < k; j++)
                 sum -= L[i][j] * L[k][j];
@@ -79,8 +87,6 @@ static fw_status name_parts(fw_arena *arena, fw_verdict_fabrication_input *in, i
    Source: Golub and Van Loan, 4.2. Test: test_correlation.c, corners (against draws of the correlated inputs). */
 fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication_input *in, int n) {
     double L[FW_FABRICATION_INPUTS][FW_FABRICATION_INPUTS] = {{0}};
-    for (int i = 0; i < n; i++)
-        if (!(in[i].sigma > 0.0)) return FW_OK;
     if (!factor(in, n, L)) return FW_OK;
     for (int i = 0; i < n; i++) {
         FW_TRY(name_parts(arena, in, n, i, L));
@@ -293,7 +299,9 @@ static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
         break;
     case FW_CORNER_LOCAL: /* about what all have in common, by as much as q may be, either way */
         in->local = 1.0;
-        in->drawn = in->nominal;
+        in->high = fmax(fabs(in->low), fabs(in->high));
+        in->low = -in->high;
+        in->nominal = 0.0;
         break;
     case FW_CORNER_TAPER:
         in->flare_m = v->thickness_m;

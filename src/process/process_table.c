@@ -181,7 +181,9 @@ static const fw_xml_attribute_row attacks_rows[] = {
 static const fw_xml_attribute_row corner_rows[] = {
     {"of", WORD(corners), REQUIRED,
      .sentence = "What is not made exactly as drawn; local: by how much the "
-                 "edges of one hinge may stand apart from those of the others."},
+                 "edges of one hinge may stand apart from those of the others, either way: "
+                 "by the largest size that the range of q has (0 +-0.07 um, 0.14 um and 0 to "
+                 "0.14 um all say 0.14 um)."},
     {"name", TEXT, REQUIRED, .sentence = "What reports call it."},
     {"q", TO(QUANTITY),
      .sentence =

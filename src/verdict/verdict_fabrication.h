@@ -29,7 +29,7 @@ typedef struct fw_verdict_fabrication_input {
     double edge_at_m, flare_at_m, thickness_at, youngs_at, expansion_at, substrate_at;
     double
         local; /* edges of every hinge apart from the others, per unit of x either way; such an input has no
-                     corners of its own */
+                     corners of its own, and ranges from -d to d about a nominal 0 */
     const char *unknown; /* id of the quantity that is not known, for which this range is assumed;
                             NULL: it is known */
     /* ... and nothing is assumed for it: it has no range and moves nothing, and nothing is accepted before it is known.

@@ -154,6 +154,52 @@ static void hinges_of_their_own(void **state) {
     assert_near(apart.edge_m, alike.edge_m, 0);
 }
 
+/* whichever way it is said that hinges may be up to 0.14 um apart, they are that, either way */
+static void hinges_apart_by_what_is_stated(void **state) {
+    (void)state;
+    static const struct {
+        const char *q;
+        double um;
+    } of[] = {{"value=\"0\" u=\"0.07\"", 0.14},
+              {"value=\"0.14\" u=\"0\"", 0.14},
+              {"value=\"0.07\" u=\"0.035\"", 0.14},
+              {"value=\"0.1\" lo=\"0\" hi=\"0.14\"", 0.14},
+              {"value=\"-0.14\" u=\"0\" range=\"edge\"", 0.14},
+              {"value=\"0\" lo=\"-0.14\" hi=\"0.1\" range=\"edge\"", 0.14},
+              {"value=\"0.5\" u=\"0.001\"", 0.502},
+              {"value=\"0\" u=\"0\"", 0.0}};
+    fw_mechanism_variant v = variant_of(50e-6, 1.5e9);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        int n, l = FW_NONE;
+        const fw_verdict_fabrication_input *list = inputs(
+            SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+            fw_arena_printf(arena,
+                            "<q id=\"loc\" %s unit=\"um\" status=\"assumed\" src=\"guess\"/>"
+                            "<corner of=\"local\" name=\"from hinge to hinge\" q=\"loc\"/>",
+                            of[i].q),
+            &v, &n);
+        for (int k = 0; k < n; k++)
+            if (list[k].local != 0) l = k;
+        assert_int_equal(l == FW_NONE, of[i].um == 0);
+        if (l == FW_NONE) continue;
+        assert_near(list[l].high, of[i].um * 1e-6, 1e-15);
+        assert_near(list[l].low, -list[l].high, 0);
+        assert_true(list[l].nominal == 0 && list[l].drawn == 0);
+    }
+}
+
+/* a range that is refused is told beside the one that it leaves */
+static void a_plausible_range_is_named(void **state) {
+    (void)state;
+    diags = fw_diags_new(arena);
+    assert_null(read_pack(arena, SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+                          "<q id=\"loc\" value=\"0\" lo=\"-0.14\" hi=\"0.14\" unit=\"um\" status=\"assumed\" src=\"guess\"/>"
+                          "<corner of=\"local\" name=\"from hinge to hinge\" q=\"loc\"/>",
+                          &diags));
+    assert_non_null(said_of(530, "between -0.14 and 0.14 um, outside its plausible range of 0 to "));
+    assert_non_null(said_of(530, "name another range"));
+}
+
 static void mistakes_have_a_place(void **state) {
     (void)state;
     static const char *const wrong[][2] = {
@@ -476,6 +522,8 @@ int main(void) {
         cmocka_unit_test(a_known_anisotropy_is_compensated),
         cmocka_unit_test(the_copper_flow),
         cmocka_unit_test(hinges_of_their_own),
+        cmocka_unit_test(hinges_apart_by_what_is_stated),
+        cmocka_unit_test(a_plausible_range_is_named),
         cmocka_unit_test(mistakes_have_a_place),
         cmocka_unit_test(expansions_where_a_scene_heats),
         cmocka_unit_test(corners_that_move_nothing),

@@ -626,6 +626,26 @@ static void hinges_may_differ(void **state) {
     assert_true(decisions[FW_ACCEPT] > 0 && decisions[FW_INCONCLUSIVE] > 0);
 }
 
+/* two inputs by which hinges differ add up to one of both */
+static void hinges_differ_by_all_that_is_stated(void **state) {
+    (void)state;
+    double most[2];
+    for (int two = 0; two < 2; two++) {
+        set_up s;
+        begin(&s, "20 uN");
+        const double d = two ? 0.1e-6 : 0.2e-6;
+        const fw_verdict_fabrication_input apart = {
+            .name = "apart", .q = known(0, "m"), .low = -d, .high = d, .sigma = d / 2, .local = 1};
+        s.input[1] = s.input[2] = apart;
+        if (!two) s.input[1].low = s.input[1].high = 0;
+        fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+        assert_int_equal(v.decision, FW_ACCEPT);
+        most[two] = v.variant[0].fabricated->hinge[0].most;
+        fw_arena_free(s.arena);
+    }
+    assert_relative(most[1], most[0], 1e-9);
+}
+
 /* one narrower hinge of two that share a flexure: the other one stays as it is */
 static void a_hinge_alone_is_narrower(void **state) {
     (void)state;
@@ -692,6 +712,7 @@ int main(void) {
         cmocka_unit_test(what_must_be_held_is_enough),
         cmocka_unit_test(what_counts_most_is_held),
         cmocka_unit_test(hinges_may_differ),
+        cmocka_unit_test(hinges_differ_by_all_that_is_stated),
         cmocka_unit_test(a_hinge_alone_is_narrower),
         cmocka_unit_test(made_as_drawn),
         cmocka_unit_test(first_look_decides_alike),
