@@ -379,7 +379,7 @@ static int expansions(const fw_mechanism_variant *v, fw_verdict_fabrication_inpu
 }
 
 /* ---- what nobody knows, and nothing is assumed of ----
-   A corner whose quantity is unknown and has no assumed range, an anisotropy of a cut that is no corner's, a lag that the
+   A corner whose quantity is unknown and has no assumed range, a quantity that FW-D665 wants a corner for, a lag that the
    time of a cut needs, the depth of an isotropic etch: each moves what is made by nobody knows how much. It stands among
    the inputs, moves nothing, and holds the verdict open. Test: test_corners.c, what_nobody_knows */
 
@@ -395,6 +395,38 @@ static void add_open(const char *name, const fw_quantity *q, fw_place place,
     list[*n].q.value = list[*n].q.uncertainty = 0.0;
     if (!list[*n].q.place.file) list[*n].q.place = place;
     ++*n;
+}
+
+static bool is_uncertain(const fw_quantity *q) {
+    return q->unknown || q->uncertainty > 0.0;
+}
+
+static bool has_corner(const fw_process_flow *f, const fw_quantity *q) {
+    for (int i = 0; i < f->ncorner; i++)
+        if (f->corner[i].q == q || f->corner[i].assumed == q || f->corner[i].within == q)
+            return true;
+    return false;
+}
+
+static bool has_corner_of(const fw_process_flow *f, fw_process_corner_of of, bool etched) {
+    for (int i = 0; i < f->ncorner; i++)
+        if (f->corner[i].of == of && (!etched || f->corner[i].etched)) return true;
+    return false;
+}
+
+/* by what q moves the device though no corner has it, and which corner would; NULL: it does not */
+static const char *moves_without(const fw_process_flow *f, const fw_quantity *q,
+                                 const char **corner) {
+    static const char made[] = "made.";
+    if (!q->id || !is_uncertain(q) || has_corner(f, q)) return NULL;
+    const bool edge = strcmp(q->id, FW_PROCESS_PRINTED_EDGE) == 0,
+               thick = q == f->thickness && !has_corner_of(f, FW_CORNER_THICKNESS, false),
+               other = strncmp(q->id, made, strlen(made)) == 0;
+    *corner = edge ? "edge" : other ? "..." : "thickness";
+    return edge    ? "moves every edge that is printed"
+           : other ? "says how the device is made"
+           : thick ? "is the thickness of the device's layer"
+                   : NULL;
 }
 
 static bool nothing_assumed(const fw_process_corner *c) {
@@ -425,6 +457,11 @@ static void open_inputs(const fw_process_flow *flow, const fw_process_fixed_poin
                 fw_process_where_is_of_device(flow, c->where))
                 add_open("depth of an isotropic etch", c->thickness, c->place, list, n);
         }
+    for (int i = 0; i < flow->nquantity; i++) {
+        const fw_quantity *q = flow->quantity[i];
+        const char *corner;
+        if (q->unknown && moves_without(flow, q, &corner)) add_open(q->id, q, q->place, list, n);
+    }
 }
 
 fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flow,
@@ -450,10 +487,6 @@ fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flo
 /* ---- do corners move what is made? ----
    A corner is what the verdict looks at the ends of. One that names what the device is not made by is dropped there, and
    what is uncertain and has none is taken for exact: both accept what is not known. Test: test_corners.c. */
-
-static bool is_uncertain(const fw_quantity *q) {
-    return q->unknown || q->uncertainty > 0.0;
-}
 
 /* the change by whose anisotropy q the device is cut, or what masks it; any where q is NULL */
 static const fw_process_change *cut_by(const fw_process_flow *f, const fw_quantity *q,
@@ -529,25 +562,14 @@ static void lint_corner(fw_process_pack *pack, const fw_process_corner *c) {
     }
 }
 
-static bool has_corner(const fw_process_flow *f, const fw_quantity *q) {
-    for (int i = 0; i < f->ncorner; i++)
-        if (f->corner[i].q == q || f->corner[i].assumed == q || f->corner[i].within == q)
-            return true;
-    return false;
-}
-
-static bool has_corner_of(const fw_process_flow *f, fw_process_corner_of of, bool etched) {
-    for (int i = 0; i < f->ncorner; i++)
-        if (f->corner[i].of == of && (!etched || f->corner[i].etched)) return true;
-    return false;
-}
-
 static void lint_lacking(fw_process_pack *pack, const fw_quantity *q, fw_place place,
                          const char *moves, const char *corner) {
     fw_diag_warning(pack->diags, 665, place,
-                    "'%s' is not known exactly and %s, but no corner has it: the verdict takes it "
-                    "for exact; add <corner of=\"%s\" .../>",
-                    q->id, moves, corner);
+                    "'%s' is not known%s and %s, but no corner has it: %s; add <corner "
+                    "of=\"%s\" .../>",
+                    q->id, q->unknown ? "" : " exactly", moves,
+                    q->unknown ? "nobody knows what is made" : "the verdict takes it for exact",
+                    corner);
 }
 
 /* ... and what of a step moves edges */
@@ -564,7 +586,6 @@ static void lint_moving(fw_process_pack *pack, const fw_process_step *s,
 }
 
 fw_status fw_process_lint_corners(fw_process_pack *pack) {
-    static const char made[] = "made.";
     const fw_process_flow *f = pack->flow;
     for (int i = 0; i < f->ncorner; i++)
         lint_corner(pack, &f->corner[i]);
@@ -572,14 +593,8 @@ fw_status fw_process_lint_corners(fw_process_pack *pack) {
         for (int k = 0; k < f->step[i].nchange; k++)
             lint_moving(pack, &f->step[i], &f->step[i].change[k]);
     for (int i = 0; i < f->nquantity; i++) {
-        const fw_quantity *q = f->quantity[i];
-        if (!q->id || !is_uncertain(q) || has_corner(f, q)) continue;
-        if (strcmp(q->id, FW_PROCESS_PRINTED_EDGE) == 0)
-            lint_lacking(pack, q, q->place, "moves every edge that is printed", "edge");
-        else if (strncmp(q->id, made, strlen(made)) == 0)
-            lint_lacking(pack, q, q->place, "says how the device is made", "...");
-        else if (q == f->thickness && !has_corner_of(f, FW_CORNER_THICKNESS, false))
-            lint_lacking(pack, q, q->place, "is the thickness of the device's layer", "thickness");
+        const char *corner, *moves = moves_without(f, f->quantity[i], &corner);
+        if (moves) lint_lacking(pack, f->quantity[i], f->quantity[i]->place, moves, corner);
     }
     return FW_OK;
 }

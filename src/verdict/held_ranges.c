@@ -268,7 +268,7 @@ fw_status fw_verdict_not_known(fw_arena *arena, const fw_verdict_variant_verdict
     FW_NEED(*text = fw_arena_printf(
                 arena,
                 "what %s makes of it is not known, and no range is assumed: %s; measure %s and "
-                "state it in a laboratory pack, or give its <corner> an assumed range",
+                "state it in a laboratory pack (a <corner> may have an assumed range)",
                 v->variant->flow ? v->variant->flow : "this flow", list.data,
                 n > 1 ? "each of them" : "it"));
     return FW_OK;

@@ -332,6 +332,15 @@ static void what_nobody_knows(void **state) {
     list = inputs(SILICON, "<corner of=\"anisotropy\" name=\"anisotropy\" q=\"rie.A\" assumed=\"made.A\"/>",
                   "", &v, &n);
     assert_non_null(open_of(list, n, "rie.A")); /* and without a corner at all */
+    size_t length;
+    const char *text = replaced(arena, pack_text(arena, "soi-deep-rie", &length), edge, of[0].to, &length);
+    text = replaced(arena, text, "<corner of=\"edge\" name=\"printed edge\" q=\"litho.edge\"/>", "", &length);
+    size_t nb;
+    const char *base = pack_text(arena, "base", &nb);
+    fw_process_flow *flow;
+    assert_int_equal(fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, length, &diags, &flow), FW_OK);
+    assert_int_equal(fw_process_flow_fabricated(arena, flow, NULL, &v, &list, &n), FW_OK);
+    assert_non_null(open_of(list, n, "litho.edge"));
 }
 
 /* of an unknown lag the least that it takes, none, is in mask and corners alike: (1 - A)(E - D/2), E = (1 + o) D */
