@@ -237,7 +237,7 @@ NAMES = {"litho.edge": "printed edge", "drie.A": "anisotropy", "drie.S": "lag of
 class Unknown(unittest.TestCase):
     """who knows less accepts no more: what nobody knows, and nothing is assumed of, leaves the verdict open"""
 
-    def check(self, here, unknown):
+    def packs(self, here, unknown):
         lab = pathlib.Path(here) / "lab.xml"
         device = pathlib.Path(here) / "lever.xml"
         device.write_text(LEVER)
@@ -246,6 +246,10 @@ class Unknown(unittest.TestCase):
                            f'<q id="{id}" unknown="true" unit="{unit}" status="assumed" src="m"/>\n' if id == unknown
                            else f'<q id="{id}" {value} unit="{unit}" status="measured" src="m"/>\n'
                            for id, (value, unit) in KNOWN.items()) + "</process>\n")
+        return device, lab
+
+    def check(self, here, unknown):
+        device, lab = self.packs(here, unknown)
         result = run("check", device, "--lab", lab, "--json", "--measurements", "all")
         return result.returncode, json.loads(result.stdout)
 
@@ -268,6 +272,18 @@ class Unknown(unittest.TestCase):
                     self.assertEqual((worth["ranked"][0]["id"], worth["ranked"][0]["name"]), (id, name))
                     self.assertIn(f"Measure the {name} first ({id}", worth["first"])
                     self.assertNotIn(id, worth["no_effect"])
+
+    def test_no_yield_is_told_of_it(self):
+        """devices would be drawn without what nobody knows: 100 % of 128 were accepted"""
+        with tempfile.TemporaryDirectory() as here:
+            device, lab = self.packs(here, "litho.edge")
+            device.write_text(LEVER.replace("</device>", '<study name="survive" kind="yield" samples="200">'
+                                            '<uncertain what="flexure[leaf]/@width" mean="8 um" sd="0.02 um"/>'
+                                            "</study></device>"))
+            result = run("study", device, "--lab", lab, "-o", pathlib.Path(here) / "out")
+            self.assertEqual(result.returncode, 3, result.stdout)
+            self.assertIn("printed edge (litho.edge)", result.stderr)
+            self.assertIn("FW-D695", result.stderr)
 
 
 if __name__ == "__main__":
