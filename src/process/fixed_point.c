@@ -96,8 +96,10 @@ static void read_corners(const fw_process_flow *flow, double thickness_m,
         const fw_process_corner *c = &flow->corner[i];
         bool edge = c->of == FW_CORNER_EDGE, wall = c->of == FW_CORNER_TAPER;
         const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
-        if ((!edge && !wall) || !q || q->unknown || (wall && isnan(thickness_m))) continue;
-        if (!fw_process_corner_counts(c)) continue;
+        if ((!edge && !wall) || !fw_process_corner_counts(c)) continue;
+        const bool open = !q || q->unknown;
+        p->open = p->open || open;
+        if (open || (wall && isnan(thickness_m))) continue;
         double low, high, x = c->q->unknown ? 0.0 : q->value;
         fw_process_quantity_range(q, &low, &high);
         if (edge) {

@@ -141,7 +141,8 @@ typedef struct fw_process_fixed_point {
     double wet_m, etch_m; /* against isotropic etches, against cuts of known anisotropy */
     bool wet_open;        /* the depth of an isotropic etch is not known */
     fw_process_wear wear; /* against what steps take of the walls that stand */
-    bool open;            /* an anisotropy is not known (or the time of its cut) */
+    bool
+        open; /* an anisotropy is not known (or the time of its cut), or where edges or walls come out */
     double low_m, high_m; /* bias that the ends of what is assumed would ask for; NaN: none */
     double slope;         /* F' at the solution: below 1, what a plain iteration contracts by */
     int iterations;       /* of Newton's method */

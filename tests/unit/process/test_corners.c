@@ -320,6 +320,10 @@ static void what_nobody_knows(void **state) {
             inputs("soi-deep-rie", of[i].from, of[i].to, &v, &n);
         const fw_verdict_fabrication_input *open = open_of(list, n, of[i].id);
         assert_non_null(open);
+        fw_process_flow *flow = read_pack(arena, "soi-deep-rie", of[i].from, of[i].to, &diags);
+        fw_process_fixed_point p;
+        assert_int_equal(fw_process_fixed_point_solve(arena, flow, NULL, 30e-6, &p), FW_OK);
+        assert_int_equal(p.open, i != 2); /* then outlines are told to be of the known part; a thickness has none */
         assert_string_equal(open->name, of[i].name);
         assert_true(open == &list[n - 1] && fw_verdict_fabrication_open(list, n));
         assert_int_equal(n, known + (i == 3)); /* a lag stands beside its anisotropy */
