@@ -109,11 +109,19 @@ static void as_described(const fw_verdict_variant_verdict *v, fw_measuring_item 
     }
 }
 
-/* an input that no better reading exists of changes nothing, and one without any value cannot */
+/* does it hold the verdict open until it is known? Then it has the name that the verdict gives it */
+static void holds_open(const fw_verdict_variant_verdict *v, fw_measuring_item *item) {
+    for (int i = 0; i < v->ninput; i++)
+        if (v->input[i].open && strcmp(v->input[i].unknown, item->id) == 0)
+            item->open = true, item->name = v->input[i].name;
+}
+
+/* an input that no better reading exists of changes nothing, and one without any value cannot be tried */
 static fw_status find_made(work *w) {
     const fw_verdict_variant_verdict *v = w->in->verdict;
     for (int i = 0; i < w->n; i++) {
         fw_measuring_item *item = &w->item[i];
+        holds_open(v, item);
         if (isnan(item->value) || !better(item)) continue;
         const fw_process_with with = {item->id, item->value, item->after};
         FW_TRY(fw_process_flow_fabricated_with(w->arena, w->in->flow, &with, w->in->drawn,

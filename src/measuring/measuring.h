@@ -25,6 +25,7 @@ typedef struct fw_measuring_item { /* one input, measured alone */
     bool coupon;
 
     bool made; /* it moves what is made */
+    bool open; /* ... by nobody knows how much: nothing is accepted before it is known */
     /* what it makes of the standard uncertainty of what governs, nominal, first order: dU/dx sigma_x of
        the verdict, and what is left of that */
     double share, share_after;

@@ -38,7 +38,7 @@ static fw_verdict_band band_then(const fw_measuring *m, const fw_measuring_item 
 }
 
 static bool changes(const fw_measuring *m, const fw_measuring_item *item) {
-    if (item->nwindow > 0 || item->needed > 0) return true;
+    if (item->nwindow > 0 || item->needed > 0 || item->open) return true;
     if (!item->made) return false;
     if (!m->banded) return item->share - item->share_after > alike;
     for (int i = 0; i < m->nrequirement; i++)
@@ -53,11 +53,12 @@ static int more(double a, double b) {
     return fw_order_doubles(round(b / alike), round(a / alike));
 }
 
-/* What decides goes first, then what narrows the governing band most, then, as where no bands were asked
+/* What keeps the verdict open goes first, then what decides, then what narrows the governing band most, then, as where no bands were asked
    for, what takes most of its standard uncertainty; then what makes steps computable, then what narrows
    their windows; the rest by name, so that the order is always the same. */
 static int by_worth(const void *x, const void *y) {
     const fw_measuring_item *a = x, *b = y;
+    if (a->open != b->open) return a->open ? -1 : 1;
     if (a->decides != b->decides) return a->decides ? -1 : 1;
     int order = more(a->narrowing, b->narrowing);
     if (!order) order = more(a->share - a->share_after, b->share - b->share_after);
@@ -135,6 +136,7 @@ void fw_measuring_put_value(fw_text *out, const fw_measuring_item *item, bool af
 }
 
 void fw_measuring_put_worth(fw_text *out, const fw_measuring *m, const fw_measuring_item *item) {
+    if (item->open) fw_text_add(out, "nothing is accepted before it is known");
     if (!item->made) return;
     if (m->banded) {
         fw_measuring_put_band(out, &item->band);
@@ -222,6 +224,7 @@ static void say_share(fw_text *text, const fw_measuring *m, const fw_measuring_i
 }
 
 static bool pays(const fw_measuring *m, const fw_measuring_item *item) {
+    if (item->open) return true;
     if (!m->what) return false;
     return m->banded ? item->decides || item->narrowing > alike
                      : item->share - item->share_after > alike;
@@ -240,14 +243,19 @@ static void say_unread(fw_text *text, const fw_measuring *m, const fw_measuring_
 static fw_status say_first(fw_arena *arena, fw_measuring *m) {
     const fw_measuring_item *top = m->nitem ? &m->item[0] : NULL, *item = top;
     if (!top || !pays(m, top)) return FW_OK;
-    for (int i = 0; i < m->nitem && !item->by; i++)
+    for (int i = 0; i < m->nitem && !item->by && !top->open; i++)
         if (m->item[i].by && pays(m, &m->item[i])) item = &m->item[i];
     fw_text text = fw_text_new(arena);
     fw_text_printf(&text, "Measure %s%s first (", proper(item->name) ? "" : "the ", item->name);
-    fw_text_printf(&text, "%s%s%s): %s", item->id ? item->id : "", item->id ? "; " : "",
-                   item->by ? item->by : "nothing in this flow reads it",
-                   item->by ? "" : "if it were known exactly, ");
-    if (m->banded)
+    const char *by = item->by     ? item->by
+                     : item->open ? NULL /* a coupon may, once there is a value to expect */
+                                  : "nothing in this flow reads it";
+    fw_text_printf(&text, "%s%s%s): %s", item->id ? item->id : "", item->id && by ? "; " : "",
+                   by ? by : "", by == item->by ? "" : "if it were known exactly, ");
+    if (item->open)
+        fw_text_add(&text, "it moves what is made by nobody knows how much, and nothing is "
+                           "accepted before it is known");
+    else if (m->banded)
         say_band(&text, m, item);
     else
         say_share(&text, m, item);

@@ -188,8 +188,11 @@ static fw_status as_fabricated(fw_plan *plan) {
         for (int k = 0; v->fabricated && k < v->ninput; k++)
             if (v->input[k].unknown)
                 FW_TRY(assume(plan,
-                              "Flow %s: %s is not known (%s). The corners take an assumed "
-                              "range, and the verdict holds inside it only: measure it.",
+                              v->input[k].open
+                                  ? "Flow %s: %s is not known (%s), and no range is assumed: the "
+                                    "corners are run without it, and accept nothing: measure it."
+                                  : "Flow %s: %s is not known (%s). The corners take an assumed "
+                                    "range, and the verdict holds inside it only: measure it.",
                               v->variant->flow, v->input[k].name, v->input[k].unknown));
     }
     if (!any)

@@ -359,19 +359,20 @@ static fw_status cut_walls(maker *m, const fw_process_change *c, const fw_proces
                            double edge_m, double way, fw_process_film *f) {
     const fw_process_fixed_point *p = &m->flow->edges;
     double field = p->ncls ? p->cls[p->field].opening_m : (double)INFINITY;
-    double loss = isnan(cut->anisotropy) || isnan(cut->etched_m) ? 0.0 : 1.0 - cut->anisotropy;
+    double loss = isnan(cut->anisotropy) ? 0.0 : 1.0 - cut->anisotropy;
     double foot = fw_process_cut_foot(cut, field), flare = cut->device ? 0.5 * p->flare_m : 0.0;
     f->mask_edge_m = edge_m;
     f->cut = cut;
     f->foot_m = edge_m - way * (loss > 0.0 ? loss * foot : 0.0) + flare;
     f->head_m =
-        edge_m - way * (loss > 0.0 ? loss * (cut->device ? cut->etched_m : foot) : 0.0) - flare;
+        edge_m - way * (loss > 0.0 ? loss * (cut->device ? cut->least_m : foot) : 0.0) - flare;
     if (!isnan(cut->anisotropy) && !isnan(cut->etched_m)) return FW_OK;
+    const char *id = c->anisotropy->id ? c->anisotropy->id : "anisotropy",
+               *what = isnan(cut->anisotropy) ? id : "lag";
     return note(
-        m, fw_arena_printf(m->arena,
-                           "What step %s takes sideways is not known (%s): its walls are drawn "
-                           "straight",
-                           cut->step->id, c->anisotropy->id ? c->anisotropy->id : "anisotropy"));
+        m, fw_arena_printf(
+               m->arena, "What step %s takes sideways is not known (%s): its walls are drawn %s",
+               cut->step->id, what, isnan(cut->anisotropy) ? "straight" : "for the least of it"));
 }
 
 /* one film, of which a side is etched beside a mask on the other; bowl: its foot stays at the mask's edge */

@@ -96,8 +96,10 @@ static void read_corners(const fw_process_flow *flow, double thickness_m,
         const fw_process_corner *c = &flow->corner[i];
         bool edge = c->of == FW_CORNER_EDGE, wall = c->of == FW_CORNER_TAPER;
         const fw_quantity *q = c->q && c->q->unknown ? c->assumed : c->q;
-        if ((!edge && !wall) || !q || q->unknown || (wall && isnan(thickness_m))) continue;
-        if (!fw_process_corner_counts(c)) continue;
+        if ((!edge && !wall) || !fw_process_corner_counts(c)) continue;
+        const bool open = !q || q->unknown;
+        p->open = p->open || open;
+        if (open || (wall && isnan(thickness_m))) continue;
         double low, high, x = c->q->unknown ? 0.0 : q->value;
         fw_process_quantity_range(q, &low, &high);
         if (edge) {
@@ -191,8 +193,8 @@ double fw_process_cut_lag(const fw_process_cut *cut, double w_m, double depth_m)
 }
 
 double fw_process_cut_foot(const fw_process_cut *cut, double w_m) {
-    double lag = fw_process_cut_lag(cut, w_m, cut->depth_m), left = cut->etched_m - cut->depth_m;
-    return isnan(left) ? left : fmax(0.0, left - (isnan(lag) ? 0.0 : lag));
+    double lag = fw_process_cut_lag(cut, w_m, cut->depth_m), left = cut->least_m - cut->depth_m;
+    return fmax(0.0, left - (isnan(lag) ? 0.0 : lag));
 }
 
 /* d(lag)/dw, 1: J = w j(D/w) with j' = 1/K - 1, hence dJ/dw = J/w - x (1/K(x) - 1), x = D/w */
@@ -207,7 +209,7 @@ static double lag_slope(const fw_process_cut *cut, double w_m, double lag_m) {
 
 /* E = (1 + overrun) (D + lag(w)) at the narrowest opening w, and what the mask adds, with slopes in
    the edge m of the masking layer: openings are gap - 2 m. `field` is the opening beside flexures,
-   whose edges the mask brings to where they are drawn. */
+   whose edges the mask brings to where they are drawn. What an unknown lag takes at least, without any, is known. */
 static void cut_at(fw_process_cut *c, double A, double narrow_m, double field_m,
                    double *mask_slope) {
     double w = c->follows ? narrow_m : c->width_m;
@@ -215,7 +217,8 @@ static void cut_at(fw_process_cut *c, double A, double narrow_m, double field_m,
     double wide = fw_process_cut_lag(c, field_m, c->depth_m), more = 1.0 + c->overrun;
     c->planned_m = c->depth_m + lag;
     c->etched_m = more * c->planned_m;
-    c->reach_slope = c->follows ? -2.0 * more * lag_slope(c, w, lag) : 0.0;
+    c->least_m = isnan(lag) ? more * c->depth_m : c->etched_m; /* a lag can only add to it */
+    c->reach_slope = c->follows && !isnan(lag) ? -2.0 * more * lag_slope(c, w, lag) : 0.0;
     double foot = fw_process_cut_foot(c, field_m);
     double foot_slope =
         foot > 0.0 ? c->reach_slope + (isnan(wide) ? 0.0 : 2.0 * lag_slope(c, field_m, wide)) : 0.0;
@@ -223,8 +226,8 @@ static void cut_at(fw_process_cut *c, double A, double narrow_m, double field_m,
                    : c->compensate == FW_FACE_TOP                ? 0.0
                                                                  : 0.5;
     double loss = 1.0 - A;
-    bool adds = !isnan(A) && !isnan(c->etched_m);
-    c->mask_m = adds ? loss * ((1.0 - share) * c->etched_m + share * foot) : 0.0;
+    bool adds = !isnan(A);
+    c->mask_m = adds ? loss * ((1.0 - share) * c->least_m + share * foot) : 0.0;
     *mask_slope = adds ? loss * ((1.0 - share) * c->reach_slope + share * foot_slope) : 0.0;
 }
 
@@ -312,9 +315,9 @@ fw_process_edge fw_process_fixed_point_edge(const fw_process_fixed_point *p, dou
     fw_process_edge e = {m - 0.5 * p->flare_m, 0.0, m + 0.5 * p->flare_m};
     for (int k = 0; k < p->ncut; k++) {
         const fw_process_cut *c = &p->cut[k];
-        if (isnan(A[k]) || isnan(c->etched_m)) continue; /* its known part: nothing */
+        if (isnan(A[k])) continue; /* its known part: nothing */
         double foot = fw_process_cut_foot(c, w_m);
-        e.top_m -= (1.0 - A[k]) * (c->device ? c->etched_m : foot);
+        e.top_m -= (1.0 - A[k]) * (c->device ? c->least_m : foot);
         e.bottom_m -= (1.0 - A[k]) * foot;
     }
     e.middle_m = 0.5 * (e.top_m + e.bottom_m);
@@ -371,8 +374,8 @@ static double bias_at(const fw_process_fixed_point *p, const double *A, double g
                       double field_m) {
     fw_process_fixed_point other = *p;
     double m;
-    for (int k = 0; k < p->ncut; k++)
-        if (isnan(A[k])) return (double)NAN;
+    for (int k = 0; k < p->ncut; k++) /* of an unknown lag one end alone is known */
+        if (isnan(A[k]) || isnan(p->cut[k].etched_m)) return (double)NAN;
     return newton(&other, A, gap_m, field_m, &m) ? m + p->wet_m + p->printed_m + p->wear.loss_m
                                                  : (double)NAN;
 }

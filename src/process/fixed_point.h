@@ -103,7 +103,9 @@ typedef struct fw_process_cut { /* a masked etch downward: a <change> with an an
     double width_m; /* else of this opening; INFINITY: of a wide one */
     fw_process_face compensate; /* the face whose edge the mask brings to where it is drawn */
     double planned_m;           /* R T as planned, without overrun. NaN: the lag is not known */
-    double etched_m;    /* E = R T with overrun: the floor of a wide opening would be so deep */
+    double
+        etched_m; /* E = R T with overrun: the floor of a wide opening would be so deep. NaN likewise */
+    double least_m;     /* the same; where the lag is not known what it is at least, without any */
     double mask_m;      /* what the mask adds at every edge for this etch */
     double reach_slope; /* d E/d(edge in the masking layer), 1 */
 } fw_process_cut;
@@ -139,7 +141,8 @@ typedef struct fw_process_fixed_point {
     double wet_m, etch_m; /* against isotropic etches, against cuts of known anisotropy */
     bool wet_open;        /* the depth of an isotropic etch is not known */
     fw_process_wear wear; /* against what steps take of the walls that stand */
-    bool open;            /* an anisotropy is not known (or the time of its cut) */
+    bool
+        open; /* an anisotropy is not known (or the time of its cut), or where edges or walls come out */
     double low_m, high_m; /* bias that the ends of what is assumed would ask for; NaN: none */
     double slope;         /* F' at the solution: below 1, what a plain iteration contracts by */
     int iterations;       /* of Newton's method */
@@ -173,7 +176,7 @@ double fw_process_fixed_point_slope(const fw_process_fixed_point *p, double devi
 /* extra depth R (t - D/R) that an opening of w_m needs until its floor is at depth_m; m */
 double fw_process_cut_lag(const fw_process_cut *cut, double w_m, double depth_m);
 /* E - D - lag, at least 0: what of the whole time is left when the floor is through; m. A lag that
-   is not known counts as none. */
+   is not known counts as none, here as in E. */
 double fw_process_cut_foot(const fw_process_cut *cut, double w_m);
 /* where the edges beside an opening of w_m stand if the anisotropies of the cuts were A[i]
    (ncut); NaN counts as 1 */

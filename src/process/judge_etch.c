@@ -239,6 +239,22 @@ static fw_status anisotropy_known(fw_process_judge *j, const fw_process_cut *c) 
 
 /* ---- narrow openings fall behind ---- */
 
+/* neither the time of the step nor all that it takes sideways: the mask adds what that is at least */
+static fw_status lag_unknown(fw_process_judge *j, const fw_process_cut *c) {
+    fw_process_numbers t = {0};
+    if (c->mask_m > 0.0)
+        fw_text_printf(&j->note,
+                       "%sstep %s undercuts by at least %s um (A = %s, without any lag) and the "
+                       "mask adds that",
+                       next(j), c->step->id, fw_process_judge_um(&t, c->mask_m),
+                       fw_process_judge_number(&t, c->anisotropy, 4));
+    return fw_process_judge_reason(
+        j, FW_ANSWER_OPEN,
+        "how narrow openings fall behind in step %s is not known, so that neither its time nor its "
+        "undercut is%s",
+        c->step->id, c->mask_m > 0.0 ? ": what it takes at least is in the bias" : "");
+}
+
 /* depth of the floor after the time in which a wide opening is through, by bisection */
 static double depth_in_wide_time(const fw_process_cut *c, double w_m) {
     double low = 0.0, high = c->depth_m;
@@ -373,11 +389,7 @@ fw_status fw_process_judge_etching(fw_process_judge *j) {
     for (int k = 0; k < p->ncut; k++) {
         const fw_process_cut *c = &p->cut[k];
         if (isnan(c->etched_m))
-            FW_TRY(fw_process_judge_reason(
-                j, FW_ANSWER_OPEN,
-                "how narrow openings fall behind in step %s is not known, so that "
-                "neither its time nor its undercut is",
-                c->step->id));
+            FW_TRY(lag_unknown(j, c));
         else if (isnan(c->anisotropy))
             FW_TRY(anisotropy_unknown(j, c));
         else if (p->solved)

@@ -103,6 +103,12 @@ static double most_uncertain(const fw_quantity *q, double least, double most) {
     return fmin(width, hot ? 0.25 * q->value : q->value);
 }
 
+static const char *end_text(char text[32], const fw_quantity *q, double value) {
+    fw_quantity end = *q;
+    end.value = value;
+    return fw_number_text(text, 32, fw_quantity_in_unit(&end), 6);
+}
+
 static void too_uncertain(units *u, const fw_quantity *q, fw_diags *diags) {
     const int at = range_of(u, q);
     const bool own = q->least != 0.0 || q->most != 0.0;
@@ -110,17 +116,14 @@ static void too_uncertain(units *u, const fw_quantity *q, fw_diags *diags) {
     const double least = own ? q->least : fw_quantity_unit_to_si(unit_of(u, at), ranges[at].least),
                  most = own ? q->most : fw_quantity_unit_to_si(unit_of(u, at), ranges[at].most),
                  slack = 1e-9 * (most - least), limit = most_uncertain(q, least, most);
-    fw_quantity bound = *q;
-    char low[32], high[32];
+    char low[32], high[32], from[32], to[32];
     if (q->interval && (q->low < least - slack || q->high > most + slack)) {
-        bound.value = q->low;
-        fw_number_text(low, sizeof low, fw_quantity_in_unit(&bound), 6);
-        bound.value = q->high;
         fw_diag_error(diags, 530, q->place,
-                      "'%s' is said to lie between %s and %s %s, which leaves its plausible range; "
-                      "correct the ends or their unit",
-                      q->id ? q->id : "q", low,
-                      fw_number_text(high, sizeof high, fw_quantity_in_unit(&bound), 6), q->unit);
+                      "'%s' is said to lie between %s and %s %s, outside its plausible range of %s "
+                      "to %s %s (%s); correct the ends or their unit, or name another range",
+                      q->id ? q->id : "q", end_text(low, q, q->low), end_text(high, q, q->high),
+                      q->unit, end_text(from, q, least), end_text(to, q, most), q->unit,
+                      own ? "its least and most" : ranges[at].reason);
     } else if (!q->interval && q->uncertainty > limit * (1.0 + 1e-9)) {
         const double unit = q->value != 0.0 && !fw_quantity_dimension_equal(
                                                    q->dimension, (fw_quantity_dimension){.K = 1})

@@ -25,6 +25,14 @@ static void effects_of(fw_verdict_fabrication_input *in, effect e[EFFECTS]) {
     e[5] = (effect){&in->substrate, &in->substrate_at, in->drawn};
 }
 
+/* what has one value goes with nothing, and how hinges differ moves nothing that all have in common */
+static double correlation(const fw_verdict_fabrication_input *a,
+                          const fw_verdict_fabrication_input *b) {
+    return a->sigma > 0.0 && b->sigma > 0.0 && a->local == 0.0 && b->local == 0.0
+               ? fw_quantity_correlation(&a->q, &b->q)
+               : 0.0;
+}
+
 /* Cholesky's factor of the correlations; a pivot is held above 1e-6, so that inputs that are fully correlated keep a range
    of a thousandth of their own. false: all are independent */
 static bool factor(const fw_verdict_fabrication_input *in, int n,
@@ -32,7 +40,7 @@ static bool factor(const fw_verdict_fabrication_input *in, int n,
     bool any = false;
     for (int i = 0; i < n; i++)
         for (int k = 0; k <= i; k++) {
-            double sum = i == k ? 1.0 : fw_quantity_correlation(&in[i].q, &in[k].q);
+            double sum = i == k ? 1.0 : correlation(&in[i], &in[k]);
             any = any || (i != k && sum != 0.0);
             for (int j = 0; j < k; j++)
                 sum -= L[i][j] * L[k][j];
@@ -79,8 +87,6 @@ static fw_status name_parts(fw_arena *arena, fw_verdict_fabrication_input *in, i
    Source: Golub and Van Loan, 4.2. Test: test_correlation.c, corners (against draws of the correlated inputs). */
 fw_status fw_process_corners_independent(fw_arena *arena, fw_verdict_fabrication_input *in, int n) {
     double L[FW_FABRICATION_INPUTS][FW_FABRICATION_INPUTS] = {{0}};
-    for (int i = 0; i < n; i++)
-        if (!(in[i].sigma > 0.0)) return FW_OK;
     if (!factor(in, n, L)) return FW_OK;
     for (int i = 0; i < n; i++) {
         FW_TRY(name_parts(arena, in, n, i, L));
@@ -249,17 +255,17 @@ static void of_planned(fw_verdict_fabrication_input *in, double planned_m) {
    faces, (1 - A)(E - (D + lag)/2), against the m that the mask adds, and one face is left
    2 (1 - A)(D + lag) wider than the other; lag beside the open field, where flexures stand. E, D,
    lag and m are those of the fixed point, so that mask, time and corner cannot differ. A masking
-   layer counts with its foot, E - D - lag. D, E m; A 1. Edges are even where (1 - A) edge_m = m.
+   layer counts with its foot, E - D - lag. D, E m; A 1. An unknown lag counts as none: it is open besides. Edges are even where (1 - A) edge_m = m.
    Source: docs/theory/etching.md; test_corners.c against fw_process_undercut_widths,
    test_fixed_point.c. */
 static bool anisotropy(const fw_process_fixed_point *p, const fw_process_corner *c,
                        fw_verdict_fabrication_input *in) {
     const fw_process_cut *cut = fw_process_fixed_point_cut(p, c->q);
-    if (!cut || isnan(cut->etched_m)) return false;
+    if (!cut) return false;
     double field = p->ncls ? p->cls[p->field].opening_m : (double)INFINITY;
     double foot = fw_process_cut_foot(cut, field);
-    in->edge_m = cut->device ? 0.5 * (cut->etched_m + foot) : foot;
-    in->flare_m = cut->device ? foot - cut->etched_m : 0.0;
+    in->edge_m = cut->device ? 0.5 * (cut->least_m + foot) : foot;
+    in->flare_m = cut->device ? foot - cut->least_m : 0.0;
     in->drawn = 1.0;
     in->even = in->edge_m > 0.0 ? 1.0 - cut->mask_m / in->edge_m : 1.0;
     in->high = fmin(in->high, 1.0);
@@ -291,9 +297,11 @@ static bool fill(const fw_process_fixed_point *p, const fw_process_corner *c,
         in->drawn = in->nominal;
         in->even = unknown ? 0.0 : in->nominal;
         break;
-    case FW_CORNER_LOCAL: /* about what all have in common */
+    case FW_CORNER_LOCAL: /* about what all have in common, by as much as q may be, either way */
         in->local = 1.0;
-        in->drawn = in->nominal;
+        in->high = fmax(fabs(in->low), fabs(in->high));
+        in->low = -in->high;
+        in->nominal = 0.0;
         break;
     case FW_CORNER_TAPER:
         in->flare_m = v->thickness_m;
@@ -370,6 +378,92 @@ static int expansions(const fw_mechanism_variant *v, fw_verdict_fabrication_inpu
     return n;
 }
 
+/* ---- what nobody knows, and nothing is assumed of ----
+   A corner whose quantity is unknown and has no assumed range, a quantity that FW-D665 wants a corner for, a lag that the
+   time of a cut needs, the depth of an isotropic etch: each moves what is made by nobody knows how much. It stands among
+   the inputs, moves nothing, and holds the verdict open. Test: test_corners.c, what_nobody_knows */
+
+static void add_open(const char *name, const fw_quantity *q, fw_place place,
+                     fw_verdict_fabrication_input *list, int *n) {
+    const char *id = q && q->id ? q->id : name;
+    for (int i = 0; i < *n; i++)
+        if (list[i].open && strcmp(list[i].unknown, id) == 0) return;
+    if (*n == FW_FABRICATION_INPUTS)
+        return; /* others are open; the flow's own judgement names all */
+    list[*n] = (fw_verdict_fabrication_input){.name = name, .unknown = id, .open = true};
+    if (q) list[*n].q = *q;
+    list[*n].q.value = list[*n].q.uncertainty = 0.0;
+    if (!list[*n].q.place.file) list[*n].q.place = place;
+    ++*n;
+}
+
+static bool is_uncertain(const fw_quantity *q) {
+    return q->unknown || q->uncertainty > 0.0;
+}
+
+static bool has_corner(const fw_process_flow *f, const fw_quantity *q) {
+    for (int i = 0; i < f->ncorner; i++)
+        if (f->corner[i].q == q || f->corner[i].assumed == q || f->corner[i].within == q)
+            return true;
+    return false;
+}
+
+static bool has_corner_of(const fw_process_flow *f, fw_process_corner_of of, bool etched) {
+    for (int i = 0; i < f->ncorner; i++)
+        if (f->corner[i].of == of && (!etched || f->corner[i].etched)) return true;
+    return false;
+}
+
+/* by what q moves the device though no corner has it, and which corner would; NULL: it does not */
+static const char *moves_without(const fw_process_flow *f, const fw_quantity *q,
+                                 const char **corner) {
+    static const char made[] = "made.";
+    if (!q->id || !is_uncertain(q) || has_corner(f, q)) return NULL;
+    const bool edge = strcmp(q->id, FW_PROCESS_PRINTED_EDGE) == 0,
+               thick = q == f->thickness && !has_corner_of(f, FW_CORNER_THICKNESS, false),
+               other = strncmp(q->id, made, strlen(made)) == 0;
+    *corner = edge ? "edge" : other ? "..." : "thickness";
+    return edge    ? "moves every edge that is printed"
+           : other ? "says how the device is made"
+           : thick ? "is the thickness of the device's layer"
+                   : NULL;
+}
+
+static bool nothing_assumed(const fw_process_corner *c) {
+    return c->q && c->q->unknown && (!c->assumed || c->assumed->unknown);
+}
+
+static void open_inputs(const fw_process_flow *flow, const fw_process_fixed_point *p,
+                        fw_verdict_fabrication_input *list, int *n) {
+    for (int i = 0; i < flow->ncorner; i++) {
+        const fw_process_corner *c = &flow->corner[i];
+        if (!nothing_assumed(c) || !fw_process_corner_counts(c)) continue;
+        if (c->of != FW_CORNER_ANISOTROPY || fw_process_fixed_point_cut(p, c->q))
+            add_open(c->name, c->q, c->place, list, n);
+    }
+    for (int k = 0; k < p->ncut; k++) {
+        const fw_process_cut *c = &p->cut[k];
+        const bool lag = isnan(c->lag_value) || !c->lag_quantity;
+        if (isnan(c->low)) add_open("anisotropy", c->quantity, c->step->place, list, n);
+        if (isnan(c->etched_m))
+            add_open(lag ? "lag of narrow openings" : "opening that an etch is timed by",
+                     lag ? c->lag_quantity : fw_process_step_argument(c->step, "width"),
+                     c->step->place, list, n);
+    }
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (c->isotropic && c->thickness && c->thickness->unknown &&
+                fw_process_where_is_of_device(flow, c->where))
+                add_open("depth of an isotropic etch", c->thickness, c->place, list, n);
+        }
+    for (int i = 0; i < flow->nquantity; i++) {
+        const fw_quantity *q = flow->quantity[i];
+        const char *corner;
+        if (q->unknown && moves_without(flow, q, &corner)) add_open(q->id, q, q->place, list, n);
+    }
+}
+
 fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flow,
                                      const fw_process_mask_facts *facts,
                                      const fw_mechanism_variant *variant,
@@ -383,18 +477,16 @@ fw_status fw_process_flow_fabricated(fw_arena *arena, const fw_process_flow *flo
     for (int i = 0; i < flow->ncorner && *ninput < FW_FLOW_INPUTS; i++)
         *ninput += fill(edges, &flow->corner[i], variant, &list[*ninput]);
     if (*ninput < FW_FLOW_INPUTS) *ninput += wear_input(&edges->wear, variant, &list[*ninput]);
-    *ninput += expansions(variant, list + *ninput, FW_FABRICATION_INPUTS - *ninput);
+    *ninput += expansions(variant, list + *ninput, FW_RANGED_INPUTS - *ninput);
     *input = list;
-    return fw_process_corners_independent(arena, list, *ninput);
+    FW_TRY(fw_process_corners_independent(arena, list, *ninput));
+    open_inputs(flow, edges, list, ninput);
+    return FW_OK;
 }
 
 /* ---- do corners move what is made? ----
    A corner is what the verdict looks at the ends of. One that names what the device is not made by is dropped there, and
    what is uncertain and has none is taken for exact: both accept what is not known. Test: test_corners.c. */
-
-static bool is_uncertain(const fw_quantity *q) {
-    return q->unknown || q->uncertainty > 0.0;
-}
 
 /* the change by whose anisotropy q the device is cut, or what masks it; any where q is NULL */
 static const fw_process_change *cut_by(const fw_process_flow *f, const fw_quantity *q,
@@ -470,25 +562,14 @@ static void lint_corner(fw_process_pack *pack, const fw_process_corner *c) {
     }
 }
 
-static bool has_corner(const fw_process_flow *f, const fw_quantity *q) {
-    for (int i = 0; i < f->ncorner; i++)
-        if (f->corner[i].q == q || f->corner[i].assumed == q || f->corner[i].within == q)
-            return true;
-    return false;
-}
-
-static bool has_corner_of(const fw_process_flow *f, fw_process_corner_of of, bool etched) {
-    for (int i = 0; i < f->ncorner; i++)
-        if (f->corner[i].of == of && (!etched || f->corner[i].etched)) return true;
-    return false;
-}
-
 static void lint_lacking(fw_process_pack *pack, const fw_quantity *q, fw_place place,
                          const char *moves, const char *corner) {
     fw_diag_warning(pack->diags, 665, place,
-                    "'%s' is not known exactly and %s, but no corner has it: the verdict takes it "
-                    "for exact; add <corner of=\"%s\" .../>",
-                    q->id, moves, corner);
+                    "'%s' is not known%s and %s, but no corner has it: %s; add <corner "
+                    "of=\"%s\" .../>",
+                    q->id, q->unknown ? "" : " exactly", moves,
+                    q->unknown ? "nobody knows what is made" : "the verdict takes it for exact",
+                    corner);
 }
 
 /* ... and what of a step moves edges */
@@ -505,7 +586,6 @@ static void lint_moving(fw_process_pack *pack, const fw_process_step *s,
 }
 
 fw_status fw_process_lint_corners(fw_process_pack *pack) {
-    static const char made[] = "made.";
     const fw_process_flow *f = pack->flow;
     for (int i = 0; i < f->ncorner; i++)
         lint_corner(pack, &f->corner[i]);
@@ -513,14 +593,8 @@ fw_status fw_process_lint_corners(fw_process_pack *pack) {
         for (int k = 0; k < f->step[i].nchange; k++)
             lint_moving(pack, &f->step[i], &f->step[i].change[k]);
     for (int i = 0; i < f->nquantity; i++) {
-        const fw_quantity *q = f->quantity[i];
-        if (!q->id || !is_uncertain(q) || has_corner(f, q)) continue;
-        if (strcmp(q->id, FW_PROCESS_PRINTED_EDGE) == 0)
-            lint_lacking(pack, q, q->place, "moves every edge that is printed", "edge");
-        else if (strncmp(q->id, made, strlen(made)) == 0)
-            lint_lacking(pack, q, q->place, "says how the device is made", "...");
-        else if (q == f->thickness && !has_corner_of(f, FW_CORNER_THICKNESS, false))
-            lint_lacking(pack, q, q->place, "is the thickness of the device's layer", "thickness");
+        const char *corner, *moves = moves_without(f, f->quantity[i], &corner);
+        if (moves) lint_lacking(pack, f->quantity[i], f->quantity[i]->place, moves, corner);
     }
     return FW_OK;
 }

@@ -181,13 +181,18 @@ static const fw_xml_attribute_row attacks_rows[] = {
 static const fw_xml_attribute_row corner_rows[] = {
     {"of", WORD(corners), REQUIRED,
      .sentence = "What is not made exactly as drawn; local: by how much the "
-                 "edges of one hinge may stand apart from those of the others."},
+                 "edges of one hinge may stand apart from those of the others, either way: "
+                 "by the largest size that the range of q has (0 +-0.07 um, 0.14 um and 0 to "
+                 "0.14 um all say 0.14 um)."},
     {"name", TEXT, REQUIRED, .sentence = "What reports call it."},
     {"q", TO(QUANTITY),
      .sentence =
          "Its range is the corner; none for youngs. Of a thickness: a length beside the planned "
          "one, or the share of it that comes out, which follows whatever is planned."},
-    {"assumed", TO(QUANTITY), .sentence = "Whose range holds where q is unknown."},
+    {"assumed", TO(QUANTITY),
+     .sentence =
+         "Whose range holds where q is unknown. Without it an unknown q has no range: nothing "
+         "that the flow makes is accepted before it is known (FW-D694)."},
     {"within", TO(QUANTITY),
      .sentence =
          "A quantity that holds this one, too, once it was measured: the corner falls away then."},

@@ -227,6 +227,10 @@ static void assumed(fw_text *out, const fw_verdict_variant_verdict *v) {
         const fw_verdict_fabrication_input *in = &v->input[i];
         if (!in->unknown) continue;
         fw_text_printf(out, "  %s is not known (%s): ", in->name, in->unknown);
+        if (in->open) {
+            fw_text_add(out, "no range is assumed, and nothing is accepted until it is measured\n");
+            continue;
+        }
         fw_text_number(out, in_unit(in, in->low), 4);
         fw_text_add(out, " to ");
         fw_text_number(out, in_unit(in, in->high), 4);
@@ -269,6 +273,14 @@ static void ranges(fw_text *out, const fw_verdict_variant_verdict *v) {
                      "scope=\"col\">Source</th></tr></thead><tbody>\n");
     for (int i = 0; i < v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &v->input[i];
+        if (in->open) {
+            fw_markup(out,
+                      "<tr class=\"bad\"><th scope=\"row\">{s}</th><td class=\"n\"></td><td "
+                      "class=\"n\"></td><td class=\"n\"></td><td>not known, and nothing is "
+                      "assumed: {s}</td><td>{s}{s}{s}</td></tr>\n",
+                      in->name, in->unknown, in->q.source, in->q.note ? "; " : "", in->q.note);
+            continue;
+        }
         fw_markup(out,
                   "<tr><th scope=\"row\">{s}</th><td class=\"n\">{n} {s}</td><td "
                   "class=\"n\">{n}</td><td class=\"n\">{n}</td><td>{s}{s}{s}</td><td>{s}"
@@ -405,7 +417,10 @@ static fw_status measurement_row(fw_report_page *page, const fw_measuring *m, in
               "<tr><td class=\"n\">{i}</td><th scope=\"row\">{s}{s}{s}{s}</th><td>{s}{s}</td>"
               "<td>{s}</td><td>{s}</td><td class=\"n\">{s}</td><td>{s}</td></tr>\n",
               i + 1, x->name, x->id ? " (" : "", x->id, x->id ? ")" : "", before,
-              x->unknown && !isnan(x->value) ? " (assumed)" : "", x->by ? x->by : "nothing here",
+              x->unknown && !isnan(x->value) ? " (assumed)" : "",
+              x->by     ? x->by
+              : x->open ? ""
+                        : "nothing here",
               isnan(x->value) ? "" : after, worth.length ? worth.data : "", windows);
     return FW_OK;
 }
@@ -463,9 +478,11 @@ static void ranking(fw_text *out, const fw_measuring *m) {
     fw_measuring_put_band(out, &m->band);
     fw_text_add(out, ", an input that is measured alone leaves:\n");
     for (int i = 0; i < m->nitem && n < RANKED; i++) {
-        if (!m->item[i].made) continue;
+        if (!m->item[i].made && !m->item[i].open) continue;
         fw_text_printf(out, "  %d  %s (%s): ", ++n, m->item[i].name,
-                       m->item[i].by ? m->item[i].by : "read by nothing here");
+                       m->item[i].by     ? m->item[i].by
+                       : m->item[i].open ? m->item[i].id
+                                         : "read by nothing here");
         fw_measuring_put_worth(out, m, &m->item[i]);
         fw_text_add(out, "\n");
     }

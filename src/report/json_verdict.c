@@ -22,7 +22,7 @@ static void as_fabricated_input(fw_json *json, const fw_verdict_fabrication_inpu
     fw_json_text(json, "unit", q.unit);
     for (size_t i = 0; i < sizeof number / sizeof number[0]; i++) {
         q.value = number[i].value;
-        fw_json_real(json, number[i].key, fw_quantity_in_unit(&q));
+        fw_json_real(json, number[i].key, in->open ? (double)NAN : fw_quantity_in_unit(&q));
     }
     fw_json_text(json, "status", fw_quantity_value_status_text(q.status));
     fw_json_text(json, "source", q.source);

@@ -192,7 +192,7 @@ static int assumed(fw_text *text, const fw_verdict_variant_verdict *v) {
     for (int i = 0; i < v->ninput; i++) {
         const fw_verdict_fabrication_input *in = &v->input[i];
         bool pure = !in->q.unit || strcmp(in->q.unit, "1") == 0;
-        if (!in->unknown) continue;
+        if (!in->unknown || in->open) continue; /* what nobody assumes is among the reasons */
         fw_text_printf(text, "%s%s (%s) is not known, and ", count++ ? "; " : "", in->name,
                        in->unknown);
         number_of(text, in, in->low);

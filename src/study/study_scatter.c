@@ -352,6 +352,13 @@ fw_status fw_study_scatter_of(fw_study *study, const fw_verdict_variant_verdict 
     builder b = {.study = study, .v = v, .s = s};
     fw_chance_fault wrong = {0};
     *s = (fw_study_scatter){.ninput = v->ninput};
+    if (fw_verdict_fabrication_open(v->input, v->ninput))
+        return fw_diag_error(&study->diags, 695, study->asked->place,
+                             "study '%s': what flow %s makes is not known, and no range is "
+                             "assumed: %s (%s); state it in a laboratory pack, or give an assumed "
+                             "range",
+                             study->asked->name, v->variant->flow, v->input[v->ninput - 1].name,
+                             v->input[v->ninput - 1].unknown);
     FW_NEED(b.variable = fw_arena_array(study->arena, fw_chance_variable, most));
     FW_NEED(b.row = fw_arena_array(study->arena, const fw_device_uncertain *, most));
     FW_NEED(s->group = fw_arena_array(study->arena, fw_study_group, groups));

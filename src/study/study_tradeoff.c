@@ -250,7 +250,7 @@ static fw_status process(const fw_study_problem *p, fw_study_tradeoff *t) {
     for (int k = 0; k < v.ninput; k++)
         x[k] = v.input[k].nominal;
     if (v.ninput > 0) FW_TRY(fabricated_answer(p, &v, x, &nominal));
-    for (int i = 0; i < v.ninput && nominal.state == FW_TRADEOFF_DONE; i++)
+    for (int i = 0; i < v.ninput && nominal.state == FW_TRADEOFF_DONE && !v.input[i].open; i++)
         FW_TRY(input(p, &v, i, &nominal, add(t, "process", v.input[i].name)));
     return FW_OK;
 }

@@ -373,6 +373,11 @@ fw_status fw_verdict_search_point(const fw_verdict_search *s, const double *x,
 
 /* ---- points ---- */
 
+int fw_verdict_checks(const fw_device *device, const fw_verdict_variant_verdict *v) {
+    return v->nhinge * (device->nscene + 1) + 4 * device->nscene + v->nrequirement +
+           device->nworkspace;
+}
+
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in) {
     return in->local == 0.0 &&
            in->high >

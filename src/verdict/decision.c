@@ -149,7 +149,7 @@ size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
         (FW_REASONS + 1) * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
         (size_t)d->nrevolute + (size_t)missing_most(d) +
-        14; /* what no mask draws; strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, between corners, riders, rims; stiction; drawn bent */
+        15; /* what no mask draws; strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, what nobody knows of it, between corners, riders, rims; stiction; drawn bent */
     for (int i = 0; i < d->nscene; i++)
         most += (size_t)d->scene[i].ncontact;
     return most;
@@ -182,7 +182,8 @@ fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
 
 /* ---- what a flow makes ---- */
 
-/* the worst of everything that was run, and the hinge that makes it so */
+/* the worst of everything that was run, and the hinge that makes it so; where something is not known, and nothing is
+   assumed of it, that is not all that may be made, and the nominal device is not the one that is */
 void fw_verdict_search_govern(fw_verdict_search *s) {
     fw_verdict_fabricated_verdict *fabricated = s->fabricated;
     double most = -1.0;
@@ -202,7 +203,9 @@ void fw_verdict_search_govern(fw_verdict_search *s) {
                 fabricated->at = c, fabricated->governing = k;
             }
     }
-    fabricated->decision = worst == FW_ACCEPT                            ? FW_ACCEPT
+    const bool open = fw_verdict_fabrication_open(s->v->input, s->v->ninput);
+    fabricated->decision = open                                          ? FW_INCONCLUSIVE
+                           : worst == FW_ACCEPT                          ? FW_ACCEPT
                            : fabricated->corner[0].decision == FW_REJECT ? FW_REJECT
                                                                          : FW_INCONCLUSIVE;
 }

@@ -6,6 +6,10 @@
 #include <math.h>
 #include <string.h>
 
+bool fw_verdict_fabrication_open(const fw_verdict_fabrication_input *input, int ninput) {
+    return ninput > 0 && input[ninput - 1].open;
+}
+
 fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_input *input,
                                                  int ninput, const double *x) {
     fw_verdict_fabrication fabricated = {.thickness_ratio = 1.0, .youngs_ratio = 1.0};

@@ -249,3 +249,27 @@ fw_status fw_verdict_fabrication_control(fw_verdict_search *s) {
     }
     return hold_all(s);
 }
+
+/* ---- what nobody knows ----
+   A quantity that moves what is made, is not known, and has no assumed range. Nothing that is run stands for what is
+   made then, so that nothing is accepted, and nothing is rejected that is not rejected as drawn. */
+
+fw_status fw_verdict_not_known(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                               const char **text) {
+    fw_text list = fw_text_new(arena);
+    int n = 0;
+    *text = NULL;
+    for (int i = 0; i < v->ninput; i++)
+        if (v->input[i].open)
+            fw_text_printf(&list, "%s%s (%s)", n++ ? ", " : "", v->input[i].name,
+                           v->input[i].unknown);
+    if (n == 0) return FW_OK;
+    FW_TRY(fw_text_end(&list));
+    FW_NEED(*text = fw_arena_printf(
+                arena,
+                "what %s makes of it is not known, and no range is assumed: %s; measure %s and "
+                "state it in a laboratory pack (a <corner> may have an assumed range)",
+                v->variant->flow ? v->variant->flow : "this flow", list.data,
+                n > 1 ? "each of them" : "it"));
+    return FW_OK;
+}

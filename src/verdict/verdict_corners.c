@@ -282,10 +282,15 @@ fw_status fw_verdict_search_ends(fw_verdict_search *s, int check) {
    sizes of all of them. It is run for every check that it may bring to its limit, at that check's own worst point, and
    what the estimate is off there is added to all. */
 
-static int local_input(const fw_verdict_variant_verdict *v) {
-    for (int i = 0; i < v->ninput; i++)
-        if (v->input[i].local != 0.0 && v->input[i].high > v->input[i].low) return i;
-    return FW_NONE;
+/* where hinges differ most; false: nothing says that they do */
+static bool most_apart(const fw_verdict_variant_verdict *v, double *x) {
+    bool any = false;
+    for (int i = 0; i < v->ninput; i++) {
+        const fw_verdict_fabrication_input *in = &v->input[i];
+        if (in->local == 0.0 || !(in->high > in->low)) continue;
+        any = true, x[i] = in->high;
+    }
+    return any;
 }
 
 static int worst_point(const fw_verdict_search *s, int check, int points) {
@@ -300,10 +305,9 @@ static int worst_point(const fw_verdict_search *s, int check, int points) {
 }
 
 typedef struct apart {
-    int input, points; /* local_input; those that were run alike */
-    double far;        /* the input where hinges differ most */
-    double *change;    /* (ncheck x nrevolute) of ln U as one hinge alone gets narrower */
-    double *most;      /* (ncheck) ln U of the worst pattern, to first order; NaN: no such check */
+    int points;     /* those that were run alike */
+    double *change; /* (ncheck x nrevolute) of ln U as one hinge alone gets narrower */
+    double *most;   /* (ncheck) ln U of the worst pattern, to first order; NaN: no such check */
     double error;
 } apart;
 
@@ -333,7 +337,7 @@ static fw_status change_each(fw_verdict_search *s, apart *a, int worst) {
     fw_verdict_fabricated_corner unused;
     FW_NEED(ln && x && sign ? ln : NULL);
     memcpy(x, s->fabricated->corner[worst].x, n * sizeof *x);
-    x[a->input] = a->far;
+    most_apart(s->v, x);
     FW_TRY(each_narrower(s, x, sign));
     for (size_t j = 0; j < joints; j++) {
         if (!sign[j]) continue;
@@ -362,7 +366,7 @@ static fw_status run_pattern(fw_verdict_search *s, apart *a, int check, bool *ra
         if (s->device->revolute[j].flexure != FW_NONE)
             sign[j] = a->change[(size_t)check * joints + j] < 0.0 ? 1 : -1;
     memcpy(x, s->fabricated->corner[worst].x, n * sizeof *x);
-    x[a->input] = a->far;
+    most_apart(s->v, x);
     *ran = false;
     for (int p = a->points; p < s->fabricated->ncorner; p++)
         if (memcmp(s->fabricated->corner[p].x, x, n * sizeof *x) == 0 &&
@@ -401,10 +405,9 @@ static fw_status run_patterns(fw_verdict_search *s, apart *a) {
 /* most (nhinge): of a hinge at the worst pattern, 0 where none is known */
 static fw_status hinges_apart(fw_verdict_search *s, double *most) {
     const size_t joints = (size_t)s->device->nrevolute;
-    apart a = {.input = local_input(s->v), .points = s->fabricated->ncorner};
-    if (a.input == FW_NONE || s->first == 0) return FW_OK;
-    const fw_verdict_fabrication_input *in = &s->v->input[a.input];
-    a.far = in->nominal + fmax(in->high - in->nominal, in->nominal - in->low);
+    apart a = {.points = s->fabricated->ncorner};
+    double unused[FW_FABRICATION_INPUTS];
+    if (!most_apart(s->v, unused) || s->first == 0) return FW_OK;
     FW_NEED(a.change = fw_arena_array(s->arena, double, (size_t)s->ncheck *joints));
     FW_NEED(a.most = fw_arena_array(s->arena, double, (size_t)s->ncheck));
     size_t highest = 0, cells = (size_t)a.points * (size_t)s->ncheck;
@@ -510,11 +513,6 @@ static fw_status add_reason(fw_verdict_search *s, fw_verdict_variant_verdict *v)
     return FW_OK;
 }
 
-int fw_verdict_checks(const fw_device *device, const fw_verdict_variant_verdict *v) {
-    return v->nhinge * (device->nscene + 1) + 4 * device->nscene + v->nrequirement +
-           device->nworkspace;
-}
-
 fw_status fw_verdict_search_begin(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                                   const fw_verdict_options *options,
                                   const fw_verdict_variant_verdict *v, fw_verdict_search *s) {
@@ -552,10 +550,12 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
                                    const fw_layout *layout, const fw_verdict_options *options,
                                    fw_verdict_variant_verdict *v) {
     fw_verdict_search s;
+    const char *open; /* what nobody knows; NULL: nothing */
     bool decided, alone = options->corners == FW_CORNERS_SUSPECT && v->nsuspect > 0;
     bool quick = alone || options->corners != FW_CORNERS_AUTO;
     if (v->ninput == 0 || options->corners == FW_CORNERS_NONE) return FW_OK;
     if (v->drawn == FW_REJECT && !options->all_made) return FW_OK;
+    FW_TRY(fw_verdict_not_known(arena, v, &open));
     /* What is undecided as drawn stays so, but for what the flow makes of it without any deviation; a glance, which does not
        refine, is told how much further its corner is from the limit */
     const bool nominal = v->drawn != FW_ACCEPT && !options->all_made && !alone;
@@ -589,8 +589,10 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
         v->decision = FW_INCONCLUSIVE;
         return FW_OK;
     }
+    s.fabricated->reason = open;
+    if (s.fabricated->corner[s.fabricated->at].decision == FW_ACCEPT) return FW_OK;
     FW_TRY(explain(&s));
-    if (s.fabricated->decision == FW_INCONCLUSIVE && !options->unheld)
+    if (s.fabricated->decision == FW_INCONCLUSIVE && !options->unheld && !open)
         FW_TRY(fw_verdict_fabrication_control(&s));
     v->decision = fw_verdict_worse(v->decision, s.fabricated->decision);
     return add_reason(&s, v);

@@ -6,8 +6,13 @@
 #define FW_VERDICT_VERDICT_FABRICATION_H
 #include "mechanism/mechanism.h"
 
-/* corners and wear of a flow at most, and with the two expansions of a scene that heats: 256 corners */
-enum { FW_FLOW_INPUTS = 6, FW_FABRICATION_INPUTS = FW_FLOW_INPUTS + 2 };
+/* corners and wear of a flow at most, and with the two expansions of a scene that heats: 256 corners; and what no corner
+   names and nobody knows, which has none */
+enum {
+    FW_FLOW_INPUTS = 6,
+    FW_RANGED_INPUTS = FW_FLOW_INPUTS + 2,
+    FW_FABRICATION_INPUTS = FW_RANGED_INPUTS + 2
+};
 
 /* one input x, in the SI unit of its quantity. The state that it makes is linear in it:
      edge += edge_m (x - even) + edge_at_m, flare += flare_m (x - drawn) + flare_at_m, relative
@@ -24,9 +29,12 @@ typedef struct fw_verdict_fabrication_input {
     double edge_at_m, flare_at_m, thickness_at, youngs_at, expansion_at, substrate_at;
     double
         local; /* edges of every hinge apart from the others, per unit of x either way; such an input has no
-                     corners of its own */
+                     corners of its own, and ranges from -d to d about a nominal 0 */
     const char *unknown; /* id of the quantity that is not known, for which this range is assumed;
                             NULL: it is known */
+    /* ... and nothing is assumed for it: it has no range and moves nothing, and nothing is accepted before it is known.
+       Such inputs stand last */
+    bool open;
 } fw_verdict_fabrication_input;
 
 typedef struct fw_verdict_fabrication {
@@ -46,6 +54,9 @@ typedef struct fw_verdict_fabricated_device { /* copies; what they do not change
     const char *gone; /* a sentence: a flexure is cut through, a gap closed; NULL */
 } fw_verdict_fabricated_device;
 
+/* is something not known, of which not even a range is assumed? No device can then stand for all that may be made. Test:
+   test_made.c, what_nobody_knows_stays_open; tests/cli/test_measurements.py */
+bool fw_verdict_fabrication_open(const fw_verdict_fabrication_input *input, int ninput);
 fw_verdict_fabrication fw_verdict_fabrication_at(const fw_verdict_fabrication_input *input,
                                                  int ninput, const double *x);
 /* In: the device as drawn (layout may be NULL) in a variant. Solids grow by 2 edge, gaps lose it. Flexures: width, gap,

@@ -442,7 +442,7 @@ typedef struct fw_verdict_search {
 
 enum {
     FW_MOST_APART = 16, /* points where hinges differ */
-    FW_MOST_POINTS = 2 + FW_FABRICATION_INPUTS + (1 << FW_FABRICATION_INPUTS) + FW_MOST_APART
+    FW_MOST_POINTS = 2 + FW_RANGED_INPUTS + (1 << FW_RANGED_INPUTS) + FW_MOST_APART
 };
 #define FW_NO_CORNER (~0u)
 /* checks below this share of their limits are of no account to estimates; so are those across the plane, of which nothing
@@ -527,9 +527,9 @@ fw_status fw_verdict_search_ahead(fw_verdict_search *s, const double *x,
 /* "12.5 um": a value of an input in the unit of its process pack */
 const char *fw_verdict_search_value_text(fw_arena *arena, const fw_verdict_fabrication_input *input,
                                          double x);
-/* held_ranges.c: what would have to be held so that it accepts: fabricated->held and control */
+/* held_ranges.c: what would have to be held so that it accepts: fabricated->held and control; what nobody knows (FW-D694) */
 fw_status fw_verdict_fabrication_control(fw_verdict_search *s);
-
+fw_status fw_verdict_not_known(fw_arena *a, const fw_verdict_variant_verdict *v, const char **text);
 /* ---- verdict_clearance.c: what clearance/ finds, judged: bands, what is asked for, and reasons ---- */
 
 /* one stator alone against all that moves: what shorts the drive */

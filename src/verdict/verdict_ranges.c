@@ -51,7 +51,7 @@ static fw_status differ(fw_arena *arena, const char *id, int first,
     return FW_OK;
 }
 
-fw_status fw_verdict_as_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+static fw_status of_contacts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_verdict_options *options, fw_verdict_variant_verdict *v) {
     const char *id = v->ninput > 0 && options->corners != FW_CORNERS_NONE
                          ? fw_verdict_undrawn_not_said(device, layout, v->variant->flow)
@@ -75,6 +75,27 @@ fw_status fw_verdict_as_made(fw_arena *arena, const fw_device *device, const fw_
     if (same) return FW_OK;
     if (!quick) return differ(arena, id, (int)n, &placed, &etched, v);
     v->decision = FW_INCONCLUSIVE;
+    return FW_OK;
+}
+
+/* what nobody knows holds it open, whatever the devices do that were run */
+fw_status fw_verdict_as_made(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                             const fw_verdict_options *options, fw_verdict_variant_verdict *v) {
+    const char *text;
+    FW_TRY(of_contacts(arena, device, layout, options, v));
+    if (options->corners == FW_CORNERS_NONE || (v->drawn == FW_REJECT && !options->all_made))
+        return FW_OK;
+    FW_TRY(fw_verdict_not_known(arena, v, &text));
+    if (!text) return FW_OK;
+    v->decision = fw_verdict_worse(v->decision, FW_INCONCLUSIVE);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "as made",
+                                                  .flow = v->variant->flow,
+                                                  .number = 694,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
+                                                  .not_by_loads = true,
+                                                  .not_by_width = true,
+                                                  .text = text};
     return FW_OK;
 }
 

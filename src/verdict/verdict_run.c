@@ -307,6 +307,10 @@ bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why) {
                        "that of "
                        "what is made: state their free-angle first";
                 return true;
+            } else if (verdict->variant[i].reason[k].number == 694) {
+                *why = "what the flow makes is not known, and no change of the design makes it "
+                       "known: measure first what the reason names";
+                return true;
             }
     return false;
 }

@@ -211,5 +211,80 @@ class Measurements(unittest.TestCase):
             self.assertIn(item["id"] or item["name"], section)
 
 
+LEVER = """<?xml version="1.0" encoding="UTF-8"?>
+<device xmlns="urn:flexwright:device:1" name="lever">
+  <material ref="silicon-100" thickness="30 um"/>
+  <limits safety-factor="2"/>
+  <flow ref="soi-deep-rie"/>
+  <flexure id="leaf" kind="leaf" length="400 um" width="8 um"/>
+  <mechanism>
+    <body id="arm" x="0 mm" y="0.6 mm" width="120 um" plate-width="0.5 mm" plate-height="0.4 mm"/>
+    <revolute id="A" a="ground" b="arm" b-y="-0.6 mm" hinge="leaf" axis="0 deg"/>
+  </mechanism>
+  <scene name="bend" duration="40 ms">
+    <torque on="arm" value="60 nJ" law="ramp" rise="20 ms"/>
+    <material-damping loss-factor="0.05"/>
+  </scene>
+  <die title="LEVER" release-pitch="40 um" clearance="200 um"/>
+</device>
+"""
+KNOWN = {"litho.edge": ('value="-0.3" u="0.05"', "um"), "drie.A": ('value="0.985" u="0.001"', "1"),
+         "drie.S": ('value="0.05" u="0.005"', "1"), "soi.d": ('value="30" u="0.25"', "um")}
+NAMES = {"litho.edge": "printed edge", "drie.A": "anisotropy", "drie.S": "lag of narrow openings",
+         "soi.d": "thickness"}
+
+
+class Unknown(unittest.TestCase):
+    """who knows less accepts no more: what nobody knows, and nothing is assumed of, leaves the verdict open"""
+
+    def packs(self, here, unknown):
+        lab = pathlib.Path(here) / "lab.xml"
+        device = pathlib.Path(here) / "lever.xml"
+        device.write_text(LEVER)
+        lab.write_text('<process xmlns="urn:flexwright:process:1" flow="soi-deep-rie">\n'
+                       '<source id="m" kind="measured" date="2026-01-01">read</source>\n' + "".join(
+                           f'<q id="{id}" unknown="true" unit="{unit}" status="assumed" src="m"/>\n' if id == unknown
+                           else f'<q id="{id}" {value} unit="{unit}" status="measured" src="m"/>\n'
+                           for id, (value, unit) in KNOWN.items()) + "</process>\n")
+        return device, lab
+
+    def check(self, here, unknown):
+        device, lab = self.packs(here, unknown)
+        result = run("check", device, "--lab", lab, "--json", "--measurements", "all")
+        return result.returncode, json.loads(result.stdout)
+
+    def test_what_nobody_knows_accepts_nothing(self):
+        with tempfile.TemporaryDirectory() as here:
+            status, said = self.check(here, None)
+            self.assertEqual((status, said["verdict"]), (0, "accept"))
+            for id, name in NAMES.items():
+                with self.subTest(id):
+                    status, said = self.check(here, id)
+                    self.assertEqual((status, said["verdict"], said["drawn"]), (4, "inconclusive", "accept"))
+                    flow = said["flows"][0]
+                    made = flow["as_fabricated"]
+                    self.assertEqual(made["verdict"], "inconclusive")
+                    self.assertTrue(f"{name} ({id})" in made["reason"], made["reason"])
+                    one = [i for i in made["inputs"] if i["not_known"]]
+                    self.assertEqual([(i["name"], i["not_known"], i["low"], i["high"]) for i in one],
+                                     [(name, id, None, None)])
+                    worth = flow["measurements"]
+                    self.assertEqual((worth["ranked"][0]["id"], worth["ranked"][0]["name"]), (id, name))
+                    self.assertIn(f"Measure the {name} first ({id}", worth["first"])
+                    self.assertNotIn(id, worth["no_effect"])
+
+    def test_no_yield_is_told_of_it(self):
+        """devices would be drawn without what nobody knows: 100 % of 128 were accepted"""
+        with tempfile.TemporaryDirectory() as here:
+            device, lab = self.packs(here, "litho.edge")
+            device.write_text(LEVER.replace("</device>", '<study name="survive" kind="yield" samples="200">'
+                                            '<uncertain what="flexure[leaf]/@width" mean="8 um" sd="0.02 um"/>'
+                                            "</study></device>"))
+            result = run("study", device, "--lab", lab, "-o", pathlib.Path(here) / "out")
+            self.assertEqual(result.returncode, 3, result.stdout)
+            self.assertIn("printed edge (litho.edge)", result.stderr)
+            self.assertIn("FW-D695", result.stderr)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -154,6 +154,52 @@ static void hinges_of_their_own(void **state) {
     assert_near(apart.edge_m, alike.edge_m, 0);
 }
 
+/* whichever way it is said that hinges may be up to 0.14 um apart, they are that, either way */
+static void hinges_apart_by_what_is_stated(void **state) {
+    (void)state;
+    static const struct {
+        const char *q;
+        double um;
+    } of[] = {{"value=\"0\" u=\"0.07\"", 0.14},
+              {"value=\"0.14\" u=\"0\"", 0.14},
+              {"value=\"0.07\" u=\"0.035\"", 0.14},
+              {"value=\"0.1\" lo=\"0\" hi=\"0.14\"", 0.14},
+              {"value=\"-0.14\" u=\"0\" range=\"edge\"", 0.14},
+              {"value=\"0\" lo=\"-0.14\" hi=\"0.1\" range=\"edge\"", 0.14},
+              {"value=\"0.5\" u=\"0.001\"", 0.502},
+              {"value=\"0\" u=\"0\"", 0.0}};
+    fw_mechanism_variant v = variant_of(50e-6, 1.5e9);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        int n, l = FW_NONE;
+        const fw_verdict_fabrication_input *list = inputs(
+            SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+            fw_arena_printf(arena,
+                            "<q id=\"loc\" %s unit=\"um\" status=\"assumed\" src=\"guess\"/>"
+                            "<corner of=\"local\" name=\"from hinge to hinge\" q=\"loc\"/>",
+                            of[i].q),
+            &v, &n);
+        for (int k = 0; k < n; k++)
+            if (list[k].local != 0) l = k;
+        assert_int_equal(l == FW_NONE, of[i].um == 0);
+        if (l == FW_NONE) continue;
+        assert_near(list[l].high, of[i].um * 1e-6, 1e-15);
+        assert_near(list[l].low, -list[l].high, 0);
+        assert_true(list[l].nominal == 0 && list[l].drawn == 0);
+    }
+}
+
+/* a range that is refused is told beside the one that it leaves */
+static void a_plausible_range_is_named(void **state) {
+    (void)state;
+    diags = fw_diags_new(arena);
+    assert_null(read_pack(arena, SILICON, "<corner of=\"thickness\" name=\"thickness\" q=\"si.d\"/>",
+                          "<q id=\"loc\" value=\"0\" lo=\"-0.14\" hi=\"0.14\" unit=\"um\" status=\"assumed\" src=\"guess\"/>"
+                          "<corner of=\"local\" name=\"from hinge to hinge\" q=\"loc\"/>",
+                          &diags));
+    assert_non_null(said_of(530, "between -0.14 and 0.14 um, outside its plausible range of 0 to "));
+    assert_non_null(said_of(530, "name another range"));
+}
+
 static void mistakes_have_a_place(void **state) {
     (void)state;
     static const char *const wrong[][2] = {
@@ -245,6 +291,89 @@ static void corners_that_move_nothing(void **state) {
     }
 }
 
+static const fw_verdict_fabrication_input *open_of(const fw_verdict_fabrication_input *list, int n,
+                                                   const char *id) {
+    for (int i = 0; i < n; i++)
+        if (list[i].open && strcmp(list[i].unknown, id) == 0) return &list[i];
+    return NULL;
+}
+
+/* what moves the device, is not known, and has no assumed range is an input that has none; what is assumed is none */
+static void what_nobody_knows(void **state) {
+    (void)state;
+    static const char edge[] = "id=\"litho.edge\" value=\"0\" lo=\"-0.15\" hi=\"0.15\"",
+                      A[] = "id=\"drie.A\" value=\"0.995\" lo=\"0.99\" hi=\"1\"",
+                      d[] = "id=\"soi.d\" value=\"50\" u=\"0.5\"",
+                      S[] = "id=\"drie.S\" value=\"0.02\" u=\"0.01\" unit=\"1\" status=\"assumed\"";
+    static const struct {
+        const char *from, *to, *id, *name;
+    } of[] = {{edge, "id=\"litho.edge\" unknown=\"true\"", "litho.edge", "printed edge"},
+              {A, "id=\"drie.A\" unknown=\"true\"", "drie.A", "anisotropy"},
+              {d, "id=\"soi.d\" unknown=\"true\"", "soi.d", "thickness"},
+              {S, "id=\"drie.S\" unknown=\"true\" unit=\"1\" status=\"assumed\"", "drie.S",
+               "lag of narrow openings"}};
+    fw_mechanism_variant v = variant_of(30e-6, 1.5e9);
+    int known, n;
+    inputs("soi-deep-rie", NULL, NULL, &v, &known);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        const fw_verdict_fabrication_input *list =
+            inputs("soi-deep-rie", of[i].from, of[i].to, &v, &n);
+        const fw_verdict_fabrication_input *open = open_of(list, n, of[i].id);
+        assert_non_null(open);
+        fw_process_flow *flow = read_pack(arena, "soi-deep-rie", of[i].from, of[i].to, &diags);
+        fw_process_fixed_point p;
+        assert_int_equal(fw_process_fixed_point_solve(arena, flow, NULL, 30e-6, &p), FW_OK);
+        assert_int_equal(p.open, i != 2); /* then outlines are told to be of the known part; a thickness has none */
+        assert_string_equal(open->name, of[i].name);
+        assert_true(open == &list[n - 1] && fw_verdict_fabrication_open(list, n));
+        assert_int_equal(n, known + (i == 3)); /* a lag stands beside its anisotropy */
+        assert_true(open->low == open->high && open->edge_m == 0 && open->thickness == 0);
+    }
+    const fw_verdict_fabrication_input *list = inputs(SILICON, NULL, NULL, &v, &n);
+    assert_false(fw_verdict_fabrication_open(list, n)); /* rie.A: made.A is assumed */
+    list = inputs(SILICON, "q=\"rie.A\" assumed=\"made.A\"", "q=\"rie.A\"", &v, &n);
+    assert_non_null(open_of(list, n, "rie.A"));
+    list = inputs(SILICON, "<corner of=\"anisotropy\" name=\"anisotropy\" q=\"rie.A\" assumed=\"made.A\"/>",
+                  "", &v, &n);
+    assert_non_null(open_of(list, n, "rie.A")); /* and without a corner at all */
+    size_t length;
+    const char *text = replaced(arena, pack_text(arena, "soi-deep-rie", &length), edge, of[0].to, &length);
+    text = replaced(arena, text, "<corner of=\"edge\" name=\"printed edge\" q=\"litho.edge\"/>", "", &length);
+    size_t nb;
+    const char *base = pack_text(arena, "base", &nb);
+    fw_process_flow *flow;
+    assert_int_equal(fw_process_flow_read(arena, "base.xml", base, nb, "flow.xml", text, length, &diags, &flow), FW_OK);
+    assert_int_equal(fw_process_flow_fabricated(arena, flow, NULL, &v, &list, &n), FW_OK);
+    assert_non_null(open_of(list, n, "litho.edge"));
+}
+
+/* of an unknown lag the least that it takes, none, is in mask and corners alike: (1 - A)(E - D/2), E = (1 + o) D */
+static void an_unknown_lag_takes_its_least(void **state) {
+    (void)state;
+    const double D = 30e-6;
+    fw_mechanism_variant v = variant_of(D, 0);
+    fw_process_flow *flow = read_pack(
+        arena, "soi-deep-rie", "id=\"drie.S\" value=\"0.02\" u=\"0.01\" unit=\"1\" status=\"assumed\"",
+        "id=\"drie.S\" unknown=\"true\" unit=\"1\" status=\"assumed\"", &diags);
+    assert_non_null(flow);
+    measured(flow, "drie.A", 0.985, 0.001);
+    fw_process_fixed_point p;
+    assert_int_equal(fw_process_fixed_point_solve(arena, flow, &plain_facts, D, &p), FW_OK);
+    const double E = (1 + p.cut[0].overrun) * D;
+    assert_true(p.solved && p.open && isnan(p.cut[0].etched_m));
+    assert_near(p.etch_m, 0.015 * (E - 0.5 * D), 1e-15);
+    assert_near(p.cls[p.field].edge.middle_m, 0, 1e-15); /* where it is drawn */
+    assert_true(isnan(p.low_m) && isnan(p.cls[p.field].low.top_m));
+    const fw_verdict_fabrication_input *list;
+    int n;
+    assert_int_equal(fw_process_flow_fabricated(arena, flow, &plain_facts, &v, &list, &n), FW_OK);
+    const int a = named(list, n, "anisotropy");
+    assert_near(list[a].edge_m, E - 0.5 * D, 1e-15);
+    assert_near(list[a].flare_m, -D, 1e-15);
+    assert_near(list[a].even, 0.985, 1e-12);
+    assert_non_null(open_of(list, n, "drie.S"));
+}
+
 /* what is uncertain and has none is told by its name */
 static void corners_that_lack(void **state) {
     (void)state;
@@ -271,6 +400,10 @@ static void corners_that_lack(void **state) {
         assert_non_null(read_pack(arena, shipped[i], NULL, NULL, &diags));
         assert_null(said_of(665, ""));
         assert_null(said_of(674, ""));
+        fw_mechanism_variant v = variant_of(30e-6, 1.5e9);
+        int n;
+        const fw_verdict_fabrication_input *list = inputs(shipped[i], NULL, NULL, &v, &n);
+        assert_false(fw_verdict_fabrication_open(list, n));
     }
 }
 
@@ -402,9 +535,13 @@ int main(void) {
         cmocka_unit_test(a_known_anisotropy_is_compensated),
         cmocka_unit_test(the_copper_flow),
         cmocka_unit_test(hinges_of_their_own),
+        cmocka_unit_test(hinges_apart_by_what_is_stated),
+        cmocka_unit_test(a_plausible_range_is_named),
         cmocka_unit_test(mistakes_have_a_place),
         cmocka_unit_test(expansions_where_a_scene_heats),
         cmocka_unit_test(corners_that_move_nothing),
+        cmocka_unit_test(what_nobody_knows),
+        cmocka_unit_test(an_unknown_lag_takes_its_least),
         cmocka_unit_test(corners_that_lack),
         cmocka_unit_test(numbers_that_are_meant),
         cmocka_unit_test(thickness_follows_its_plan),

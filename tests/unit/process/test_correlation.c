@@ -320,6 +320,15 @@ static void corners(void **state) {
     assert_true(sqrt(var[0][0] / n) < 0.9 * alone);
     assert_relative(in[1].sigma, 0.006, 1e-12);
     assert_relative(in[1].high, 0.962, 1e-12);
+    /* one that is known exactly beside them, and how hinges differ, change nothing of it */
+    for (int kind = 0; kind < 2; kind++) {
+        memcpy(in, was, sizeof in);
+        in[2].sigma = kind ? 0.5e-6 : 0.0, in[2].local = kind;
+        in[2].q.correlated = of_A, in[2].q.ncorrelated = kind;
+        assert_int_equal(fw_process_corners_independent(arena, in, 3), FW_OK);
+        assert_relative(in[1].high, 0.962, 1e-12);
+        assert_near(in[2].high, was[2].high, 0);
+    }
     /* nothing correlated: nothing is touched */
     was[0].q.ncorrelated = was[1].q.ncorrelated = 0;
     memcpy(in, was, sizeof in);

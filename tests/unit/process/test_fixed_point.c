@@ -263,13 +263,14 @@ static void unknown_stays_unknown(void **state) {
     f->ncorner = 0;
     p = solved(f, &plain_facts);
     assert_true(isnan(p->low_m) && isnan(p->high_m) && isnan(p->cut[0].low));
-    /* a known A does not help where the time is not known */
+    /* where the time is not known a known A tells what is taken at least: (1 - A)(E - D/2) with E without any lag */
     f = flow_of(SILICON);
     set(f, "rie.A", 0.97);
     set(f, "rie.S", (double)NAN);
     assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
     assert_true(f->edges.open && isnan(f->edges.cut[0].etched_m));
-    assert_relative(f->bias_m, 1.1e-6, 1e-14);
+    assert_relative(f->bias_m, 1.1e-6 + 0.03 * (55e-6 - 25e-6), 1e-12);
+    assert_non_null(strstr(f->bias_note, "undercuts by at least 0.9 um"));
     assert_false(step_of(f, "S18")->time.computable);
     assert_true(reason(f, "neither its time nor its undercut is"));
     /* nor does a thickness of aluminium that is not known */

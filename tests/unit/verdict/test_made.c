@@ -408,6 +408,40 @@ static void a_requirement_holds_at_every_corner(void **state) {
     assert_true(unrun > 0);
 }
 
+/* nothing that is run stands for what is made while something that moves it is not known: what would be accepted is not,
+   and what would be rejected as made might yet be wider */
+static void what_nobody_knows_stays_open(void **state) {
+    (void)state;
+    for (int worse = 0; worse < 2; worse++)
+        for (int open = 0; open < 2; open++) {
+            set_up s;
+            begin(&s, worse ? "150 uN" : "20 uN");
+            if (worse)
+                s.input[0].nominal = s.input[0].drawn = s.input[0].low = -2e-6,
+                s.input[0].high = -1.9e-6;
+            if (open)
+                s.input[2] = (fw_verdict_fabrication_input){.name = "thickness",
+                                                            .q = {.id = "soi.d", .unit = "um"},
+                                                            .unknown = "soi.d",
+                                                            .open = true};
+            fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+            assert_int_equal(v.drawn, FW_ACCEPT);
+            const fw_verdict_decision known = worse ? FW_REJECT : FW_ACCEPT;
+            assert_int_equal(v.decision, open ? FW_INCONCLUSIVE : known);
+            assert_int_equal(v.variant[0].fabricated->decision, v.decision);
+            int said = 0;
+            for (int i = 0; i < v.variant[0].nreason; i++)
+                said += v.variant[0].reason[i].number == 694 &&
+                        strstr(v.variant[0].reason[i].text, "thickness (soi.d)");
+            assert_int_equal(said, open);
+            assert_int_equal(v.variant[0].nreason, worse + open);
+            const char *why;
+            assert_int_equal(fw_verdict_no_number_helps(&v, &why), open);
+            if (open) assert_null(v.variant[0].fabricated->control);
+            fw_arena_free(s.arena);
+        }
+}
+
 /* sigma against central differences of full runs */
 static void sigma_is_first_order(void **state) {
     (void)state;
@@ -592,6 +626,26 @@ static void hinges_may_differ(void **state) {
     assert_true(decisions[FW_ACCEPT] > 0 && decisions[FW_INCONCLUSIVE] > 0);
 }
 
+/* two inputs by which hinges differ add up to one of both */
+static void hinges_differ_by_all_that_is_stated(void **state) {
+    (void)state;
+    double most[2];
+    for (int two = 0; two < 2; two++) {
+        set_up s;
+        begin(&s, "20 uN");
+        const double d = two ? 0.1e-6 : 0.2e-6;
+        const fw_verdict_fabrication_input apart = {
+            .name = "apart", .q = known(0, "m"), .low = -d, .high = d, .sigma = d / 2, .local = 1};
+        s.input[1] = s.input[2] = apart;
+        if (!two) s.input[1].low = s.input[1].high = 0;
+        fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+        assert_int_equal(v.decision, FW_ACCEPT);
+        most[two] = v.variant[0].fabricated->hinge[0].most;
+        fw_arena_free(s.arena);
+    }
+    assert_relative(most[1], most[0], 1e-9);
+}
+
 /* one narrower hinge of two that share a flexure: the other one stays as it is */
 static void a_hinge_alone_is_narrower(void **state) {
     (void)state;
@@ -654,9 +708,11 @@ int main(void) {
         cmocka_unit_test(each_hinge_has_its_own_corner),
         cmocka_unit_test(a_requirement_holds_at_every_corner),
         cmocka_unit_test(sigma_is_first_order),
+        cmocka_unit_test(what_nobody_knows_stays_open),
         cmocka_unit_test(what_must_be_held_is_enough),
         cmocka_unit_test(what_counts_most_is_held),
         cmocka_unit_test(hinges_may_differ),
+        cmocka_unit_test(hinges_differ_by_all_that_is_stated),
         cmocka_unit_test(a_hinge_alone_is_narrower),
         cmocka_unit_test(made_as_drawn),
         cmocka_unit_test(first_look_decides_alike),
