@@ -36,7 +36,8 @@ typedef struct kept { /* its arena holds all of it; NULL: nothing is kept here *
     size_t nkey;
     ending ending;
     long number; /* among all that its thread kept */
-    double steady; /* what it rests on is stable, and so much of its stiffness is left; 0: not known */
+    double
+        steady; /* what it rests on is stable, and so much of its stiffness is left; 0: not known */
 } kept;
 
 struct fw_dynamics_tapes {

@@ -358,7 +358,8 @@ void fw_report_preview_scene_box(const fw_mechanism *m, const fw_device_scene *s
     for (int i = 0; s && i < s->ncomb; i++) {
         const fw_device_comb *c = &s->comb[i];
         /* of the fingers on either side of its point, whatever way they lie */
-        double half = fmax(comb_length(c), (c->fingers + 1) * (fw_device_comb_width_m(c) + c->gap_m));
+        double half =
+            fmax(comb_length(c), (c->fingers + 1) * (fw_device_comb_width_m(c) + c->gap_m));
         if (c->kind == FW_ELECTRODES_PLATE) half = 0.5 * c->length_m + c->gap_m;
         add(box, &was, reach, m, c->body_b, c->bx_m - half, c->by_m - half);
         add(box, &was, reach, m, c->body_b, c->bx_m + half, c->by_m + half);
