@@ -444,8 +444,18 @@ double fw_verdict_motion_lasting_below(const fw_mechanism *m) {
    along them, whose phases a percent of stiffness changes (quasi_static.c). Where the
    step is not known and nothing else bounds it, as beside buckling and pull-in, where the next level may have no
    equilibrium, the utilisation may be off by half: a verdict is then neither. Where exact beams are so far from it
-   that they may move otherwise, it may be off by all. */
+   that they may move otherwise, it may be off by all. Where the peak is several times what was compared, as where a device
+   jumps at first and rests for most of the scene, nothing was compared of it, and it may be off by all, too. */
 const double fw_verdict_model_not_known = 0.5;
+static const double fw_compared_at_least = 1.0 / 3; /* of the peak strain */
+
+static double peak_strain(const fw_mechanism *m, const fw_dynamics_motion *x) {
+    const fw_verdict_strain_monitor *saw = x->observed;
+    double most = 0;
+    for (int k = 0; saw && k < m->nhinge; k++)
+        most = fmax(most, saw->hinge[k].strain.value);
+    return most;
+}
 
 static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     const fw_statics_level_step *s = x->level;
@@ -461,6 +471,7 @@ static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
         off = fmax(off, fabs(s->up.strain[k] - s->at.strain[k]));
         largest = fmax(largest, s->at.strain[k]);
     }
+    if (largest < fw_compared_at_least * peak_strain(m, x)) return 1;
     double computed = fmax(largest > 0 ? off / largest : 0, s->relative) + common;
     bool swings = x->loads && !x->loads->quasi_static;
     return s->used == FW_HINGE_REVOLUTE && swings ? fmax(usual, computed) : computed;
