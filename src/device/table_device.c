@@ -246,7 +246,8 @@ static const fw_xml_attribute_row flexure_rows[] = {
      .sentence = "Subtended by the arc (csfh only)."},
     {"width", THIN, REQUIRED,
      .sentence = "Of the thin part, in the wafer plane; with width-middle at its two ends, of a "
-                 "path where it begins."},
+                 "path where it begins. At most a quarter of the length: formulas of beams hold "
+                 "for no stouter one (FW-D059)."},
     {"width-middle", THIN, .fallback = "width",
      .sentence =
          "Half way along a csfh or leaf; each edge is then one arc through the ends and the "
