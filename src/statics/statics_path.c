@@ -385,11 +385,12 @@ static double own_cosine(const follower *f) {
            sqrt((scale * aa + a->rate * a->rate) * (scale * bb + b->rate * b->rate));
 }
 
-/* small enough that the tangent turns little and nothing jumps; a switch may bend the path */
+/* small enough that the tangent turns little and nothing jumps; a switch may bend the path. Paths that end where they become
+   unstable have a unit of their own, a gap */
 static bool acceptable(const follower *f, double length) {
     if (length < 1e-3 && switches_between(f)) return true;
     double cosine = product(f->w, f->at.tangent, f->next.tangent) + f->at.rate * f->next.rate;
-    return cosine >= fw_turn && own_cosine(f) >= fw_own_turn &&
+    return cosine >= fw_turn && (f->w->until_unstable || own_cosine(f) >= fw_own_turn) &&
            largest_move(f) <= fw_most_move * f->w->reach;
 }
 
