@@ -444,8 +444,9 @@ double fw_verdict_motion_lasting_below(const fw_mechanism *m) {
    along them, whose phases a percent of stiffness changes (quasi_static.c). Where the
    step is not known and nothing else bounds it, as beside buckling and pull-in, where the next level may have no
    equilibrium, the utilisation may be off by half: a verdict is then neither. Where exact beams are so far from it
-   that they may move otherwise, it may be off by all. Where the peak is several times what was compared, as where a device
-   jumps at first and rests for most of the scene, nothing was compared of it, and it may be off by all, too. */
+   that they may move otherwise, it may be off by all. Where the peak of what heat or stress of the layer presses is several
+   times what was compared, as where it jumps at first and rests for most of the scene, nothing was compared of it, and it
+   may be off by all, too. (What merely swings is as it is at another instant, but for its size.) */
 const double fw_verdict_model_not_known = 0.5;
 static const double fw_compared_at_least = 1.0 / 3; /* of the peak strain */
 
@@ -471,7 +472,8 @@ static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
         off = fmax(off, fabs(s->up.strain[k] - s->at.strain[k]));
         largest = fmax(largest, s->at.strain[k]);
     }
-    if (largest < fw_compared_at_least * peak_strain(m, x)) return 1;
+    if (fw_effects_has_growth(x->loads) && largest < fw_compared_at_least * peak_strain(m, x))
+        return 1;
     double computed = fmax(largest > 0 ? off / largest : 0, s->relative) + common;
     bool swings = x->loads && !x->loads->quasi_static;
     return s->used == FW_HINGE_REVOLUTE && swings ? fmax(usual, computed) : computed;
