@@ -6,6 +6,7 @@ import { get } from "./api.js";
 import { begin, inputKey, mayChange, requestKey, Shown } from "./belong.js";
 import { isPresent } from "./design.js";
 import { announce, button, h, icon, select, setOptions } from "./dom.js";
+import { changed } from "./file.js";
 import { duration, number } from "./format.js";
 import { fileOf, forget, hasFile, run } from "./jobs.js";
 import { on, state } from "./store.js";
@@ -173,7 +174,7 @@ export class AsRun {
 
     /** What a log that begins now is of, and no file has: whoever goes on in the terminal needs it. */
     #onlyHere() {
-        const text = state.text !== (state.file ? state.file.text : state.base);
+        const text = changed();
         const packs = Object.keys(state.lab).length > 0;
         if (!text && !packs) return "";
         const what = [text ? "a text that is not saved" : null, packs ? "numbers of the laboratory that are in this page" : null].filter(Boolean).join(" and ");

@@ -24,7 +24,7 @@ function read(answer) {
 const written = (text) => (state.file?.eol === "\r\n" ? text.replaceAll("\n", "\r\n") : text);
 
 /** The text is another one than the file's. */
-const changed = () => state.text !== (state.file === null ? state.base : state.file.text);
+export const changed = () => state.text !== (state.file === null ? state.base : state.file.text);
 
 /** There is something here that is nowhere else, be it in the text, still in a field or held by hand. */
 export const unsaved = () => changed() || state.entered.size > 0 || state.edits.length > 0 || anyHeld();

@@ -380,12 +380,13 @@ export class Motion {
         const b = m.q[Math.min(i + 1, m.q.length - 1)];
         this.mechanism.pose(posesOf(p, a.map((x, k) => x + f * (b[k] - x))), { factors: between(p.motion.load_factor, p.loads.length, i, f, 1), tensions: between(p.motion.tension_N, p.motion.tension_N?.length ?? 0, i, f, 0) });
         this.#pinned();
-        this.mechanism.colour(this.#turned(p).shares, state.hinge);
+        const now = this.#turned(p);
+        this.mechanism.colour(now.shares, state.hinge);
         this.slider.value = Math.round((1000 * this.time) / this.#end());
         const text = si(this.time, "s", 3);
         put(this.slider, { "aria-valuetext": text });
         say(this.clock, `${text} / ${si(this.#end(), "s", 3)}`);
-        if (this.plotted?.motion) this.#cursors();
+        if (this.plotted?.motion) this.#cursors(this.plotted === p ? now : undefined);
     }
 
     /** Of an answer at that time: its sample, how far each pin has turned, and what that uses of its limit. */
@@ -398,10 +399,9 @@ export class Motion {
     }
 
     /** Of the plots, and what their headings say at that time. */
-    #cursors() {
+    #cursors({ i, angles, shares } = this.#turned(this.plotted)) {
         const p = this.plotted;
         const m = p.motion;
-        const { i, angles, shares } = this.#turned(p);
         const k = state.hinge === null ? -1 : p.pins.findIndex((x) => x.id === state.hinge);
         const worst = [...shares].reduce((best, x) => (x[1] !== null && x[1] > (best?.[1] ?? -1) ? x : best), null);
         const ms = this.time * 1e3;
