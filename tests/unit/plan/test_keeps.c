@@ -7,6 +7,7 @@
 static fw_plan *judged(const char *file) {
     fw_plan_options options = fw_plan_options_default();
     options.verdict.corners = FW_CORNERS_NONE;
+    options.verdict.with_advice = false; /* where it would begin is said by what is judged */
     options.measurements = FW_MEASUREMENTS_NONE, options.without_masks = options.without_changes = true;
     fw_plan *plan = fw_plan_new(&options);
     const char *name = fw_arena_printf(plan->arena, "%s/tests/data/%s", FW_TEST_SOURCE_DIR, file);

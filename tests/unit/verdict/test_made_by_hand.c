@@ -123,10 +123,11 @@ static fw_mechanism_variant silicon(double deep) {
     return v;
 }
 
-static fw_verdict_variant_verdict run(fw_arena *arena, const fw_device *d, const fw_mechanism_variant *variant) {
+static fw_verdict_variant_verdict run(fw_arena *arena, const fw_device *d, const fw_mechanism_variant *variant,
+                                      double rtol) {
     fw_diags diags = fw_diags_new(arena);
     fw_verdict_variant_verdict v = {.variant = variant};
-    const fw_verdict_options options = {.motion = {.rtol = 1e-9, .samples = 65}};
+    const fw_verdict_options options = {.motion = {.rtol = rtol, .samples = 65}};
     const fw_mechanism *m;
     assert_int_equal(fw_mechanism_build(arena, d, NULL, variant, &diags, &m), FW_OK);
     fw_status status = fw_verdict_variant(arena, d, NULL, m, &options, &diags, &v);
@@ -136,7 +137,7 @@ static fw_verdict_variant_verdict run(fw_arena *arena, const fw_device *d, const
 
 static void as_written_by_hand(void **state) {
     (void)state;
-    const int devices = test_cases(24, 8);
+    const int devices = test_fewest(test_cases(24, 8), 3); /* of three one has a path */
     int moved = 0;
     for (int n = 0; n < devices; n++) {
         fw_arena *arena = fw_arena_new(0);
@@ -148,8 +149,9 @@ static void as_written_by_hand(void **state) {
         fw_verdict_fabricated_device d;
         assert_int_equal(fw_verdict_fabrication_build(arena, drawn, NULL, &as_drawn, &made, &d), FW_OK);
         if (d.gone) fail_msg("%s", d.gone);
-        fw_verdict_variant_verdict was = run(arena, drawn, &as_drawn), got = run(arena, &d.device, &d.variant),
-                                   want = run(arena, by_hand, &as_made);
+        /* of the drawing only that it has moved by more than a thousandth is asked */
+        fw_verdict_variant_verdict was = run(arena, drawn, &as_drawn, 1e-5), got = run(arena, &d.device, &d.variant, 1e-9),
+                                   want = run(arena, by_hand, &as_made, 1e-9);
         assert_int_equal(got.nhinge, want.nhinge);
         for (int k = 0; k < want.nhinge; k++) {
             /* the integration at its tolerance, over some touches and lettings-go */
