@@ -191,6 +191,12 @@ describe("a range", () => {
             assert.equal(c.state, told.verdict);
             assert.equal(c.value, told.governing.utilisation * 100);
         }
+        // the scale beside it has numbers: from nothing to the limit of what is used, all of them inside the picture
+        const bar = await page.locator(".explore-bar text").allTextContents();
+        assert.ok(bar.includes("limit") && bar.includes("100 %") && bar.includes("0") && bar.length > 4, String(bar));
+        const [all, box] = await Promise.all([".explore-plot", ".explore-bar"].map((x) => page.locator(x).boundingBox()));
+        assert.ok(box.x > all.x && box.x + box.width <= all.x + all.width && box.y >= all.y && box.y + box.height <= all.y + all.height, JSON.stringify([all, box]));
+        if (process.env.FW_SHOT) await page.screenshot({ path: process.env.FW_SHOT });
         await page.evaluate(axeSource);
         const found = await page.evaluate(() => globalThis.axe.run("#panel-explore", { resultTypes: ["violations"] }));
         assert.deepEqual(found.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes.map((n) => n.html)]), []);

@@ -16,6 +16,7 @@ const MOST_SIGNS = 60;
 const MARK = 6; // pixels that a sign at the end of the range needs beside it
 const PAD = 0.06;
 const FLAT = 1e-6; // relative: less is no change
+const BAR = { room: 76, gap: 10, width: 12, parts: 32 }; // of a map's colour scale, at its right
 
 export class ExplorePlot {
     /** onlook(x) or onlook([x, y]): somebody points at it, in the units of the inputs */
@@ -47,8 +48,8 @@ export class ExplorePlot {
         this.svg.replaceChildren(...(this.what.kind === "line" ? this.#line(w, height) : this.#map(w, height)));
     }
 
-    #axes(w, height, x, y, ylabel) {
-        const [right, bottom] = [w - RIGHT, height - BELOW];
+    #axes(w, height, x, y, ylabel, beside = RIGHT) {
+        const [right, bottom] = [w - beside, height - BELOW];
         const px = (v) => LEFT + ((v - x.from) / (x.to - x.from)) * (right - LEFT);
         const py = (v) => bottom - ((v - y.from) / (y.to - y.from)) * (bottom - TOP);
         this.from = null;
@@ -97,9 +98,8 @@ export class ExplorePlot {
 
     #map(w, height) {
         const { x, y, cells, limit, at } = this.what;
-        const { out, px, py, right, bottom } = this.#axes(w, height, x, y, `${y.label}${y.unit ? ` (${y.unit})` : ""}`);
-        const values = cells.map((c) => c.value).filter(Number.isFinite);
-        const [low, high] = limit !== null ? [0, limit] : values.length ? [Math.min(...values), Math.max(...values)] : [0, 1];
+        const { out, px, py, right, bottom } = this.#axes(w, height, x, y, `${y.label}${y.unit ? ` (${y.unit})` : ""}`, BAR.room);
+        const [low, high] = coloured(cells, limit);
         const inside = s("g", { "clip-path": "url(#explore-area)" });
         out.push(s("clipPath", { id: "explore-area" }, s("rect", { x: LEFT, y: TOP, width: right - LEFT, height: bottom - TOP })));
         for (const c of cells) { // coarse ones first, finer ones over them
@@ -112,13 +112,37 @@ export class ExplorePlot {
         }
         if (Number.isFinite(x.now) && Number.isFinite(y.now)) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}M${LEFT} ${py(y.now)}H${right}` }));
         if (at) inside.append(s("circle", { class: "explore-at", cx: px(at[0]), cy: py(at[1]), r: 7 }));
-        out.push(inside);
+        out.push(inside, ...this.#bar(right + BAR.gap, bottom, low, high));
         this.from = (ex, ey) => [
             Math.min(Math.max(x.from + ((ex - LEFT) / (right - LEFT)) * (x.to - x.from), x.from), x.to),
             Math.min(Math.max(y.from + ((bottom - ey) / (bottom - TOP)) * (y.to - y.from), y.from), y.to),
         ];
         return out;
     }
+
+    /** The colours of a map with the values they stand for, and where among them the limit is. */
+    #bar(x, bottom, low, high) {
+        const { limit, unit, cells } = this.what;
+        if (!cells.some((c) => Number.isFinite(c.value))) return [];
+        const at = (v) => bottom - ((v - low) / (high - low || 1)) * (bottom - TOP);
+        const step = (bottom - TOP) / BAR.parts, end = x + BAR.width;
+        const out = Array.from({ length: BAR.parts }, (_, i) => s("rect", { x, y: bottom - (i + 1) * step, width: BAR.width, height: step + 0.4, fill: scale((i + 0.5) / BAR.parts) }));
+        const text = (y, words, cls = "explore-tick") => s("text", { class: cls, x: end + 4, y }, words);
+        for (const v of high > low ? ticks(low, high, Math.max(Math.floor((bottom - TOP) / 40), 2)) : [low])
+            if (limit === null || Math.abs(at(v) - at(limit)) > 14) out.push(s("path", { class: "explore-grid", d: `M${end} ${at(v)}h3` }), text(at(v) + 4, number(v, 3)));
+        if (limit !== null) out.push(s("path", { class: "explore-limit", d: `M${x} ${at(limit)}H${end + 3}` }), text(Math.max(at(limit) + 4, TOP + 10), "limit", "explore-word"), text(Math.max(at(limit) + 18, TOP + 24), `${number(limit, 3)}${unit ? ` ${unit}` : ""}`));
+        else if (unit) out.push(text(bottom + 16, unit));
+        return [s("g", { class: "explore-bar" }, s("title", {}, `colours from ${number(low, 3)} to ${number(high, 3)} ${unit}${limit !== null ? `, limit ${number(limit, 3)}` : ""}`), ...out)];
+    }
+}
+
+/** The values that a map's darkest and lightest colour stand for: up to the limit, and all there are where what is accepted lies
+ *  beyond it (a limit that asks for at least so much) or nothing is limited. */
+function coloured(cells, limit) {
+    const good = cells.filter((c) => Number.isFinite(c.value)), values = good.map((c) => c.value);
+    if (limit !== null && !good.some((c) => c.state === "accept" && c.value > limit)) return [0, limit];
+    if (limit !== null) values.push(limit);
+    return values.length ? [Math.min(...values), Math.max(...values)] : [0, 1];
 }
 
 /** Runs of neighbours that all have it. */
@@ -138,6 +162,6 @@ function runs(points, has) {
 /** What colours and signs of a picture mean. */
 export function legendOf(kind) {
     const sign = (state) => h("span", { class: "explore-key" }, s("svg", { viewBox: "-5 -5 10 10", class: "explore-key-sign", "aria-hidden": "true" }, s("path", { class: `explore-sign ${state}`, d: SIGNS[state] })), WORDS[state]);
-    if (kind === "map") return [h("span", { class: "explore-key" }, "dark is little, yellow is the limit; hatched: rejected, a dash: inconclusive, crossed: refused; lines: now")];
+    if (kind === "map") return [h("span", { class: "explore-key" }, "the scale at the right says what a colour stands for; hatched: rejected, a dash: inconclusive, crossed: refused; lines: now")];
     return [sign("accept"), sign("inconclusive"), sign("reject"), h("span", { class: "explore-key" }, h("i", { class: "explore-band-key" }), "error band"), h("span", { class: "explore-key" }, h("i", { class: "explore-now-key" }), "as it is now")];
 }
