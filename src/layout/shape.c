@@ -343,7 +343,8 @@ fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
     const fw_geometry_region *solid = &d->shapes[body].solid;
     fw_geometry_region drawn = {&d->raw[body], 1};
     const char *label = fw_layout_body_label(d, body);
-    double all = 0;
+    double all = 0, most = 0;
+    int worst = 0; /* the hinge that takes most of it */
     char part[32];
     FW_NEED(label);
     for (int j = 0; j < d->device->nrevolute && !d->said; j++) {
@@ -359,6 +360,7 @@ fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
             area += fw_geometry_contour_area(&lost.contour[i]);
         if (area < told_m2) continue;
         all += area;
+        if (area > most) most = area, worst = j;
         char r[32], um2[32], x[32], y[32];
         fw_diag_note(d->diags, 537, fw_layout_body_place(d, body),
                      "%s is drawn into the round place of %s%s, %s um about (%s, %s) um, and "
@@ -374,7 +376,8 @@ fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
             d->diags, 537, fw_layout_body_place(d, body),
             "%s is drawn into the round places of its hinges or of others, and %s %% of what is "
             "drawn is neither on the masks nor in its mass: frequencies and weight are those of "
-            "what is left (-v says where); end what is drawn outside of them",
-            label, fw_number_text(part, sizeof part, 100 * share, 2));
+            "what is left. Most of it is at %s%s; end what is drawn outside of them",
+            label, fw_number_text(part, sizeof part, 100 * share, 2),
+            FW_NAMED("hinge", d->device->revolute[worst].id));
     return FW_OK;
 }

@@ -278,6 +278,7 @@ static void what_hinges_take_is_said(void **state) {
         if (d.diags.item[i].number == 537 && d.diags.item[i].severity == FW_WARNING) {
             said = strstr(d.diags.item[i].message, ", and ");
             if (!said || sscanf(said, ", and %lf %%", &percent) != 1) fail_msg("%s", d.diags.item[i].message);
+            assert_non_null(strstr(d.diags.item[i].message, "Most of it is at hinge "));
             warned++;
         }
     assert_int_equal(warned, 1);
