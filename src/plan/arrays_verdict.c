@@ -9,23 +9,6 @@
 
 /* ---- the description ---- */
 
-/* "kg m s^-2" */
-static const char *si_unit(fw_arena *arena, fw_quantity_dimension d) {
-    const struct {
-        const char *symbol;
-        int power;
-    } part[] = {{"kg", d.kg}, {"m", d.m},     {"s", d.s},     {"A", d.A},
-                {"K", d.K},   {"mol", d.mol}, {"rad", d.rad}, {"EUR", d.money}};
-    fw_text text = fw_text_new(arena);
-    for (size_t i = 0; i < COUNT(part); i++) {
-        if (part[i].power == 0) continue;
-        fw_text_printf(&text, "%s%s", text.length ? " " : "", part[i].symbol);
-        if (part[i].power != 1) fw_text_printf(&text, "^%d", part[i].power);
-    }
-    if (text.length == 0) fw_text_add(&text, "1");
-    return fw_text_end(&text) == FW_OK ? text.data : NULL;
-}
-
 typedef struct parameter_row {
     const char *id, *unit, *written_unit, *doc;
     double value, min, max;
@@ -54,11 +37,12 @@ fw_status fw_plan_numbers_parameters(fw_design *d, fw_plan_arrays *to) {
     for (size_t i = 0; i < n; i++) {
         const fw_device_parameter *p = &device->parameter[i];
         label[i] = p->name;
-        row[i] = (parameter_row){p->name,  si_unit(to->arena, p->dimension),
+        row[i] = (parameter_row){p->name,  fw_quantity_dimension_si(to->arena, p->dimension),
                                  p->unit,  p->doc,
                                  p->value, p->min,
                                  p->max,   p->overridden};
         FW_NEED(row[i].unit);
+        if (!row[i].unit[0]) row[i].unit = "1";
     }
     fw_plan_array_columns(to, parameter_columns, COUNT(parameter_columns), row, n, sizeof *row,
                           label);

@@ -79,21 +79,57 @@ const char *fw_quantity_dimension_unit(fw_quantity_dimension d) {
     return row ? row->unit : NULL;
 }
 
-const char *fw_quantity_dimension_text(fw_arena *arena, fw_quantity_dimension d) {
-    const named *row = find(d);
-    if (row) return row->name;
+/* "kg m^2": a product of base units; "": of nothing */
+static const char *product(fw_arena *arena, fw_quantity_dimension d) {
     const struct {
         const char *symbol;
         int exponent;
-    } part[] = {{"m", d.m}, {"kg", d.kg},   {"s", d.s},     {"A", d.A},
-                {"K", d.K}, {"mol", d.mol}, {"rad", d.rad}, {"EUR", d.money}};
+    } part[] = {{"kg", d.kg}, {"m", d.m},     {"s", d.s},     {"A", d.A},
+                {"K", d.K},   {"mol", d.mol}, {"rad", d.rad}, {"EUR", d.money}};
     fw_text text = fw_text_new(arena);
+    fw_text_add(&text, "");
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         if (part[i].exponent == 0) continue;
         fw_text_printf(&text, "%s%s", text.length ? " " : "", part[i].symbol);
         if (part[i].exponent != 1) fw_text_printf(&text, "^%d", part[i].exponent);
     }
-    return fw_text_end(&text) == FW_OK ? text.data : "unnamed dimension";
+    return fw_text_end(&text) == FW_OK ? text.data : NULL;
+}
+
+const char *fw_quantity_dimension_text(fw_arena *arena, fw_quantity_dimension d) {
+    const named *row = find(d);
+    const char *text = row ? row->name : product(arena, d);
+    return text && text[0] ? text : "unnamed dimension";
+}
+
+/* what the field writes in a word of its own, or as a ratio of such words */
+static const struct {
+    const char *symbol;
+    fw_quantity_dimension of;
+} si_words[] = {
+    {"N", {.kg = 1, .m = 1, .s = -2}},
+    {"Pa", {.kg = 1, .m = -1, .s = -2}},
+    {"N m", {.kg = 1, .m = 2, .s = -2}},
+    {"N/m", {.kg = 1, .s = -2}},
+    {"N s/m", {.kg = 1, .s = -1}},
+    {"N m/rad", {.kg = 1, .m = 2, .s = -2, .rad = -1}},
+    {"N m s/rad", {.kg = 1, .m = 2, .s = -1, .rad = -1}},
+    {"W", {.kg = 1, .m = 2, .s = -3}},
+    {"V", {.kg = 1, .m = 2, .s = -3, .A = -1}},
+    {"ohm", {.kg = 1, .m = 2, .s = -3, .A = -2}},
+    {"F", {.kg = -1, .m = -2, .s = 4, .A = 2}},
+    {"T", {.kg = 1, .s = -2, .A = -1}},
+    {"1/s", {.s = -1}},
+    {"m/s", {.m = 1, .s = -1}},
+    {"m/s^2", {.m = 1, .s = -2}},
+    {"rad/s", {.rad = 1, .s = -1}},
+    {"kg/m^3", {.kg = 1, .m = -3}},
+};
+
+const char *fw_quantity_dimension_si(fw_arena *arena, fw_quantity_dimension d) {
+    for (size_t i = 0; i < sizeof si_words / sizeof si_words[0]; i++)
+        if (fw_quantity_dimension_equal(si_words[i].of, d)) return si_words[i].symbol;
+    return product(arena, d);
 }
 
 const char *fw_quantity_dimension_phrase(fw_arena *arena, fw_quantity_dimension d) {

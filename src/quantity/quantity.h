@@ -18,6 +18,8 @@ typedef struct fw_quantity_dimension {
 bool fw_quantity_dimension_equal(fw_quantity_dimension a, fw_quantity_dimension b);
 /* "m s^-1"; or the name of a known one: "length", "torsional stiffness" */
 const char *fw_quantity_dimension_text(fw_arena *arena, fw_quantity_dimension d);
+/* its unit in SI, which fw_quantity_unit_parse takes: "N", "N m/rad", "kg m^2"; "": of a pure number; NULL: no memory */
+const char *fw_quantity_dimension_si(fw_arena *arena, fw_quantity_dimension d);
 
 /* one row of the unit table: "um", "mA/cm2" is composed of rows. `offset` for Cel only. */
 typedef struct fw_quantity_unit {

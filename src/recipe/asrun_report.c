@@ -104,7 +104,9 @@ static fw_status deviations(const fw_process_flow *flow, const fw_recipe_asrun *
         cell(out, list[i].planned);
         fw_text_add(out, "<td class=\"bad\">");
         fw_text_escaped(out, list[i].actual);
-        if (list[i].repeated) fw_text_add(out, " (repeated later)");
+        const char *later =
+            fw_recipe_asrun_taken_back(run, e) ? " (replaced)" : " (repeated later)";
+        if (list[i].repeated) fw_text_add(out, later);
         fw_text_add(out, "</td><td>");
         fw_text_escaped(out, e->by);
         if (e->note) {
@@ -263,8 +265,7 @@ static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
     fw_text_add(out,
                 "<h2>Entries</h2>\n<table><thead><tr><th>Step</th><th>Wafer</th><th>Start</th>"
                 "<th>At the machine, planned for what was set</th><th>Actual</th><th>By; tool; "
-                "instrument</th><th>Values and "
-                "settings</th></tr></thead><tbody>\n");
+                "instrument</th><th>Values and settings</th></tr></thead><tbody>\n");
     for (int s = 0; s < flow->nstep; s++)
         for (int i = 0; i < run->nentry; i++) {
             const fw_recipe_asrun_entry *e = &run->entry[i];
@@ -274,6 +275,7 @@ static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
                            last && fw_recipe_asrun_overtaken(run, e, e->wafer)
                                ? " (overtaken, to be run again)"
                            : last                               ? ""
+                           : fw_recipe_asrun_taken_back(run, e) ? " (replaced by a later line)"
                            : fw_recipe_asrun_is_gone_on(run, e) ? " (gone on with later)"
                                                                 : " (repeated later)");
             cell(out, e->wafer ? e->wafer : "lot");

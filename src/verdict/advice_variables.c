@@ -14,23 +14,6 @@ static const double factor_without_bounds = 4.0;
    in which nothing moves is the slowest of all to judge */
 static const double nearest_to_0 = 0.01;
 
-/* of a dimension in SI: "kg m s-2"; a parameter may be computed from others of other dimensions, and has no unit then */
-static const char *si_unit(fw_arena *arena, fw_quantity_dimension d) {
-    const struct {
-        const char *symbol;
-        int power;
-    } part[] = {{"kg", d.kg}, {"m", d.m},     {"s", d.s},     {"A", d.A},
-                {"K", d.K},   {"mol", d.mol}, {"rad", d.rad}, {"EUR", d.money}};
-    fw_text text = fw_text_new(arena);
-    fw_text_add(&text, "");
-    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
-        if (part[i].power == 0) continue;
-        fw_text_printf(&text, "%s%s", text.length ? " " : "", part[i].symbol);
-        if (part[i].power != 1) fw_text_printf(&text, "%d", part[i].power);
-    }
-    return text.failed ? NULL : text.data;
-}
-
 /* The unit that the file writes an attribute or parameter in; "": none. The file is opened once. */
 static fw_status written_unit(fw_verdict_trial *trial, const char *path,
                               fw_quantity_dimension dimension, const char **text,
@@ -90,7 +73,7 @@ fw_status fw_verdict_value_of_parameter(fw_verdict_trial *trial, const fw_device
     if (!own) h->unit_text = "";
     if (!own && !pure) FW_TRY(written_unit(trial, p->name, p->dimension, &h->unit_text, &h->unit));
     if (!h->unit_text[0]) {
-        FW_NEED(h->unit_text = si_unit(trial->arena, p->dimension));
+        FW_NEED(h->unit_text = fw_quantity_dimension_si(trial->arena, p->dimension));
         h->unit = (fw_quantity_unit){.factor = 1, .dimension = p->dimension};
     }
     double ends[2] = {p->min, p->max}, v = h->now = fw_quantity_unit_from_si(&h->unit, p->value);
@@ -197,7 +180,7 @@ static fw_status at_end(fw_verdict_trial *trial, int i, int k, const fw_device *
     kept = &trial->end[2 * i + k];
     if (!kept->read && to != p->value) {
         const fw_verdict_restated *r = &trial->options->restated;
-        const char *unit = si_unit(trial->arena, p->dimension);
+        const char *unit = fw_quantity_dimension_si(trial->arena, p->dimension);
         fw_verdict_variant_verdict *variant = fw_arena_array(
             trial->arena, fw_verdict_variant_verdict, (size_t)trial->verdict->nvariant);
         const char *text =

@@ -23,6 +23,26 @@ static void dimensions_have_names(void **state) {
     fw_arena_free(arena);
 }
 
+/* the unit in SI of any dimension is read again as that dimension and as one of it, and is a word where the field has one */
+static void units_in_si_are_read_again(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    assert_string_equal(fw_quantity_dimension_si(arena, (fw_quantity_dimension){1, 1, -2, 0, 0, 0, 0, 0}), "N");
+    assert_string_equal(fw_quantity_dimension_si(arena, (fw_quantity_dimension){2, 1, -2, 0, 0, 0, -1, 0}), "N m/rad");
+    assert_string_equal(fw_quantity_dimension_si(arena, (fw_quantity_dimension){2, 1, 0, 0, 0, 0, 0, 0}), "kg m^2");
+    assert_string_equal(fw_quantity_dimension_si(arena, (fw_quantity_dimension){0}), "");
+    for (int n = 0; n < 7 * 5 * 7 * 3 * 3; n++) {
+        const fw_quantity_dimension d = {(int8_t)(n % 7 - 3), (int8_t)(n / 7 % 5 - 2), (int8_t)(n / 35 % 7 - 3),
+                                         (int8_t)(n / 245 % 3 - 1), 0, 0, (int8_t)(n / 735 % 3 - 1), 0};
+        const char *text = fw_quantity_dimension_si(arena, d);
+        fw_quantity_unit unit;
+        if (!text[0]) continue;
+        if (!fw_quantity_unit_parse(text, strlen(text), &unit, NULL, NULL)) fail_msg("'%s' is no unit", text);
+        assert_true(unit.factor == 1 && unit.offset == 0 && fw_quantity_dimension_equal(unit.dimension, d));
+    }
+    fw_arena_free(arena);
+}
+
 /* the unit suggested for a dimension has that dimension */
 static void suggested_units_fit(void **state) {
     (void)state;
@@ -104,7 +124,7 @@ static void ties_are_broken_by_prefix_and_place(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dimensions_have_names),
+        cmocka_unit_test(dimensions_have_names), cmocka_unit_test(units_in_si_are_read_again),
         cmocka_unit_test(suggested_units_fit),
         cmocka_unit_test(dimensions_without_memory),
         cmocka_unit_test(ties_are_broken_by_prefix_and_place),

@@ -1048,6 +1048,10 @@ static void a_line_is_replaced(void **state) {
         assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
         assert_int_equal(total.repeated, 0);
         assert_near(total.actual_s, i ? 1020.0 : 2040.0, 1e-9);
+        fw_text page = fw_text_new(arena);
+        assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
+        assert_non_null(strstr(page.data, i ? "S14 (replaced by a later line)" : "S14 (gone on with later)"));
+        assert_null(strstr(page.data, "repeated later"));
         if (i == 0) continue;
         with(log, AT("S14", "11:00", "11:17") "; replaces=2", 282); /* another one stands there */
         with(log, AT("S15", "11:00", "11:07") "; replaces=3", 282);
