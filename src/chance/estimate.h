@@ -4,6 +4,7 @@
 #define FW_CHANCE_ESTIMATE_H
 #include "base/arena.h"
 #include "base/status.h"
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -101,15 +102,24 @@ typedef void fw_chance_set(void *context, const double *unknown);
 enum { FW_CHANCE_UNKNOWNS_MOST = 10 };
 
 typedef enum fw_chance_search {
-    FW_CHANCE_ENDS,  /* all corners: exact where the probability is monotone in each unknown */
-    FW_CHANCE_INSIDE /* corners, then a pattern search inside from the best of them */
+    FW_CHANCE_ENDS,   /* all corners: exact where the probability is monotone in each unknown */
+    FW_CHANCE_INSIDE, /* corners, then a pattern search inside from the best of them */
+    FW_CHANCE_WHERE_NEEDED /* inside where points show that the corners may not be enough */
 } fw_chance_search;
+
+/* which extremes a search inside looks for */
+typedef enum fw_chance_side {
+    FW_CHANCE_BOTH_SIDES,
+    FW_CHANCE_LEAST_ONLY,
+    FW_CHANCE_MOST_ONLY
+} fw_chance_side;
 
 typedef struct fw_chance_unknowns {
     size_t count; /* at most 10 */
     const double *low, *high;
     fw_chance_set *set;
     fw_chance_search search;
+    fw_chance_side side;
 } fw_chance_unknowns;
 
 typedef struct fw_chance_range {
@@ -117,10 +127,16 @@ typedef struct fw_chance_range {
         most;                     /* of the settings with the least and the greatest probability */
     double *least_at, *most_at;   /* (count) */
     double low, high;             /* from the lower end of the one to the upper end of the other */
-    size_t settings, evaluations; /* tried; in all */
+    size_t settings, evaluations; /* tried; of their estimates */
+    size_t looked; /* evaluations that said whether corners are enough; 0: nobody asked */
+    bool inside;   /* values inside were tried as well */
 } fw_chance_range;
 
-/* options->budget is for each setting */
+/* points that are evaluated to see whether corners are enough, about; estimates of a search inside, at most */
+size_t fw_chance_range_looks(size_t count);
+size_t fw_chance_range_inside(size_t count);
+/* options->budget is for each setting. FW_LIMIT and *why: a share of the points (limit->apart) does not tell where to
+   look inside. */
 fw_status fw_chance_range_run(fw_arena *arena, const fw_chance_limit *limit,
                               const fw_chance_unknowns *unknowns, const fw_chance_options *options,
                               fw_chance_range *out, const char **why);

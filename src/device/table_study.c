@@ -78,7 +78,7 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
          .fallback = "as many as the kind asks for",                                               \
          .sentence = "Devices of a Sobol' sequence or of indices; most of them of a size, or of "  \
                      "each estimate of a yield (at least 200, and a yield has no <respond>): "     \
-                     "there are three at each corner of what is only assumed, as computed and "    \
+                     "there are three at each setting of what is only assumed, as computed and "   \
                      "with the limit moved either way by the model's band, and one that merely "   \
                      "counts takes 16 times a power of two."},                                     \
         {"seed",          D_PURE,                                                                  \

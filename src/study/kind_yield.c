@@ -7,7 +7,8 @@
    the largest share of a limit that it uses; g <= 0 fails. The probability is estimated by src/chance (which
    method, and why, is in the result). What the model itself may be off by is no chance: the band of the hinge or pull-in that
    governs the nominal device moves the limit up and down, and the yield is a range from the one to the other. An
-   input that a pack does not know (an assumed range) and spread="interval" make a range as well.
+   input that a pack does not know (an assumed range) and spread="interval" make a range as well, over their ends and, where
+   dies show that these may not be enough, inside (src/chance/range.c).
    Theory: docs/theory/chance.md. Test: tests/cli/test_study.py */
 #include "chance/estimate.h"
 #include "maths/functions.h"
@@ -28,6 +29,7 @@ typedef struct bounds {
         least; /* at the values of what is only assumed with most, least failures */
     double *most_at, *least_at; /* those values */
     double low, high;           /* interval of the probability of failing, over both */
+    size_t settings;            /* of what is only assumed, with an estimate each */
 } bounds;
 
 static fw_chance_options options_of(const fw_study *study) {
@@ -51,7 +53,30 @@ fw_status fw_study_check_yield(fw_study *study) {
     return fw_chance_estimate_check(&of, &o, &why) == FW_OK ? FW_OK : not_begun(study, why);
 }
 
-static fw_status estimate(fw_study_yielding *y, bounds *out) {
+static fw_status rare_apart(fw_study *study) {
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: failures of study '%s' are so rare, and lie so, that subset simulation looks "
+        "for "
+        "them, and each of its points is chosen by the ones before; run it in one piece, in as "
+        "many threads as there are (--jobs); or, for several machines, the same study on each "
+        "with a seed of "
+        "its own, of whose estimates the mean is the answer",
+        study->asked->name);
+}
+
+static fw_status inside_apart(fw_study *study) {
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: dies of study '%s' show that the least or the most yield may lie inside what is "
+        "only assumed, and the yield at one value says which value is looked at next; run it in "
+        "one piece, in as many threads as there are (--jobs), or state spread=\"uniform\" or an "
+        "sd of what is only assumed",
+        study->asked->name);
+}
+
+/* side: the extremes of the probability of failing that are wanted */
+static fw_status estimate(fw_study_yielding *y, fw_chance_side side, bounds *out) {
     fw_study *study = y->study;
     const bool apart = study->options.shards > 0;
     const fw_chance_limit of = {.dimensions = y->scatter.dimensions,
@@ -80,25 +105,17 @@ static fw_status estimate(fw_study_yielding *y, bounds *out) {
                                              .low = low,
                                              .high = high,
                                              .set = set_unknown,
-                                             .search = FW_CHANCE_ENDS};
+                                             .search = FW_CHANCE_WHERE_NEEDED,
+                                             .side = side};
         fw_chance_range range;
         status = fw_chance_range_run(y->chance, &of, &unknowns, &o, &range, &why);
         y->unknown = NULL;
         if (status == FW_OK) {
-            *out = (bounds){range.most,     range.least, range.most_at,
-                            range.least_at, range.low,   range.high};
+            *out = (bounds){range.most, range.least, range.most_at, range.least_at,
+                            range.low,  range.high,  range.settings};
         }
     }
-    if (status == FW_LIMIT && apart)
-        return fw_diag_error(
-            &study->diags, 490, study->asked->place,
-            "shards: failures of study '%s' are so rare, and lie so, that subset simulation looks "
-            "for "
-            "them, and each of its points is chosen by the ones before; run it in one piece, in as "
-            "many threads as there are (--jobs); or, for several machines, the same study on each "
-            "with a seed of "
-            "its own, of whose estimates the mean is the answer",
-            study->asked->name);
+    if (status == FW_LIMIT && apart) return why ? inside_apart(study) : rare_apart(study);
     if (status == FW_INPUT) return not_begun(study, why);
     return status;
 }
@@ -175,6 +192,27 @@ static fw_status end_of(const fw_study_yielding *y, const fw_chance_estimate *e,
     return FW_OK;
 }
 
+/* where the least and the most were looked for; one of a single estimate needs no words */
+static fw_status sought(fw_arena *arena, long corners, fw_study_flow_yield *out) {
+    if (corners == 1) return FW_OK;
+    const bool inside = out->settings > corners;
+    out->sought =
+        inside
+            ? fw_arena_printf(
+                  arena,
+                  "least and most are of %ld settings of what is only assumed, %ld of them "
+                  "inside its ends, as not all dies have it better at the same end; between "
+                  "these settings it may be a little less, or more",
+                  out->settings, out->settings - corners)
+            : fw_arena_printf(
+                  arena,
+                  "least and most are at the ends of what is only assumed, and nothing inside was "
+                  "estimated: of the dies that were looked at all that come near a limit have it "
+                  "better at the same end");
+    FW_NEED(out->sought);
+    return FW_OK;
+}
+
 static fw_status both_ends(const fw_study_yielding *y, const bounds *b, fw_study_flow_yield *out) {
     const fw_study_scatter *s = &y->scatter;
     size_t n = s->joint.unknowns;
@@ -189,6 +227,8 @@ static fw_status both_ends(const fw_study_yielding *y, const bounds *b, fw_study
         }
     out->nassumed = (int)n, out->assumed = name, out->assumed_unit = unit;
     out->each = (long)b->most.evaluations;
+    out->settings = (long)b->settings;
+    FW_TRY(sought(y->study->arena, 1L << n, out));
     FW_TRY(end_of(y, &b->most, b->most_at, &out->least));
     FW_TRY(end_of(y, &b->least, b->least_at, &out->most));
     out->value = n > 0 ? (double)NAN : out->least.value;
@@ -201,7 +241,7 @@ static fw_status estimate_all(fw_study_yielding *y, const fw_verdict_variant_ver
     bounds plain, worst, best;
     fw_verdict_made nominal;
     FW_TRY(judge_nominal(y, v, &nominal));
-    FW_TRY(estimate(y, &plain));
+    FW_TRY(estimate(y, FW_CHANCE_BOTH_SIDES, &plain));
     FW_TRY(describe(y, &plain, out));
     out->sampled_low = 1 - plain.high, out->sampled_high = 1 - plain.low;
     FW_TRY(both_ends(y, &plain, out));
@@ -211,9 +251,9 @@ static fw_status estimate_all(fw_study_yielding *y, const fw_verdict_variant_ver
     out->unevaluated = (long)plain.most.unevaluated;
     const double up = nominal.up, down = isfinite(nominal.down) ? nominal.down : 0;
     y->shift = up;
-    FW_TRY(estimate(y, &worst));
+    FW_TRY(estimate(y, FW_CHANCE_MOST_ONLY, &worst));
     y->shift = -down;
-    FW_TRY(estimate(y, &best));
+    FW_TRY(estimate(y, FW_CHANCE_LEAST_ONLY, &best));
     out->low = 1 - fmax(worst.high, plain.high), out->high = 1 - fmin(best.low, plain.low);
     out->band = exp(up + down);
     out->evaluations = y->evaluated;

@@ -121,8 +121,9 @@ typedef struct fw_study {
     fw_plan *plan;     /* of `design` */
     /* what the description as it stands took, all its stages, or one die of a yield; CPU */
     double seconds_each;
-    /* of a yield: dies of one estimate that merely counts; estimates; dies where all are counted, and at most */
-    long counted, estimates, likely, most;
+    /* of a yield: dies of one estimate that merely counts; estimates; dies where all are counted, so many more where the
+       ends of what is only assumed are not enough, and at most */
+    long counted, estimates, likely, inside, most;
     struct fw_study_store *store; /* NULL: none was asked for */
     const struct fw_study_result *result;
     struct fw_study_engines *engines; /* what samples have in common */

@@ -346,23 +346,28 @@ static fw_status time_die(fw_study_yielding *y) {
 }
 
 /* The yield is estimated as computed, and with the limit moved either way by the model's band, at each corner of what is only
-   assumed. Three that merely count have the same dies. */
+   assumed, and inside where dies that are looked at show that its ends may not be enough. Three that merely count have the
+   same dies, where they are of the same values. */
 static void foresee(const fw_study_yielding *y) {
     fw_study *study = y->study;
     const int samples = study->asked->samples;
     const long asked = samples > 0 ? samples : FW_STUDY_DIES_USUAL;
-    const long corners = 1L << y->scatter.joint.unknowns;
+    const size_t unknowns = y->scatter.joint.unknowns;
+    const long corners = 1L << unknowns;
+    const long looks = (long)fw_chance_range_looks(unknowns);
+    const long inside = (long)fw_chance_range_inside(unknowns);
     const long wafers = y->scatter.levels ? asked : 0;
     for (study->counted = 16; 2 * study->counted <= asked;)
         study->counted *= 2;
     study->estimates += 3 * corners;
-    study->likely += corners * study->counted + wafers;
-    study->most += 3 * corners * asked + wafers;
+    study->likely += corners * study->counted + looks + wafers;
+    study->inside += inside * study->counted;
+    study->most += 3 * ((corners + inside) * asked + looks) + wafers;
 }
 
 fw_status fw_study_yielding_check(fw_study *yield) {
     fw_status status = FW_OK;
-    yield->estimates = yield->likely = yield->most = 0;
+    yield->estimates = yield->likely = yield->inside = yield->most = 0;
     for (int i = 0; status == FW_OK && i < yield->plan->nflow; i++) {
         fw_study_yielding y;
         status = fw_study_yielding_begin(yield, i, 0, &y);

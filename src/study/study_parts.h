@@ -557,9 +557,9 @@ typedef struct fw_study_flow_yield { /* yield of one flow */
     fw_study_yield_end least, most;                   /* equal where nothing is only assumed */
     int nassumed;                                     /* what is only assumed */
     const char *const *assumed, *const *assumed_unit; /* (nassumed) */
-    long each; /* devices of one estimate; there is one at each corner of what is only assumed */
-    double sampled_low, sampled_high;      /* of sampling alone, by the utilisations themselves */
-    const char *method, *reason, *caution; /* sentences; caution may be NULL */
+    long each, settings; /* devices of one estimate; settings of what is only assumed, one each */
+    double sampled_low, sampled_high; /* of sampling alone, by the utilisations themselves */
+    const char *method, *reason, *caution, *sought; /* sentences; the last two may be NULL */
     long evaluations, unevaluated;
     double band; /* of the model at the governing check: factor between best and worst reading */
     int ninput;

@@ -382,8 +382,7 @@ static fw_status histogram(fw_study_sheet *s, const points *p) {
     const char *title = "How much of their limits the devices use that were judged";
     for (int k = 0; k < s->study->result->nyield; k++)
         if (s->study->result->yield[k].nassumed > 0)
-            title =
-                "How much of their limits devices use, over all corners of what is only assumed";
+            title = "How much of their limits devices use, at all settings of what is only assumed";
     fw_text *out = fw_study_sheet_add(s, "used", title);
     if (!out) return FW_OK;
     fw_svg_axes a = {LEFT, RIGHT, TOP, BOTTOM, least, most, 0, 1.05 * top, 6, 5};

@@ -92,9 +92,9 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
 /* Dies that a size at a wanted yield usually asks: three first estimates, and of one device a yield by few and by all, at
    every combination of the ends of what is only assumed; of each device of its own searches two. Nobody knows how many
    devices have to be asked until one has the yield. */
-static fw_status usual_dies(const fw_study *study, long *n) {
+static fw_status usual_dies(const fw_study *study, long *n, long *inside) {
     fw_study *dies = study->dies;
-    *n = 0;
+    *n = *inside = 0;
     if (!(study->asked->yield > 0)) return FW_OK;
     const long all = dies->asked->samples, least = FW_CHANCE_BUDGET_LEAST;
     const long few = (long)fmax(ceil(6 / (1 - study->asked->yield)), (double)least);
@@ -103,21 +103,30 @@ static fw_status usual_dies(const fw_study *study, long *n) {
         fw_study_yielding y;
         FW_TRY(fw_study_yielding_begin(dies, flow, 0, &y));
         *n += 3 * (all / 5 > least ? all / 5 : least) + ((few + all) << y.scatter.joint.unknowns);
+        *inside += (few + all) * (long)fw_chance_range_inside(y.scatter.joint.unknowns);
         fw_arena_free(y.chance);
     }
     return FW_OK;
 }
 
 static void about(const fw_study *study, fw_text *out, double devices) {
+    if (!(study->seconds_each > 0)) return;
     fw_text_add(out, ", about ");
     seconds(out, study->seconds_each * devices / fw_study_jobs(study));
 }
 
+static void say_inside(const fw_study *study, fw_text *out, long n) {
+    if (n <= 0) return;
+    fw_text_printf(out, "; up to %ld more where the ends of what is only assumed do not do", n);
+    about(study, out, (double)n);
+}
+
 static fw_status plan_of_yield(const fw_study *study, fw_text *out) {
     fw_text_printf(out, "%ld devices where they are merely counted", study->likely);
-    if (study->seconds_each > 0) about(study, out, (double)study->likely);
+    about(study, out, (double)study->likely);
+    say_inside(study, out, study->inside);
     fw_text_printf(out, "; at most %ld, where failures are rare", study->most);
-    if (study->seconds_each > 0) about(study, out, (double)study->most);
+    about(study, out, (double)study->most);
     fw_text_printf(out, "; in %d threads", fw_study_jobs(study));
     if (study->seconds_each > 0) {
         fw_text_add(out, " (one took ");
@@ -130,18 +139,20 @@ static fw_status plan_of_yield(const fw_study *study, fw_text *out) {
         "either way by what the model may be off by%s; one that merely counts takes %ld, "
         "16 times a power of two\n",
         study->estimates, fw_study_count(study),
-        study->estimates > 3 ? ", of each flow and at each corner of what is only assumed" : "",
+        study->inside > 0      ? ", of each flow and at each corner of what is only assumed, "
+                                 "and inside where its ends may not be enough"
+        : study->estimates > 3 ? ", of each flow"
+                               : "",
         study->counted);
     return fw_text_end(out);
 }
 
 fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
-    long n = fw_study_count(study), dies;
-    int jobs = fw_study_jobs(study);
+    long n = fw_study_count(study), dies, inside, jobs = fw_study_jobs(study);
     FW_TRY(fw_study_asked_text(study, out));
     if (study->asked->kind == FW_STUDY_IS_yield) return plan_of_yield(study, out);
-    FW_TRY(usual_dies(study, &dies));
-    fw_text_printf(out, "%s%ld devices%s in %d threads",
+    FW_TRY(usual_dies(study, &dies, &inside));
+    fw_text_printf(out, "%s%ld devices%s in %ld threads",
                    study->asked->kind == FW_STUDY_IS_sweep ? "" : "at most ", n,
                    dies > 0 ? fw_arena_printf(study->arena, " and some %ld dies", dies) : "", jobs);
     n += dies;
@@ -164,6 +175,7 @@ fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
                         "; several times as long where the first devices do not have the yield");
         fw_text_add(out, ")");
     }
+    say_inside(study, out, inside);
     fw_text_add(out, "\n");
     return fw_text_end(out);
 }
@@ -450,8 +462,8 @@ static void say_devices(fw_text *out, const fw_study *study, const fw_study_flow
     fw_text_printf(out, "  samples=\"%d\" is the most for one estimate, and one took %ld",
                    study->asked->samples, y->each);
     if (y->nassumed > 0)
-        fw_text_printf(out, "; there is one at each of %ld corners of what is only assumed",
-                       1L << y->nassumed);
+        fw_text_printf(out, "; there is one at each of %ld settings of what is only assumed",
+                       y->settings);
     fw_text_add(out, "\n");
 }
 
@@ -461,6 +473,7 @@ static void say_yield(fw_text *out, const fw_study *study) {
         fw_text_printf(out, "%s: yield ", y->flow ? y->flow : study->device_name);
         say_share(out, y);
         say_devices(out, study, y);
+        if (y->sought) fw_text_printf(out, "  %s\n", y->sought);
         if (y->caution) fw_text_printf(out, "  %s\n", y->caution);
         if (y->unevaluated > 0)
             fw_text_printf(out, "  %ld of them could not be judged: they count both ways\n",

@@ -274,6 +274,9 @@ static void yields(fw_json *j, const fw_study *study) {
             fw_json_null(j, "least");
             fw_json_null(j, "most");
         }
+        fw_json_whole(j, "settings", y->settings);
+        fw_json_truth(j, "inside", y->settings > 1L << y->nassumed);
+        fw_json_text(j, "sought", y->sought);
         fw_json_real(j, "confidence", study->asked->confidence);
         fw_json_real(j, "model_band", y->band);
         fw_json_text(j, "method", y->method);

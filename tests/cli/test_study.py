@@ -13,6 +13,7 @@ import resource
 import shutil
 import signal
 import sqlite3
+import statistics
 import subprocess
 import tempfile
 import time
@@ -529,11 +530,50 @@ class Study(unittest.TestCase):
                 self.assertEqual(end[key], alone[key])
         self.assertEqual({round(1e6 * e["assumed"][0]["value_SI"]) for e in (found["least"], found["most"])}, {380, 420})
         self.assertEqual(found["sampling_interval"], [least["sampling_interval"][0], most["sampling_interval"][1]])
-        self.assertEqual(found["devices"], 2 * found["devices_of_one_estimate"])
+        self.assertEqual([found["settings"], found["inside"]], [2, False])
+        self.assertIn("nothing inside was estimated", found["sought"])
+        self.assertIn(found["sought"], done.stdout)
+        # and those that say that the ends are enough
+        self.assertLess(found["devices"], 2 * found["devices_of_one_estimate"] + 300)
         for before, end in (("yield", least), (") to", most)):
             share = f"{100 * end['yield']:.2f}".rstrip("0").rstrip(".")
             self.assertIn(f"{before} {share} % (", done.stdout)
         self.assertIn(f'samples="{few(200)}" is the most for one estimate, and one took {found["devices_of_one_estimate"]}', done.stdout)
+
+    def test_limits_that_oppose_each_other_have_the_most_inside(self):
+        """a leaf that has to bend so far, and no farther: the one limit binds where it is short, the other where it is long"""
+        rise = "<probe id=\"way\" kind=\"displacement\" on=\"bar\" direction=\"0 deg\"/>"
+        limits = "".join(f'<require probe="way" measure="final" {end}="{value} um" scene="push"/>' for end, value in (("min", 9), ("max", 11)))
+        device = ONE_LEAF.replace("  <scene", f"  {rise}\n  {limits}\n  <scene")
+        way = run("check", self.write(device, "way.xml"), "--corners", "none", "--effects", "none", "-o", self.place / "way")
+        at = [r["value"] for r in json.loads((self.place / "way/verdict.json").read_text())["requirements"]][0]
+        mean = 20 * 10e-6 / at  # uN: 400 um long it goes 10 um
+        path = self.write(device.replace('"20 uN"', f'"{mean:.6g} uN"'), "window.xml")
+        row = f'<uncertain what="push" mean="{mean:.6g} uN" sd="{0.04 * mean:.6g} uN"/>'
+        assumed = row + '<uncertain what="length" spread="interval" from="360 um" to="440 um"/>'
+        file = self.write(study("y", "yield", row, path, samples=few(400)), "one.xml")
+        alone = {length: self.run_study(file, f"y{length}", "--set", f"length={length} um", "--effects", "none")["yields"][0]
+                 for length in (360, 400, 440)}
+        file = self.write(study("y", "yield", assumed, path, samples=few(400)), "range.xml")
+        plan = run("study", file, "--plan", "--effects", "none").stdout
+        self.assertIn("more where the ends of what is only assumed do not do", plan)
+        found = self.run_study(file, "window", "--effects", "none")["yields"][0]
+        # 400 um: the way is 10 um, 4 % of it one standard deviation, and a tenth either way is 2.5
+        truth = 2 * statistics.NormalDist().cdf(2.5) - 1
+        self.assertTrue(alone[400]["sampling_interval"][0] - 5e-3 <= truth <= alone[400]["sampling_interval"][1] + 5e-3, (truth, alone[400]))
+        self.assertGreater(alone[400]["yield"], max(alone[360]["yield"], alone[440]["yield"]) + 0.3)
+        self.assertGreaterEqual(found["most"]["yield"], alone[400]["yield"] - 0.01)
+        self.assertTrue(found["sampling_interval"][0] <= min(a["yield"] for a in alone.values()))
+        self.assertTrue(found["inside"] and 2 < found["settings"] <= 18, found["settings"])
+        self.assertLess(abs(1e6 * found["most"]["assumed"][0]["value_SI"] - 400), 6)
+        self.assertIn("inside its ends", found["sought"])
+        # the store has all of them: going on judges nothing and says the same
+        again = run("study", file, "--resume", "--effects", "none", "-o", self.place / "window")
+        self.assertEqual(json.loads((self.place / "window/study.json").read_text())["yields"][0], found)
+        # where to look next is told by all dies, and a shard has a share of them
+        shard = run("study", file, "--shard", "1/2", "--effects", "none", "-o", self.place / "shard")
+        self.assertNotEqual(shard.returncode, 0)
+        self.assertIn("inside what is only assumed", shard.stderr)
 
     def test_levels_and_places_are_those_of_the_closed_form(self):
         """U rises with the load alone, so that its levels are the load's, and a die holds where the load is below a limit"""
