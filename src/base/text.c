@@ -556,3 +556,13 @@ void fw_text_cut(char *to, size_t n, const char *from) {
     memcpy(to, from, end);
     memcpy(to + end, "...", 4);
 }
+
+const char *fw_text_few(fw_arena *arena, const char *list) {
+    enum { NAMED = 8 };
+    const char *end = NULL;
+    int n = 1;
+    for (const char *next = list; next && (next = strstr(next, ", ")); next += 2)
+        if (n++ == NAMED) end = next;
+    if (!end) return list;
+    return fw_arena_printf(arena, "%.*s and %d more", (int)(end - list), list, n - NAMED);
+}

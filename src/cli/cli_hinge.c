@@ -121,6 +121,13 @@ static void hinge_text(fw_text *out, const fw_plan_ladders *all, const fw_plan_l
         fw_text_real(out, "%.3f", c->offset_m[1] * 1e6);
         fw_text_add(out, " um across from where it is drawn");
     }
+    if (h->input.fillet_m >= 0) {
+        fw_text_add(out, "\n    strain and limit rest on fillets of ");
+        fw_text_real(out, "%.3f", h->input.fillet_m * 1e6);
+        fw_text_add(out, isnan(l->mechanism->device->flexure[h->flexure].fillet_m)
+                             ? " um at its roots, chosen: none is stated"
+                             : " um at its roots, as stated");
+    }
     fw_text_add(out, c->error.outside
                          ? "\n    outside of the shapes that were compared with finite "
                            "elements: errors are guesses\n"

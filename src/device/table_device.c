@@ -253,7 +253,13 @@ static const fw_xml_attribute_row flexure_rows[] = {
          "Half way along a csfh or leaf; each edge is then one arc through the ends and the "
          "middle."},
     {"gap", GAP, .fallback = "0 um", .sentence = "Of the conjugate surfaces; 0: none."},
-    {"fillet", GAP, .fallback = "chosen by the layout", .sentence = "Radius at the roots."},
+    {"fillet", GAP, .fallback = "chosen by the layout",
+     .sentence = "Radius at the roots. Strain and limit rest on it, whether or not the device is "
+                 "laid out: one that is chosen is as "
+                 "wide as the flexure (of a path: as the narrower of its ends), at arcs at most a "
+                 "third of their inner radius; the "
+                 "layout draws a smaller one where the roots have no room for it. `hinge` and "
+                 "`check -v` say how large it is."},
 };
 #define PIECE_WIDTHS                                                                               \
     {"width", THIN, .fallback = "where the piece before it ends",                                  \

@@ -507,10 +507,12 @@ static fw_status report_pins(const fw_effect_case *c, const char **why) {
             fw_text_printf(&names, "%s%s", count++ ? ", " : "", m->pin[m->hinge[i].pin].id);
     if (count == 0) return FW_OK;
     FW_TRY(fw_text_end(&names));
+    const char *few = fw_text_few(c->arena, names.data);
+    FW_NEED(few);
     FW_NEED(*why = fw_arena_printf(c->arena,
                                    "%s; %s %s: the axis is not known (it is neither drawn nor "
                                    "stated)",
-                                   *why, names.data, count > 1 ? "stay pins" : "stays a pin"));
+                                   *why, few, count > 1 ? "stay pins" : "stays a pin"));
     return FW_OK;
 }
 

@@ -172,7 +172,7 @@ static fw_status drive_names(fw_process_judge *j, const fw_process_drive_facts *
     for (int i = 0; i < n; i++)
         fw_text_printf(&list, "%s%s", i ? ", " : "", fw_text_name(drive[i].id));
     FW_TRY(fw_text_end(&list));
-    *names = list.data;
+    FW_NEED(*names = fw_text_few(j->arena, list.data));
     return FW_OK;
 }
 

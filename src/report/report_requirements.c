@@ -234,11 +234,13 @@ static void requirement_row(fw_text *out, const fw_verdict_requirement *r, const
 }
 
 const char *fw_report_without_bodies(fw_arena *arena, const char *rigid) {
+    const char *few = fw_text_few(arena, rigid);
+    if (!few) return "";
     const char *text = fw_arena_printf(
         arena,
         "the bands are those of rigid bodies: nothing of the device is drawn, so that what its "
         "bodies give themselves (%s) is not known and not in them",
-        rigid);
+        few);
     return text ? text : "";
 }
 

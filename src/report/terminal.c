@@ -129,6 +129,32 @@ static void hinges(fw_text *out, const fw_verdict *v) {
         hinge_row(out, &v->hinge[k]);
 }
 
+/* with -v: what strains rest on that nobody stated, by flexure */
+static void fillets(fw_text *out, const fw_verdict *v) {
+    const fw_mechanism *m = v->nvariant > 0 ? v->variant[0].mechanism : NULL;
+    for (int f = 0; m && f < m->device->nflexure; f++) {
+        fw_text list = fw_text_new(out->arena);
+        double radius_m = (double)NAN;
+        if (!isnan(m->device->flexure[f].fillet_m)) continue;
+        for (int k = 0; k < m->nhinge; k++)
+            if (m->hinge[k].flexure == f && m->hinge[k].input.fillet_m >= 0) {
+                radius_m = m->hinge[k].input.fillet_m;
+                fw_text_printf(&list, "%s%s", list.length ? ", " : "",
+                               fw_text_name(m->pin[m->hinge[k].pin].id));
+            }
+        if (isnan(radius_m)) continue;
+        const char *few = fw_text_end(&list) == FW_OK ? fw_text_few(out->arena, list.data) : NULL;
+        if (!few) {
+            out->failed = true;
+            return;
+        }
+        fw_text_add(out, "  strain and limit of ");
+        fw_text_printf(out, "%s rest on fillets of ", few);
+        fw_text_number(out, radius_m * 1e6, 4);
+        fw_text_add(out, " um at the roots, chosen: none is stated\n");
+    }
+}
+
 static void number(fw_text *out, const char *before, double value, const char *after) {
     fw_text_add(out, before);
     fw_text_number(out, value, 4);
@@ -330,6 +356,7 @@ fw_status fw_report_verdict_text(const fw_report_input *input, fw_report_termina
     summary(out, &top);
     if (style.detail >= 0 && top.has_drawn) governing(out, top.drawn.hinge, input);
     if (style.detail >= 0 && v->nhinge > 0) hinges(out, v);
+    if (style.detail > 0) fillets(out, v);
     if (style.detail >= 0) requirements(out, v);
     if (style.detail >= 0) pull_ins(out, input);
     if (style.detail >= 0) out_of_plane(out, v);

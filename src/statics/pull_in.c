@@ -500,9 +500,11 @@ static fw_status name_drives(seeker *k, double t_s) {
             fw_text_printf(&list, "%s%s", n++ ? ", " : "", fw_text_name(k->scene.comb[i].id));
     FW_TRY(fw_text_end(&list));
     k->out->at_s = t_s;
+    const char *few = fw_text_few(k->arena, list.data);
+    FW_NEED(few);
     FW_NEED(k->out->together =
                 fw_arena_printf(k->arena, "where what acts at %s ms (%s) grows together",
-                                fw_number_text(at, sizeof at, 1e3 * t_s, 4), list.data));
+                                fw_number_text(at, sizeof at, 1e3 * t_s, 4), few));
     return FW_OK;
 }
 

@@ -96,7 +96,7 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
     if (x->loads->quasi_static || x->ended || x->nsample < 1) return FW_OK;
     fw_dynamics_motion_rows(x, x->nsample - 1, 1);
     if (goes_on(m, x, (double)INFINITY) == FW_NONE) return FW_OK;
-    FW_TRY(fw_verdict_longest_period(arena, m, scene, false, &period_s));
+    FW_TRY(fw_verdict_longest_period(arena, v, (int)(scene - m->device->scene), false, &period_s));
     const int k = goes_on(m, x, period_s);
     if (k == FW_NONE) return FW_OK;
     FW_TRY(last_longer(arena, m, scene, x, period_s, options, &longer));

@@ -365,9 +365,9 @@ fw_status fw_verdict_requirements_along(fw_arena *arena, const fw_mechanism *m,
 
 /* ---- the slowest mode ---- */
 
-fw_status fw_verdict_longest_period(fw_arena *arena, const fw_mechanism *m,
-                                    const fw_device_scene *scene, bool at_equilibrium,
-                                    double *period_s) {
+static fw_status longest_period(fw_arena *arena, const fw_mechanism *m,
+                                const fw_device_scene *scene, bool at_equilibrium,
+                                double *period_s) {
     const fw_statics_mode_options o = {.accuracy = 1e-3, .at_equilibrium = at_equilibrium};
     const fw_statics_modes *modes = NULL;
     fw_diags own = fw_diags_new(arena);
@@ -380,11 +380,25 @@ fw_status fw_verdict_longest_period(fw_arena *arena, const fw_mechanism *m,
     return FW_OK;
 }
 
-fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *m, int scene,
+/* They rest on the mechanism and the scene alone: found once, however many requirements and motions ask. Cost: all
+   modes, of n unknowns some 30 n^3. Test: test_closer.c, a_slowest_period_is_kept */
+fw_status fw_verdict_longest_period(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                    bool at_equilibrium, double *period_s) {
+    double *kept = &v->slowest_s[2 * scene + (at_equilibrium ? 1 : 0)];
+    if (*kept == 0) {
+        const fw_mechanism *m = v->mechanism;
+        FW_TRY(longest_period(arena, m, &m->device->scene[scene], at_equilibrium, period_s));
+        *kept = *period_s > 0 ? *period_s : -1; /* nothing swings */
+    }
+    *period_s = fmax(0, *kept);
+    return FW_OK;
+}
+
+fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                double *period_s) {
     double loaded_s;
-    FW_TRY(fw_verdict_longest_period(arena, m, &m->device->scene[scene], false, period_s));
-    FW_TRY(fw_verdict_longest_period(arena, m, &m->device->scene[scene], true, &loaded_s));
+    FW_TRY(fw_verdict_longest_period(arena, v, scene, false, period_s));
+    FW_TRY(fw_verdict_longest_period(arena, v, scene, true, &loaded_s));
     *period_s = fmax(*period_s, loaded_s);
     return FW_OK;
 }
@@ -416,14 +430,15 @@ static fw_status equilibrium_at(fw_arena *arena, const fw_mechanism *m, int scen
     return FW_OK;
 }
 
-fw_status fw_verdict_rests_at(const fw_mechanism *m, int scene, const fw_dynamics_motion *motion,
-                              const fw_probe_monitor *monitor, const fw_device_requirement *q,
-                              fw_verdict_rest *rest) {
+fw_status fw_verdict_rests_at(const fw_verdict_variant_verdict *v, int scene,
+                              const fw_dynamics_motion *motion, const fw_probe_monitor *monitor,
+                              const fw_device_requirement *q, fw_verdict_rest *rest) {
+    const fw_mechanism *m = v->mechanism;
     const fw_probe_course *c = &monitor->course[q->probe];
     double low, high, at;
     *rest = (fw_verdict_rest){.at = c->final};
     if (motion->loads && motion->loads->quasi_static) return FW_OK;
-    FW_TRY(fw_verdict_slowest_s(monitor->arena, m, scene, &rest->period_s));
+    FW_TRY(fw_verdict_slowest_s(monitor->arena, v, scene, &rest->period_s));
     if (!(rest->period_s > 0))
         rest->period_s = motion->end_s; /* nothing says how slowly it swings */
     const double goes_on_s = fw_verdict_laws_go_on_s(m, &m->device->scene[scene]);
@@ -469,11 +484,11 @@ static double measured(const fw_probe_course *c, const fw_device_requirement *q)
 }
 
 /* from the middle of what it goes over in the last period of the slowest mode */
-static fw_status settling(const fw_mechanism *m, const fw_verdict_other *o,
+static fw_status settling(const fw_verdict_variant_verdict *v, const fw_verdict_other *o,
                           const fw_device_requirement *q, int scene, double *s) {
     const fw_probe_course *c = &o->probe->course[q->probe];
     double slowest_s, low, high;
-    FW_TRY(fw_verdict_slowest_s(o->probe->arena, m, scene, &slowest_s));
+    FW_TRY(fw_verdict_slowest_s(o->probe->arena, v, scene, &slowest_s));
     fw_probe_range(c, o->motion->end_s - slowest_s, &low, &high);
     *s = fw_probe_settling_s(c, 0.5 * (low + high), q->band);
     return FW_OK;
@@ -491,14 +506,14 @@ static double beside(const fw_verdict_requirement *r, double off) {
 }
 
 /* a final value is anywhere in the ring of that motion, too */
-static fw_status take_in(const fw_mechanism *m, const fw_verdict_other *o,
+static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_verdict_other *o,
                          const fw_device_requirement *q, double now, fw_verdict_requirement *r) {
     const double rest = beside(r, o->off);
     double low = now - rest, high = now + rest, slowest_s;
     if (q->measure == FW_MEASURE_FINAL && !(o->motion->loads && o->motion->loads->quasi_static)) {
         fw_probe_ring ring;
         fw_arena *arena = o->probe->arena;
-        FW_TRY(fw_verdict_slowest_s(arena, m, r->scene_index, &slowest_s));
+        FW_TRY(fw_verdict_slowest_s(arena, v, r->scene_index, &slowest_s));
         FW_TRY(fw_probe_rings(arena, &o->probe->probe[q->probe], o->motion, slowest_s, &ring));
         if (ring.amplitude > 0)
             low = fmin(now, ring.low) - r->numeric, high = fmax(now, ring.high) + r->numeric;
@@ -507,8 +522,9 @@ static fw_status take_in(const fw_mechanism *m, const fw_verdict_other *o,
     return FW_OK;
 }
 
-fw_status fw_verdict_requirement_others(const fw_mechanism *m, const fw_verdict_shaken *s,
-                                        fw_verdict_requirement *r) {
+fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
+                                        const fw_verdict_shaken *s, fw_verdict_requirement *r) {
+    const fw_mechanism *m = v->mechanism;
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const fw_device_probe *of = &m->device->probe[q->probe];
     const double value = r->value, at_low = r->low, at_high = r->high;
@@ -518,9 +534,9 @@ fw_status fw_verdict_requirement_others(const fw_mechanism *m, const fw_verdict_
         const fw_verdict_other *o = &s->other[k];
         if (!o->asked || o->lost || !o->probe || o->probe->course[q->probe].count == 0) continue;
         now[k] = measured(&o->probe->course[q->probe], q);
-        if (q->measure == FW_MEASURE_SETTLING) FW_TRY(settling(m, o, q, r->scene_index, &now[k]));
+        if (q->measure == FW_MEASURE_SETTLING) FW_TRY(settling(v, o, q, r->scene_index, &now[k]));
         if (goes_with_loads(of, q->measure)) now[k] /= o->by;
-        FW_TRY(take_in(m, o, q, now[k], r));
+        FW_TRY(take_in(v, o, q, now[k], r));
     }
     if (value != 0) r->lasting += fmax(at_low - r->low, r->high - at_high) / fabs(value);
     if (s->other[0].lost) { /* away from where the stiffer one is */

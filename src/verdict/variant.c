@@ -279,28 +279,27 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
                             fw_diags *diags, fw_verdict_variant_verdict *v,
                             fw_verdict_strain_monitor *monitor, fw_verdict_strain_monitor *other) {
     size_t n = (size_t)device->nscene;
+    const bool brief = is_brief(options, v);
     fw_dynamics_motion_options motion = options->motion;
     motion.within_limits = true;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = FW_TURN;
     motion.most_beams = fw_most_beams;
     motion.sparing = options->coarse_first;
     motion.effects.untold = motion.effects.untold || options->decision_only || v->corner;
-    motion.hopeless_rhs = is_brief(options, v) || options->at_a_glance || v->corner
-                              ? fw_hopeless_trial_rhs
-                              : fw_hopeless_rhs;
+    motion.hopeless_rhs =
+        brief || options->at_a_glance || v->corner ? fw_hopeless_trial_rhs : fw_hopeless_rhs;
     if (motion.hinge_accuracy <= 0)
         motion.hinge_accuracy =
-            fmax(motion.accuracy, is_brief(options, v) || options->at_a_glance || v->corner
-                                      ? fw_hinges_good_enough
-                                      : fw_hinges_good);
+            fmax(motion.accuracy, brief || options->at_a_glance || v->corner ? fw_hinges_good_enough
+                                                                             : fw_hinges_good);
     FW_NEED(v->motion = fw_arena_alloc(arena, n, sizeof *v->motion));
     FW_NEED(v->pull_in = fw_arena_alloc(arena, n, sizeof *v->pull_in));
     FW_NEED(v->left = fw_arena_array(arena, double, n));
+    FW_NEED(v->slowest_s = fw_arena_array(arena, double, 2 * n));
     const size_t reasons = fw_verdict_reasons_most(device, v->nrequirement);
     FW_NEED(v->reason = fw_arena_array(arena, fw_verdict_reason, reasons));
     FW_TRY(fw_verdict_bent(arena, device, v));
     fw_verdict_clearance_watch watch[2];
-    const bool brief = is_brief(options, v);
     FW_TRY(fw_verdict_clearance_begin(
         arena, options->hinges_only ? NULL : layout, m,
         v->corner ? !options->decision_only && !options->at_a_glance : !brief, watch, v));

@@ -289,7 +289,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
        why */
     const fw_dynamics_motion **motion;
     const fw_statics_pull_in **pull_in; /* (device->nscene) NULL without comb drives */
-    double *left; /* (nscene) of the stiffness (fw_statics_stability_find); NaN: not known */
+    double *left;      /* (nscene) of the stiffness (fw_statics_stability_find); NaN: not known */
+    double *slowest_s; /* (2 nscene) of the slowest mode, at rest, as loaded; 0: not asked yet */
     const char *ends_early; /* FW-D691, of the first scene that does; NULL */
     /* (device->nscene) where a mode lies within its error (verdict_parts.h, FW-D642) */
     fw_verdict_shaken *shaken;

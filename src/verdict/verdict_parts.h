@@ -152,12 +152,11 @@ typedef struct fw_verdict_rest {
     const char *why; /* it is not known: why; NULL: it is */
 } fw_verdict_rest;
 /* required_small.c: s; 0: nothing swings */
-fw_status fw_verdict_longest_period(fw_arena *arena, const fw_mechanism *mechanism,
-                                    const fw_device_scene *scene, bool at_equilibrium,
-                                    double *period_s);
-fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+fw_status fw_verdict_longest_period(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                    bool at_equilibrium, double *period_s);
+fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                double *period_s); /* at rest or as loaded; 0: nothing swings */
-fw_status fw_verdict_rests_at(const fw_mechanism *mechanism, int scene,
+fw_status fw_verdict_rests_at(const fw_verdict_variant_verdict *v, int scene,
                               const fw_dynamics_motion *motion, const fw_probe_monitor *monitor,
                               const fw_device_requirement *requirement, fw_verdict_rest *rest);
 /* moved_again.c: nothing moves in a scene; of v->used what is filled so far */
@@ -369,7 +368,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *mecha
 /* what a mode that lies elsewhere may do to one of a motion (resonance.c): the most of the factors, which widen it */
 void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]);
 /* required_small.c: its band takes in what it is in the motions of shaken->other */
-fw_status fw_verdict_requirement_others(const fw_mechanism *mechanism,
+fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
                                         const fw_verdict_shaken *shaken, fw_verdict_requirement *r);
 /* verdict_bending.c: what bands of a device that is not drawn are without, by name */
 fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v);

@@ -185,9 +185,10 @@ static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, 
 /* What the model is off by scales the departure from where it comes to rest, and where that is as large as the band it is off by
    that part of it. Frequencies, and so all times, go with the root of a stiffness. What was out within the last period of
    the slowest mode may be so again behind the end */
-static fw_status put_settling(const fw_mechanism *m, const fw_dynamics_motion *motion,
+static fw_status put_settling(const fw_verdict_variant_verdict *v, const fw_dynamics_motion *motion,
                               const fw_probe_monitor *monitor, const fw_probe_result *p, bool still,
                               fw_verdict_requirement *r) {
+    const fw_mechanism *m = v->mechanism;
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const fw_probe_course *course = &monitor->course[q->probe];
     const double band = q->band,
@@ -195,7 +196,7 @@ static fw_status put_settling(const fw_mechanism *m, const fw_dynamics_motion *m
                                : model_of(m, motion, p->level) +
                                      fw_verdict_places_error(motion, &m->device->probe[q->probe]);
     fw_verdict_rest rest;
-    FW_TRY(fw_verdict_rests_at(m, r->scene_index, motion, monitor, q, &rest));
+    FW_TRY(fw_verdict_rests_at(v, r->scene_index, motion, monitor, q, &rest));
     const double off = p->final_numeric + model * band + rest.off;
     const double exact = band > p->final_numeric
                              ? fw_probe_settling_s(course, rest.at, band - p->final_numeric)
@@ -224,16 +225,17 @@ static double departure(const fw_probe_result *p, double value) {
 /* Where a motion still rings at its end, its phase there goes by frequencies that are known to some per cent alone: the final
    value may be anywhere within the ring, however little that is, and no tolerance changes it; of a fiftieth of the way on it is
    told. What laws still shake there is known by them, and by modes that lie elsewhere (resonance.c) */
-static fw_status put_ring(const fw_mechanism *m, const fw_dynamics_motion *motion,
+static fw_status put_ring(const fw_verdict_variant_verdict *v, const fw_dynamics_motion *motion,
                           const fw_probe_monitor *monitor, const fw_probe_result *p,
                           fw_verdict_requirement *r) {
+    const fw_mechanism *m = v->mechanism;
     const fw_probe *of = &monitor->probe[m->device->requirement[r->asked].probe];
     const double off = 0.5 * (r->high - r->low);
     fw_probe_ring ring;
     double slowest_s;
     bool shaken;
     if (motion->loads && motion->loads->quasi_static) return FW_OK; /* equilibria do not ring */
-    FW_TRY(fw_verdict_slowest_s(monitor->arena, m, r->scene_index, &slowest_s));
+    FW_TRY(fw_verdict_slowest_s(monitor->arena, v, r->scene_index, &slowest_s));
     FW_TRY(fw_probe_rings(monitor->arena, of, motion, slowest_s, &ring));
     FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
     shaken = shaken && fw_verdict_laws_go_on_s(m, &m->device->scene[r->scene_index]) > 0;
@@ -322,10 +324,11 @@ static void judge_ended(fw_device_measure measure, fw_verdict_requirement *r) {
 
 /* Another motion of the scene, with what is left of the band once what flexures are off by is out of it, and what bodies
    give where they do in `other` */
-static fw_status take_in(const fw_mechanism *m, const fw_dynamics_motion *motion,
+static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_dynamics_motion *motion,
                          const fw_dynamics_motion *other, const fw_probe_monitor *monitor,
                          const fw_probe_result *p, const fw_probe_result *now, bool gives,
                          fw_verdict_requirement *r) {
+    const fw_mechanism *m = v->mechanism;
     const fw_device_measure measure = m->device->requirement[r->asked].measure;
     const bool across = measure == FW_MEASURE_PARASITIC, time = measure == FW_MEASURE_SETTLING;
     const int probe = m->device->requirement[r->asked].probe;
@@ -335,13 +338,13 @@ static fw_status take_in(const fw_mechanism *m, const fw_dynamics_motion *motion
                         (gives ? fw_verdict_bending_share(motion) : 0);
     fw_verdict_requirement then = *r;
     if (time)
-        FW_TRY(put_settling(m, other, monitor, now, false, &then));
+        FW_TRY(put_settling(v, other, monitor, now, false, &then));
     else
         judge(m, other, now, false, &then);
     const double off = r->numeric + (time ? 0 : fmax(0, left) * then.swing),
                  least = r->low >= 0 && r->value >= 0 && isnan(r->origin) ? 0 : -HUGE_VAL;
     then.low = then.value - off, then.high = then.open ? HUGE_VAL : then.value + off;
-    if (measure == FW_MEASURE_FINAL) FW_TRY(put_ring(m, other, monitor, now, &then));
+    if (measure == FW_MEASURE_FINAL) FW_TRY(put_ring(v, other, monitor, now, &then));
     if (time && then.open) r->open = then.open;
     const double low = fmin(r->low, fmax(least, then.low)), high = fmax(r->high, then.high);
     if (r->value != 0) r->lasting += fmax(r->low - low, high - r->high) / fabs(r->value);
@@ -360,7 +363,7 @@ static fw_status take_in_motion(const fw_mechanism *m, int scene, const fw_dynam
         fw_probe_result now;
         if (r->scene_index != scene || !r->measure || r->why) continue;
         fw_probe_result_of(monitor, NULL, other, probe, &now);
-        if (now.known) FW_TRY(take_in(m, v->motion[scene], other, monitor, p, &now, gives, r));
+        if (now.known) FW_TRY(take_in(v, v->motion[scene], other, monitor, p, &now, gives, r));
     }
     return FW_OK;
 }
@@ -386,9 +389,9 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         if (p->known) judge(m, v->motion[scene], p, still, r);
         if (fw_verdict_places_lower(v->motion[scene], of, &r->low, &r->high)) decide(r);
         if (p->known && q->measure == FW_MEASURE_FINAL)
-            FW_TRY(put_ring(m, v->motion[scene], monitor, p, r));
+            FW_TRY(put_ring(v, v->motion[scene], monitor, p, r));
         if (p->known && q->measure == FW_MEASURE_SETTLING && !v->motion[scene]->ended)
-            FW_TRY(put_settling(m, v->motion[scene], monitor, p, still, r));
+            FW_TRY(put_settling(v, v->motion[scene], monitor, p, still, r));
         if (p->known && v->motion[scene]->ended) judge_ended(q->measure, r);
         if (!p->known && monitor->within)
             r->why =
@@ -562,7 +565,7 @@ void fw_verdict_requirement_shaken(const double factor[2], double late, fw_devic
 static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v,
                             fw_verdict_requirement *r) {
     const fw_verdict_shaken *s = &v->shaken[r->scene_index];
-    FW_TRY(fw_verdict_requirement_others(m, s, r));
+    FW_TRY(fw_verdict_requirement_others(v, s, r));
     decide(r);
     fw_verdict_requirement_shaken(s->required, s->required_late,
                                   m->device->requirement[r->asked].measure, r);

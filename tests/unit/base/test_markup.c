@@ -87,12 +87,24 @@ static void an_id_that_says_its_kind_stands_alone(void **state) {
         assert_string_equal(fw_text_kind(row[i].kind, row[i].id), row[i].said);
 }
 
+static void a_long_list_names_the_first_few(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    assert_null(fw_text_few(arena, NULL));
+    assert_string_equal(fw_text_few(arena, "a"), "a");
+    assert_string_equal(fw_text_few(arena, "a, b, c, d, e, f, g, h"), "a, b, c, d, e, f, g, h");
+    assert_string_equal(fw_text_few(arena, "a, b, c, d, e, f, g, h, i"),
+                        "a, b, c, d, e, f, g, h and 1 more");
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(units_for_people),
         cmocka_unit_test(coordinates_are_always_numbers),
         cmocka_unit_test(text_is_escaped),
         cmocka_unit_test(unknown_directive_is_noticed),
+        cmocka_unit_test(a_long_list_names_the_first_few),
         cmocka_unit_test(an_id_that_says_its_kind_stands_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

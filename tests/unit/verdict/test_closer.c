@@ -103,8 +103,20 @@ static void enough_decides(void **state) {
     assert_true(count > 100);
 }
 
+/* what was found is not found again: there is no mechanism here to find it of */
+static void a_slowest_period_is_kept(void **state) {
+    (void)state;
+    double kept[4] = {2e-3, -1, -1, -1}, period_s = 0;
+    const fw_verdict_variant_verdict v = {.slowest_s = kept};
+    assert_int_equal(fw_verdict_longest_period(NULL, &v, 0, false, &period_s), FW_OK);
+    assert_near(period_s, 2e-3, 0);
+    assert_int_equal(fw_verdict_longest_period(NULL, &v, 1, true, &period_s), FW_OK); /* nothing swings */
+    assert_near(period_s, 0, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_outcome_is_missed),
+                                       cmocka_unit_test(a_slowest_period_is_kept),
                                        cmocka_unit_test(enough_decides),
                                        cmocka_unit_test(all_hinges_count)};
     return cmocka_run_group_tests(tests, NULL, NULL);
