@@ -94,8 +94,7 @@ const char *fw_text_kind(const char *kind,
 /* what nobody named (NULL) is "(unnamed)" */
 const char *fw_text_name(const char *id);
 
-/* Of a list with ", " between its ids, for people: all where they are eight at most, else the first eight "and 92 more".
-   JSON keeps all. NULL: memory is short, or there is no list */
+/* Of a list with ", " between its ids, for people: all where they are eight at most, else the first eight "and 92 more". NULL: memory is short, or there is no list */
 const char *fw_text_few(fw_arena *arena, const char *list);
 
 /* SHA-256 (FIPS 180-4). */

@@ -11,56 +11,57 @@
 typedef struct named {
     fw_quantity_dimension dimension;
     const char *name, *unit;
+    const char *si; /* in SI, where the field has a word for it; NULL: a product of base units */
 } named;
 
 /* what users of this program meet, with the unit that suits a 3 mm device */
 static const named known[] = {
-    {{0, 0, 0, 0, 0, 0, 0, 0}, "pure number", NULL},
-    {{1, 0, 0, 0, 0, 0, 0, 0}, "length", "um"},
-    {{2, 0, 0, 0, 0, 0, 0, 0}, "area", "um^2"},
-    {{3, 0, 0, 0, 0, 0, 0, 0}, "volume", "mL"},
-    {{4, 0, 0, 0, 0, 0, 0, 0}, "second moment of area", "um^4"},
-    {{0, 1, 0, 0, 0, 0, 0, 0}, "mass", "mg"},
-    {{0, 0, 1, 0, 0, 0, 0, 0}, "time", "ms"},
-    {{0, 0, -1, 0, 0, 0, 0, 0}, "frequency", "Hz"},
-    {{0, 0, 0, 1, 0, 0, 0, 0}, "electric current", "mA"},
-    {{0, 0, 0, 0, 1, 0, 0, 0}, "temperature", "Cel"},
-    {{0, 0, 0, 0, 0, 1, 0, 0}, "amount of substance", "mol"},
-    {{0, 0, -1, 0, 0, 1, 0, 0}, "gas flow", "{sccm}"},
-    {{0, 0, 0, 0, 0, 0, 1, 0}, "angle", "deg"},
-    {{0, 0, -1, 0, 0, 0, 1, 0}, "angular velocity", "rad/s"},
-    {{0, 0, -2, 0, 0, 0, 1, 0}, "angular acceleration", "rad/s^2"},
-    {{1, 0, -1, 0, 0, 0, 0, 0}, "velocity", "mm/s"},
-    {{1, 0, -2, 0, 0, 0, 0, 0}, "acceleration", "m/s^2"},
-    {{1, 1, -2, 0, 0, 0, 0, 0}, "force", "uN"},
-    {{2, 1, -2, 0, 0, 0, 0, 0}, "torque or energy", "uN mm"},
-    {{2, 1, -3, 0, 0, 0, 0, 0}, "power", "W"},
-    {{-1, 1, -2, 0, 0, 0, 0, 0}, "pressure or stress", "GPa"},
-    {{-3, 1, 0, 0, 0, 0, 0, 0}, "density", "g/cm3"},
-    {{2, 1, 0, 0, 0, 0, 0, 0}, "moment of inertia", "mg mm^2"},
-    {{0, 1, -2, 0, 0, 0, 0, 0}, "stiffness", "N/m"},
-    {{0, 1, -1, 0, 0, 0, 0, 0}, "damping", "N s/m"},
-    {{2, 1, -2, 0, 0, 0, -1, 0}, "torsional stiffness", "N m/rad"},
-    {{2, 1, -1, 0, 0, 0, -1, 0}, "torsional damping", "N m s/rad"},
-    {{0, 0, 1, 1, 0, 0, 0, 0}, "electric charge", "C"},
-    {{-2, 0, 0, 1, 0, 0, 0, 0}, "current density", "mA/cm2"},
-    {{-2, 0, 1, 1, 0, 0, 0, 0}, "charge per area", "C/cm2"},
-    {{2, 1, -3, -1, 0, 0, 0, 0}, "voltage", "V"},
-    {{2, 1, -3, -2, 0, 0, 0, 0}, "electric resistance", "ohm"},
-    {{-2, -1, 4, 2, 0, 0, 0, 0}, "capacitance", "pF"},
-    {{0, 1, -2, -1, 0, 0, 0, 0}, "magnetic flux density", "mT"},
-    {{0, 1, 0, 0, 0, -1, 0, 0}, "molar mass", "g/mol"},
-    {{-3, 0, 0, 0, 0, 1, 0, 0}, "concentration", "mol/L"},
-    {{2, 1, -2, 0, 0, -1, 0, 0}, "molar energy", "kJ/mol"},
-    {{2, 0, -1, 0, 0, 0, 0, 0}, "diffusivity", "cm2/s"},
-    {{0, 1, -3, 0, 0, 0, 0, 0}, "power density", "mW/cm2"},
-    {{0, 0, 0, 0, -1, 0, 0, 0}, "change per temperature", "K^-1"},
-    {{-1, 1, -1, 0, 0, 0, 0, 0}, "viscosity", "uPa s"},
-    {{-2, 1, -2, 0, 0, 0, 0, 0}, "stress gradient", "MPa/um"},
-    {{0, 0, 0, 0, 0, 0, 0, 1}, "price", "EUR"},
-    {{-3, 0, 0, 0, 0, 0, 0, 1}, "price of a volume", "EUR/L"},
-    {{0, -1, 0, 0, 0, 0, 0, 1}, "price of a mass", "EUR/kg"},
-    {{0, 0, -1, 0, 0, 0, 0, 1}, "price of a time", "EUR/h"},
+    {{0, 0, 0, 0, 0, 0, 0, 0}, "pure number", NULL, NULL},
+    {{1, 0, 0, 0, 0, 0, 0, 0}, "length", "um", NULL},
+    {{2, 0, 0, 0, 0, 0, 0, 0}, "area", "um^2", NULL},
+    {{3, 0, 0, 0, 0, 0, 0, 0}, "volume", "mL", NULL},
+    {{4, 0, 0, 0, 0, 0, 0, 0}, "second moment of area", "um^4", NULL},
+    {{0, 1, 0, 0, 0, 0, 0, 0}, "mass", "mg", NULL},
+    {{0, 0, 1, 0, 0, 0, 0, 0}, "time", "ms", NULL},
+    {{0, 0, -1, 0, 0, 0, 0, 0}, "frequency", "Hz", "1/s"},
+    {{0, 0, 0, 1, 0, 0, 0, 0}, "electric current", "mA", NULL},
+    {{0, 0, 0, 0, 1, 0, 0, 0}, "temperature", "Cel", NULL},
+    {{0, 0, 0, 0, 0, 1, 0, 0}, "amount of substance", "mol", NULL},
+    {{0, 0, -1, 0, 0, 1, 0, 0}, "gas flow", "{sccm}", NULL},
+    {{0, 0, 0, 0, 0, 0, 1, 0}, "angle", "deg", NULL},
+    {{0, 0, -1, 0, 0, 0, 1, 0}, "angular velocity", "rad/s", "rad/s"},
+    {{0, 0, -2, 0, 0, 0, 1, 0}, "angular acceleration", "rad/s^2", NULL},
+    {{1, 0, -1, 0, 0, 0, 0, 0}, "velocity", "mm/s", "m/s"},
+    {{1, 0, -2, 0, 0, 0, 0, 0}, "acceleration", "m/s^2", "m/s^2"},
+    {{1, 1, -2, 0, 0, 0, 0, 0}, "force", "uN", "N"},
+    {{2, 1, -2, 0, 0, 0, 0, 0}, "torque or energy", "uN mm", "N m"},
+    {{2, 1, -3, 0, 0, 0, 0, 0}, "power", "W", "W"},
+    {{-1, 1, -2, 0, 0, 0, 0, 0}, "pressure or stress", "GPa", "Pa"},
+    {{-3, 1, 0, 0, 0, 0, 0, 0}, "density", "g/cm3", "kg/m^3"},
+    {{2, 1, 0, 0, 0, 0, 0, 0}, "moment of inertia", "mg mm^2", NULL},
+    {{0, 1, -2, 0, 0, 0, 0, 0}, "stiffness", "N/m", "N/m"},
+    {{0, 1, -1, 0, 0, 0, 0, 0}, "damping", "N s/m", "N s/m"},
+    {{2, 1, -2, 0, 0, 0, -1, 0}, "torsional stiffness", "N m/rad", "N m/rad"},
+    {{2, 1, -1, 0, 0, 0, -1, 0}, "torsional damping", "N m s/rad", "N m s/rad"},
+    {{0, 0, 1, 1, 0, 0, 0, 0}, "electric charge", "C", NULL},
+    {{-2, 0, 0, 1, 0, 0, 0, 0}, "current density", "mA/cm2", NULL},
+    {{-2, 0, 1, 1, 0, 0, 0, 0}, "charge per area", "C/cm2", NULL},
+    {{2, 1, -3, -1, 0, 0, 0, 0}, "voltage", "V", "V"},
+    {{2, 1, -3, -2, 0, 0, 0, 0}, "electric resistance", "ohm", "ohm"},
+    {{-2, -1, 4, 2, 0, 0, 0, 0}, "capacitance", "pF", "F"},
+    {{0, 1, -2, -1, 0, 0, 0, 0}, "magnetic flux density", "mT", "T"},
+    {{0, 1, 0, 0, 0, -1, 0, 0}, "molar mass", "g/mol", NULL},
+    {{-3, 0, 0, 0, 0, 1, 0, 0}, "concentration", "mol/L", NULL},
+    {{2, 1, -2, 0, 0, -1, 0, 0}, "molar energy", "kJ/mol", NULL},
+    {{2, 0, -1, 0, 0, 0, 0, 0}, "diffusivity", "cm2/s", NULL},
+    {{0, 1, -3, 0, 0, 0, 0, 0}, "power density", "mW/cm2", NULL},
+    {{0, 0, 0, 0, -1, 0, 0, 0}, "change per temperature", "K^-1", NULL},
+    {{-1, 1, -1, 0, 0, 0, 0, 0}, "viscosity", "uPa s", NULL},
+    {{-2, 1, -2, 0, 0, 0, 0, 0}, "stress gradient", "MPa/um", NULL},
+    {{0, 0, 0, 0, 0, 0, 0, 1}, "price", "EUR", NULL},
+    {{-3, 0, 0, 0, 0, 0, 0, 1}, "price of a volume", "EUR/L", NULL},
+    {{0, -1, 0, 0, 0, 0, 0, 1}, "price of a mass", "EUR/kg", NULL},
+    {{0, 0, -1, 0, 0, 0, 0, 1}, "price of a time", "EUR/h", NULL},
 };
 
 static const named *find(fw_quantity_dimension d) {
@@ -102,34 +103,9 @@ const char *fw_quantity_dimension_text(fw_arena *arena, fw_quantity_dimension d)
     return text && text[0] ? text : "unnamed dimension";
 }
 
-/* what the field writes in a word of its own, or as a ratio of such words */
-static const struct {
-    const char *symbol;
-    fw_quantity_dimension of;
-} si_words[] = {
-    {"N", {.kg = 1, .m = 1, .s = -2}},
-    {"Pa", {.kg = 1, .m = -1, .s = -2}},
-    {"N m", {.kg = 1, .m = 2, .s = -2}},
-    {"N/m", {.kg = 1, .s = -2}},
-    {"N s/m", {.kg = 1, .s = -1}},
-    {"N m/rad", {.kg = 1, .m = 2, .s = -2, .rad = -1}},
-    {"N m s/rad", {.kg = 1, .m = 2, .s = -1, .rad = -1}},
-    {"W", {.kg = 1, .m = 2, .s = -3}},
-    {"V", {.kg = 1, .m = 2, .s = -3, .A = -1}},
-    {"ohm", {.kg = 1, .m = 2, .s = -3, .A = -2}},
-    {"F", {.kg = -1, .m = -2, .s = 4, .A = 2}},
-    {"T", {.kg = 1, .s = -2, .A = -1}},
-    {"1/s", {.s = -1}},
-    {"m/s", {.m = 1, .s = -1}},
-    {"m/s^2", {.m = 1, .s = -2}},
-    {"rad/s", {.rad = 1, .s = -1}},
-    {"kg/m^3", {.kg = 1, .m = -3}},
-};
-
 const char *fw_quantity_dimension_si(fw_arena *arena, fw_quantity_dimension d) {
-    for (size_t i = 0; i < sizeof si_words / sizeof si_words[0]; i++)
-        if (fw_quantity_dimension_equal(si_words[i].of, d)) return si_words[i].symbol;
-    return product(arena, d);
+    const named *row = find(d);
+    return row && row->si ? row->si : product(arena, d);
 }
 
 const char *fw_quantity_dimension_phrase(fw_arena *arena, fw_quantity_dimension d) {

@@ -129,20 +129,27 @@ static void hinges(fw_text *out, const fw_verdict *v) {
         hinge_row(out, &v->hinge[k]);
 }
 
+static void number(fw_text *out, const char *before, double value, const char *after) {
+    fw_text_add(out, before);
+    fw_text_number(out, value, 4);
+    fw_text_add(out, after);
+}
+
 /* with -v: what strains rest on that nobody stated, by flexure */
 static void fillets(fw_text *out, const fw_verdict *v) {
     const fw_mechanism *m = v->nvariant > 0 ? v->variant[0].mechanism : NULL;
     for (int f = 0; m && f < m->device->nflexure; f++) {
         fw_text list = fw_text_new(out->arena);
-        double radius_m = (double)NAN;
+        double least_m = HUGE_VAL, most_m = -HUGE_VAL;
         if (!isnan(m->device->flexure[f].fillet_m)) continue;
         for (int k = 0; k < m->nhinge; k++)
             if (m->hinge[k].flexure == f && m->hinge[k].input.fillet_m >= 0) {
-                radius_m = m->hinge[k].input.fillet_m;
+                least_m = fmin(least_m, m->hinge[k].input.fillet_m);
+                most_m = fmax(most_m, m->hinge[k].input.fillet_m);
                 fw_text_printf(&list, "%s%s", list.length ? ", " : "",
                                fw_text_name(m->pin[m->hinge[k].pin].id));
             }
-        if (isnan(radius_m)) continue;
+        if (least_m > most_m) continue;
         const char *few = fw_text_end(&list) == FW_OK ? fw_text_few(out->arena, list.data) : NULL;
         if (!few) {
             out->failed = true;
@@ -150,15 +157,10 @@ static void fillets(fw_text *out, const fw_verdict *v) {
         }
         fw_text_add(out, "  strain and limit of ");
         fw_text_printf(out, "%s rest on fillets of ", few);
-        fw_text_number(out, radius_m * 1e6, 4);
+        fw_text_number(out, least_m * 1e6, 4);
+        if (most_m > least_m) number(out, " to ", most_m * 1e6, "");
         fw_text_add(out, " um at the roots, chosen: none is stated\n");
     }
-}
-
-static void number(fw_text *out, const char *before, double value, const char *after) {
-    fw_text_add(out, before);
-    fw_text_number(out, value, 4);
-    fw_text_add(out, after);
 }
 
 /* which criterion governs, its number, status and source, and what was asked for beside */

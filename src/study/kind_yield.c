@@ -53,26 +53,28 @@ fw_status fw_study_check_yield(fw_study *study) {
     return fw_chance_estimate_check(&of, &o, &why) == FW_OK ? FW_OK : not_begun(study, why);
 }
 
+/* what dies of a study say that one shard of them cannot follow, and what to do instead of it */
+static fw_status not_apart(fw_study *study, const char *what, const char *say,
+                           const char *instead) {
+    return fw_diag_error(&study->diags, 490, study->asked->place,
+                         "shards: %s of study '%s' %s; run it in one piece, in as many threads as "
+                         "there are (--jobs)%s",
+                         what, study->asked->name, say, instead);
+}
+
 static fw_status rare_apart(fw_study *study) {
-    return fw_diag_error(
-        &study->diags, 490, study->asked->place,
-        "shards: failures of study '%s' are so rare, and lie so, that subset simulation looks "
-        "for "
-        "them, and each of its points is chosen by the ones before; run it in one piece, in as "
-        "many threads as there are (--jobs); or, for several machines, the same study on each "
-        "with a seed of "
-        "its own, of whose estimates the mean is the answer",
-        study->asked->name);
+    return not_apart(study, "failures",
+                     "are so rare, and lie so, that subset simulation looks for them, and each of "
+                     "its points is chosen by the ones before",
+                     "; or, for several machines, the same study on each with a seed of its own, "
+                     "of whose estimates the mean is the answer");
 }
 
 static fw_status inside_apart(fw_study *study) {
-    return fw_diag_error(
-        &study->diags, 490, study->asked->place,
-        "shards: dies of study '%s' show that the least or the most yield may lie inside what is "
-        "only assumed, and the yield at one value says which value is looked at next; run it in "
-        "one piece, in as many threads as there are (--jobs), or state spread=\"uniform\" or an "
-        "sd of what is only assumed",
-        study->asked->name);
+    return not_apart(study, "dies",
+                     "show that the least or the most yield may lie inside what is only assumed, "
+                     "and the yield at one value says which value is looked at next",
+                     ", or state spread=\"uniform\" or an sd of what is only assumed");
 }
 
 /* side: the extremes of the probability of failing that are wanted */
