@@ -30,7 +30,7 @@ static const named known[] = {
     {{0, 0, -1, 0, 0, 1, 0, 0}, "gas flow", "{sccm}", NULL},
     {{0, 0, 0, 0, 0, 0, 1, 0}, "angle", "deg", NULL},
     {{0, 0, -1, 0, 0, 0, 1, 0}, "angular velocity", "rad/s", "rad/s"},
-    {{0, 0, -2, 0, 0, 0, 1, 0}, "angular acceleration", "rad/s^2", NULL},
+    {{0, 0, -2, 0, 0, 0, 1, 0}, "angular acceleration", "rad/s^2", "rad/s^2"},
     {{1, 0, -1, 0, 0, 0, 0, 0}, "velocity", "mm/s", "m/s"},
     {{1, 0, -2, 0, 0, 0, 0, 0}, "acceleration", "m/s^2", "m/s^2"},
     {{1, 1, -2, 0, 0, 0, 0, 0}, "force", "uN", "N"},
@@ -38,26 +38,26 @@ static const named known[] = {
     {{2, 1, -3, 0, 0, 0, 0, 0}, "power", "W", "W"},
     {{-1, 1, -2, 0, 0, 0, 0, 0}, "pressure or stress", "GPa", "Pa"},
     {{-3, 1, 0, 0, 0, 0, 0, 0}, "density", "g/cm3", "kg/m^3"},
-    {{2, 1, 0, 0, 0, 0, 0, 0}, "moment of inertia", "mg mm^2", NULL},
+    {{2, 1, 0, 0, 0, 0, 0, 0}, "moment of inertia", "mg mm^2", "kg m^2"},
     {{0, 1, -2, 0, 0, 0, 0, 0}, "stiffness", "N/m", "N/m"},
     {{0, 1, -1, 0, 0, 0, 0, 0}, "damping", "N s/m", "N s/m"},
     {{2, 1, -2, 0, 0, 0, -1, 0}, "torsional stiffness", "N m/rad", "N m/rad"},
     {{2, 1, -1, 0, 0, 0, -1, 0}, "torsional damping", "N m s/rad", "N m s/rad"},
-    {{0, 0, 1, 1, 0, 0, 0, 0}, "electric charge", "C", NULL},
-    {{-2, 0, 0, 1, 0, 0, 0, 0}, "current density", "mA/cm2", NULL},
+    {{0, 0, 1, 1, 0, 0, 0, 0}, "electric charge", "C", "C"},
+    {{-2, 0, 0, 1, 0, 0, 0, 0}, "current density", "mA/cm2", "A/m^2"},
     {{-2, 0, 1, 1, 0, 0, 0, 0}, "charge per area", "C/cm2", NULL},
     {{2, 1, -3, -1, 0, 0, 0, 0}, "voltage", "V", "V"},
     {{2, 1, -3, -2, 0, 0, 0, 0}, "electric resistance", "ohm", "ohm"},
     {{-2, -1, 4, 2, 0, 0, 0, 0}, "capacitance", "pF", "F"},
     {{0, 1, -2, -1, 0, 0, 0, 0}, "magnetic flux density", "mT", "T"},
-    {{0, 1, 0, 0, 0, -1, 0, 0}, "molar mass", "g/mol", NULL},
+    {{0, 1, 0, 0, 0, -1, 0, 0}, "molar mass", "g/mol", "kg/mol"},
     {{-3, 0, 0, 0, 0, 1, 0, 0}, "concentration", "mol/L", NULL},
-    {{2, 1, -2, 0, 0, -1, 0, 0}, "molar energy", "kJ/mol", NULL},
+    {{2, 1, -2, 0, 0, -1, 0, 0}, "molar energy", "kJ/mol", "J/mol"},
     {{2, 0, -1, 0, 0, 0, 0, 0}, "diffusivity", "cm2/s", NULL},
-    {{0, 1, -3, 0, 0, 0, 0, 0}, "power density", "mW/cm2", NULL},
+    {{0, 1, -3, 0, 0, 0, 0, 0}, "power density", "mW/cm2", "W/m^2"},
     {{0, 0, 0, 0, -1, 0, 0, 0}, "change per temperature", "K^-1", NULL},
-    {{-1, 1, -1, 0, 0, 0, 0, 0}, "viscosity", "uPa s", NULL},
-    {{-2, 1, -2, 0, 0, 0, 0, 0}, "stress gradient", "MPa/um", NULL},
+    {{-1, 1, -1, 0, 0, 0, 0, 0}, "viscosity", "uPa s", "Pa s"},
+    {{-2, 1, -2, 0, 0, 0, 0, 0}, "stress gradient", "MPa/um", "Pa/m"},
     {{0, 0, 0, 0, 0, 0, 0, 1}, "price", "EUR", NULL},
     {{-3, 0, 0, 0, 0, 0, 0, 1}, "price of a volume", "EUR/L", NULL},
     {{0, -1, 0, 0, 0, 0, 0, 1}, "price of a mass", "EUR/kg", NULL},
@@ -80,13 +80,13 @@ const char *fw_quantity_dimension_unit(fw_quantity_dimension d) {
     return row ? row->unit : NULL;
 }
 
-/* "kg m^2": a product of base units; "": of nothing */
+/* "m s^-1": a product of base units; "": of nothing */
 static const char *product(fw_arena *arena, fw_quantity_dimension d) {
     const struct {
         const char *symbol;
         int exponent;
-    } part[] = {{"kg", d.kg}, {"m", d.m},     {"s", d.s},     {"A", d.A},
-                {"K", d.K},   {"mol", d.mol}, {"rad", d.rad}, {"EUR", d.money}};
+    } part[] = {{"m", d.m}, {"kg", d.kg},   {"s", d.s},     {"A", d.A},
+                {"K", d.K}, {"mol", d.mol}, {"rad", d.rad}, {"EUR", d.money}};
     fw_text text = fw_text_new(arena);
     fw_text_add(&text, "");
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {

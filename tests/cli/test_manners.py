@@ -75,18 +75,18 @@ class Manners(unittest.TestCase):
         """over all rounds of two goals, one count; and the same devices whoever is told"""
         with tempfile.TemporaryDirectory() as scratch:
             study = pathlib.Path(scratch, "size.xml")
-            study.write_text('<study xmlns="urn:flexwright:study:1" name="s" kind="size" as="drawn" samples="160" device="%s">'
+            study.write_text('<study xmlns="urn:flexwright:study:1" name="s" kind="size" as="drawn" samples="320" device="%s">'
                              '<vary what="flexure[C]/@width" from="6 um" to="12 um"/><vary what="arc" from="190 deg" to="250 deg"/>'
                              '<respond name="used" value="governing.utilisation" goal="minimise"/>'
                              '<respond name="soft" value="hinges[C].limit_angle_rad" goal="maximise"/></study>' % SIX_BAR)
             for jobs in ("1", "2"):
                 out = pathlib.Path(scratch, jobs)
                 seen = on_terminal("study", str(study), "-o", str(out), "--jobs", jobs, expected=(0, 1))
-                said = re.findall(r"\r(\d+) of at most 160 devices, [\d.e+]+ a second, at most (\d+) s left", seen)
+                said = re.findall(r"\r(\d+) of at most 320 devices, [\d.e+]+ a second, at most (\d+) s left", seen)
                 self.assertGreater(len(said), 2, seen[-400:])
                 self.assertTrue(all(int(a[0]) <= int(b[0]) for a, b in zip(said, said[1:])))
                 self.assertGreater(int(said[-1][0]), 40)  # beyond the first look
-                self.assertLessEqual(int(said[-1][0]), 160)
+                self.assertLessEqual(int(said[-1][0]), 320)
             self.assertEqual(pathlib.Path(scratch, "1/study.json").read_text(), pathlib.Path(scratch, "2/study.json").read_text())
 
     def test_another_program_has_a_limit(self):
