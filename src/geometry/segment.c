@@ -16,6 +16,11 @@ double fw_geometry_angle_near(double angle_rad, double near_rad) {
 }
 
 /* rotates the nearer end about the centre, so that both ends are met without drift */
+int fw_geometry_segment_parts(const fw_geometry_segment *s) {
+    const double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
+    return 1 + (int)(sweep / 0.2);
+}
+
 fw_geometry_vec2 fw_geometry_segment_point(const fw_geometry_segment *s, double t) {
     if (t <= 0) return s->a;
     if (t >= 1) return s->b;

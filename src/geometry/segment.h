@@ -73,6 +73,8 @@ static inline fw_geometry_vec2 vec_line_foot(fw_geometry_vec2 a, fw_geometry_vec
 
 /* t runs from 0 at a to 1 at b; both ends are returned bit for bit */
 fw_geometry_vec2 fw_geometry_segment_point(const fw_geometry_segment *s, double t);
+/* chords in place of it that are off by 0.5 % of its radius: how many */
+int fw_geometry_segment_parts(const fw_geometry_segment *s);
 fw_geometry_vec2 fw_geometry_segment_tangent(const fw_geometry_segment *s,
                                              double t); /* unit, in the running direction */
 double fw_geometry_segment_length(const fw_geometry_segment *s);

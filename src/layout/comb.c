@@ -4,7 +4,6 @@
 #include "geometry/segment.h"
 #include "base/constants.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 #include <string.h>
 

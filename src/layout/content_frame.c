@@ -4,7 +4,7 @@
  */
 #include "geometry/segment.h"
 #include "layout/pattern.h"
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 #include "geometry/segment.h"
 #include "layout/draw.h"
 #include "layout/layout.h"
-#include "layout/layout_text.h"
 #include <math.h>
 
 /* ---- sketches and pieces ---- */

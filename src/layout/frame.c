@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 
 /* what a strip of the frame crosses or nearly touches */

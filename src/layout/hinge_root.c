@@ -5,7 +5,6 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 #include <string.h>
 

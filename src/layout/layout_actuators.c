@@ -4,7 +4,6 @@
    (FW-D131); the motion has it all the same, so that the device is rejected. */
 #include "geometry/segment.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 
 enum { SETTLING = 20 };

@@ -2,7 +2,6 @@
 /* From the description to outlines. The construction: docs/theory/layout.md. */
 #include "layout/draw.h"
 #include "base/text.h"
-#include "layout/layout_text.h"
 #include <math.h>
 
 enum { BODIES_MOST = 2000, JOINTS_MOST = 4000 };

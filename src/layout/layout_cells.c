@@ -3,7 +3,6 @@
 #include "base/text.h"
 #include "geometry/segment.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 
 static const double TOUCH_M = 0.5e-9; /* half of the masks' grid */

@@ -3,7 +3,6 @@
    and lane. */
 #include "base/sort.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include "layout/pattern.h"
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 /* Lettering, alignment marks and the dicing lane. */
 #include "base/text.h"
 #include "layout/layout_rules.h"
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include <math.h>
 #include <string.h>
 

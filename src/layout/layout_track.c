@@ -14,7 +14,6 @@
    Theory: docs/theory/wiring.md, section 3. Test: test_layout_track.c */
 #include "geometry/segment.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 
 static const double TRACK_M = 40e-6, STEP_M = 10e-6; /* as wide as a lead (comb.c) */

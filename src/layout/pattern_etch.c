@@ -3,7 +3,7 @@
    patterns.def lists them. */
 #include "base/constants.h"
 #include "layout/pattern.h"
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include <math.h>
 
 /* ---- ladder ---- */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What kinds of patterns draw with: shapes on the bar, and what is measured of them. */
 #include "layout/pattern.h"
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include <math.h>
 
 const char FW_PEN_SIZE[] = "size";

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Test patterns of printing, alignment, plating, films and load. Each with what it tells, and its row; patterns.def
    lists them. */
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include "layout/pattern.h"
 #include <math.h>
 

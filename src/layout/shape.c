@@ -4,7 +4,6 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 
 static const double FARTHEST_M = 600e-6; /* of a neck, from its hinge's free circle */

@@ -3,7 +3,6 @@
    keeps a short stub; everything beyond the neck stays on the frame. */
 #include "geometry/segment.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 #include <string.h>
 

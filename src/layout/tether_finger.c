@@ -3,7 +3,6 @@
    may. */
 #include "geometry/segment.h"
 #include "layout/draw.h"
-#include "layout/layout_text.h"
 #include <math.h>
 #include <string.h>
 

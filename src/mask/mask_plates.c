@@ -2,7 +2,7 @@
 /* <plate>: one row for each plate that a flow prints, in the order of printing; a table with one plate says the same in
    attributes of its root. <content>: what they draw besides the device. Page: docs/theory/plates.md. */
 #include "mask/mask_table.h"
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include "mask/rule.h"
 #include <math.h>
 #include <string.h>

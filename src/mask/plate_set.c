@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The plates of a table: which there are, what they draw, how well they lie on each other, and the lists that
    contents add to. */
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include "mask/mask_table.h"
 #include <math.h>
 #include <stdlib.h>

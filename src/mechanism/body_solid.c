@@ -61,11 +61,6 @@ typedef struct grid {
 
 /* ---- what is drawn of a body ---- */
 
-static int parts_of(const fw_geometry_segment *s) {
-    double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
-    return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
-}
-
 bool fw_mechanism_is_of(const fw_layout_piece *p, int body) {
     return p->body == body && p->role == FW_ROLE_STRUCTURE;
 }
@@ -76,7 +71,7 @@ fw_status fw_mechanism_body_lines(fw_arena *arena, const fw_layout *layout, int 
     for (int i = 0; i < layout->npiece; i++) {
         const fw_geometry_contour *c = &layout->piece[i].contour;
         for (int k = 0; fw_mechanism_is_of(&layout->piece[i], body) && k < c->count; k++)
-            most += (size_t)parts_of(&c->segment[k]);
+            most += (size_t)fw_geometry_segment_parts(&c->segment[k]);
     }
     FW_NEED(*line = fw_arena_array(arena, fw_mechanism_line, most));
     *n = 0;
@@ -84,7 +79,7 @@ fw_status fw_mechanism_body_lines(fw_arena *arena, const fw_layout *layout, int 
         const fw_geometry_contour *c = &layout->piece[i].contour;
         for (int k = 0; fw_mechanism_is_of(&layout->piece[i], body) && k < c->count; k++) {
             const fw_geometry_segment *s = &c->segment[k];
-            int parts = parts_of(s);
+            int parts = fw_geometry_segment_parts(s);
             fw_geometry_vec2 from = fw_geometry_segment_point(s, 0);
             for (int j = 0; j < parts; j++) {
                 fw_geometry_vec2 to = fw_geometry_segment_point(s, (double)(j + 1) / parts);

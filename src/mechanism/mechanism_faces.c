@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Faces across a gap: undersides over a carrier, which walls stand opposite each other, and how far faces reach across the
-   plane. Theory: docs/theory/stiction.md, docs/theory/effects/out-of-plane.md. */
+/* Faces across a gap: undersides over a carrier, walls of bodies beside each other, and how far faces reach across the plane. Theory: docs/theory/stiction.md, docs/theory/effects/out-of-plane.md. */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
@@ -10,24 +9,8 @@
 
 enum { CELLS = 8 }; /* along the longer side of a piece */
 
-typedef struct list {
-    fw_arena *arena;
-    fw_mechanism_face *face;
-    size_t count, room;
-} list;
-
-static fw_status put(list *to, const fw_mechanism_face *face) {
-    if (to->count == to->room) {
-        size_t more = to->room ? 2 * to->room : 64;
-        FW_NEED(to->face = fw_arena_grow(to->arena, to->face, to->count, more, sizeof *to->face));
-        to->room = more;
-    }
-    to->face[to->count++] = *face;
-    return FW_OK;
-}
-
-static fw_status put_below(list *to, const fw_mechanism *m, int body, int piece, double gap_m,
-                           double more, fw_geometry_vec2 at, double area_m2) {
+static fw_status put_below(fw_mechanism_faces *to, const fw_mechanism *m, int body, int piece,
+                           double gap_m, double more, fw_geometry_vec2 at, double area_m2) {
     double dx = at.x - m->drawn[body].x_m, dy = at.y - m->drawn[body].y_m;
     const fw_mechanism_face face = {.body = {body, FW_GROUND},
                                     .by = {{-1, -dy, dx}},
@@ -36,7 +19,7 @@ static fw_status put_below(list *to, const fw_mechanism *m, int body, int piece,
                                     .more = more,
                                     .at = at,
                                     .piece = {piece, FW_NONE}};
-    return area_m2 > 0 ? put(to, &face) : FW_OK;
+    return area_m2 > 0 ? fw_mechanism_faces_add(to, &face) : FW_OK;
 }
 
 /* lines of the liquid along edges: of a plate gamma P, of a strip twice its length, beside 2 gamma cos A/g; and no less
@@ -45,16 +28,11 @@ static double lines_of(double perimeter_m, double area_m2, double gap_m, double 
     return 0.5 * fmax(gap_m, depth_m) * perimeter_m / area_m2;
 }
 
-static int parts_of(const fw_geometry_segment *s) {
-    double sweep = s->kind == FW_LINE ? 0 : fabs(s->sweep_rad);
-    return 1 + (int)(sweep / 0.2); /* off by 0.5 % of the radius */
-}
-
 /* x where the outline crosses the height y, sorted: at most `most` of them */
 static int crossings(const fw_geometry_contour *c, double y, double *x, int most) {
     int n = 0;
     for (int i = 0; i < c->count; i++) {
-        int parts = parts_of(&c->segment[i]);
+        int parts = fw_geometry_segment_parts(&c->segment[i]);
         for (int k = 0; k < parts && n < most; k++) {
             fw_geometry_vec2 a = fw_geometry_segment_point(&c->segment[i], (double)k / parts),
                              b = fw_geometry_segment_point(&c->segment[i], (k + 1.0) / parts);
@@ -70,7 +48,8 @@ static int crossings(const fw_geometry_contour *c, double y, double *x, int most
 }
 
 /* rows of the piece, cut into cells; their areas add up to the piece's own */
-static fw_status put_piece(list *to, const fw_mechanism *m, int piece, double gap_m, double more) {
+static fw_status put_piece(fw_mechanism_faces *to, const fw_mechanism *m, int piece, double gap_m,
+                           double more) {
     enum { MOST = 256 };
     const fw_layout_piece *p = &m->layout->piece[piece];
     const fw_geometry_box box = fw_geometry_contour_box(&p->contour);
@@ -99,7 +78,8 @@ static fw_status put_piece(list *to, const fw_mechanism *m, int piece, double ga
 
 /* Half of a strip's pull goes to either body, a third of the way from its root to the pin: forces and moments of a strip
    clamped at both ends under an even load */
-static fw_status put_strips(list *to, const fw_mechanism_plates *p, double gap_m, double depth_m) {
+static fw_status put_strips(fw_mechanism_faces *to, const fw_mechanism_plates *p, double gap_m,
+                            double depth_m) {
     const fw_mechanism *m = p->mechanism;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
@@ -123,7 +103,7 @@ fw_status fw_mechanism_faces_below(fw_arena *arena, const fw_mechanism_plates *p
                                    fw_mechanism_face **face, int *nface) {
     const fw_mechanism *m = p->mechanism;
     const double depth = m->variant->thickness_m;
-    list to = {.arena = arena};
+    fw_mechanism_faces to = {.arena = arena};
     for (int i = 0; m->layout && i < m->layout->npiece; i++) {
         const fw_layout_piece *piece = &m->layout->piece[i];
         if (piece->body < 0 || piece->body >= m->nbody || !fw_layout_is_wall(piece)) continue;
@@ -144,144 +124,37 @@ fw_status fw_mechanism_faces_below(fw_arena *arena, const fw_mechanism_plates *p
     return FW_OK;
 }
 
+/* z of the plates and of the sphere that they curl to. Test: test_mechanism_pull.c */
+fw_status fw_mechanism_faces_rest(fw_arena *arena, const fw_mechanism_plates *p,
+                                  double curvature_per_m, double gap_m, double more,
+                                  fw_mechanism_face *face, int n, double *down, double *up) {
+    const size_t size = (size_t)p->n;
+    fw_geometry_vec2 middle = {0, 0};
+    double *f, *x, *bow;
+    fw_mark mark = fw_arena_mark(arena);
+    FW_NEED(f = fw_arena_array(arena, double, 3 * size));
+    x = f + size, bow = x + size;
+    fw_mechanism_plates_weight(p, -FW_STANDARD_GRAVITY_m_per_s2, f);
+    fw_mechanism_plates_answer(p, f, x);
+    if (curvature_per_m != 0) {
+        fw_mechanism_plates_curl(p, curvature_per_m, &middle, f);
+        fw_mechanism_plates_answer(p, f, bow);
+        for (size_t i = 0; i < size; i++)
+            x[i] += bow[i];
+    }
+    *down = *up = 0;
+    for (int i = 0; i < n; i++) {
+        const fw_geometry_vec2 c = vec_sub(face[i].at, middle);
+        const double z = more * (fw_mechanism_plates_z(p, x, face[i].body[0], face[i].at) +
+                                 0.5 * curvature_per_m * vec_dot(c, c));
+        face[i].gap_m = fmax(gap_m + z, 1e-9);
+        *down = fmax(*down, -z), *up = fmax(*up, z);
+    }
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
 /* ---- walls opposite each other ---- */
-
-static const double reach_m =
-                        200e-6,    /* a liquid between walls further apart pulls next to nothing */
-    pitch_m = 15e-6, facing = 0.7, /* rays along an edge; - cos of the angle between two normals */
-    first_m = 25e-6; /* most rays, those across a release hole or a slot, end before */
-enum { BINS = 512 }; /* along the longer side of the box, at most */
-
-typedef struct wall {
-    fw_geometry_vec2 a, b; /* the material to the left */
-    int solid, piece;      /* solid: a body, FW_GROUND, or FLEXED - joint of a strip */
-} wall;
-
-enum { FLEXED = -1000 };
-
-typedef struct walls {
-    fw_arena *arena;
-    wall *wall;
-    int nwall, nx, ny;
-    fw_geometry_box box;
-    double side_m;   /* of a bin */
-    int *begin, *in; /* (nx ny + 1) of each bin, into its walls */
-} walls;
-
-static bool solid_of(const fw_layout_piece *p, int nbody, int *solid) {
-    if (p->role == FW_ROLE_FLEXURE && p->joint >= 0)
-        *solid = FLEXED - p->joint;
-    else if (fw_layout_is_wall(p))
-        *solid = p->body >= 0 && p->body < nbody ? p->body : FW_GROUND;
-    else
-        return false;
-    return true;
-}
-
-static fw_status take_walls(const fw_mechanism *m, walls *w) {
-    const fw_layout *l = m->layout;
-    size_t n = 0;
-    int solid;
-    for (int i = 0; i < l->npiece; i++)
-        for (int k = 0; k < l->piece[i].contour.count; k++)
-            n += (size_t)parts_of(&l->piece[i].contour.segment[k]);
-    FW_NEED(w->wall = fw_arena_array(w->arena, wall, n));
-    for (int i = 0; i < l->npiece; i++) {
-        const fw_geometry_contour *c = &l->piece[i].contour;
-        for (int k = 0; solid_of(&l->piece[i], m->nbody, &solid) && k < c->count; k++) {
-            const fw_geometry_segment *s = &c->segment[k];
-            int parts = parts_of(s);
-            for (int j = 0; j < parts && !(s->flags & FW_SEGMENT_JOINT); j++)
-                w->wall[w->nwall++] =
-                    (wall){fw_geometry_segment_point(s, (double)j / parts),
-                           fw_geometry_segment_point(s, (j + 1.0) / parts), solid, i};
-        }
-    }
-    return FW_OK;
-}
-
-static fw_geometry_box box_of(fw_geometry_vec2 a, fw_geometry_vec2 b) {
-    return (fw_geometry_box){fw_lesser(a.x, b.x), fw_lesser(a.y, b.y), fw_greater(a.x, b.x),
-                             fw_greater(a.y, b.y)};
-}
-
-static int bin(const walls *w, double x, double from, int n) {
-    int i = (int)((x - from) / w->side_m);
-    return i < 0 ? 0 : i >= n ? n - 1 : i;
-}
-
-typedef struct range { /* of bins, the last ones included */
-    int i0, i1, j0, j1;
-} range;
-
-static range bins_of(const walls *w, const fw_geometry_box *b) {
-    return (range){bin(w, b->x0, w->box.x0, w->nx), bin(w, b->x1, w->box.x0, w->nx),
-                   bin(w, b->y0, w->box.y0, w->ny), bin(w, b->y1, w->box.y0, w->ny)};
-}
-
-/* counts the bins that a wall's box covers, or puts it into them */
-static void spread_wall(walls *w, int at, int *next) {
-    const fw_geometry_box box = box_of(w->wall[at].a, w->wall[at].b);
-    const range r = bins_of(w, &box);
-    for (int j = r.j0; j <= r.j1; j++)
-        for (int i = r.i0; i <= r.i1; i++) {
-            if (next)
-                w->in[next[j * w->nx + i]++] = at;
-            else
-                w->begin[j * w->nx + i + 1]++;
-        }
-}
-
-static fw_status sort_walls(walls *w) {
-    for (int i = 0; i < w->nwall; i++) {
-        fw_geometry_box box = box_of(w->wall[i].a, w->wall[i].b);
-        w->box = i ? fw_box_join(w->box, box) : box;
-    }
-    const double width = w->box.x1 - w->box.x0, height = w->box.y1 - w->box.y0;
-    w->side_m = fmax(first_m, fmax(width, height) / BINS);
-    w->nx = 1 + (int)(width / w->side_m);
-    w->ny = 1 + (int)(height / w->side_m);
-    size_t n = (size_t)w->nx * (size_t)w->ny;
-    int *next;
-    FW_NEED(w->begin = fw_arena_array(w->arena, int, n + 1));
-    FW_NEED(next = fw_arena_array(w->arena, int, n));
-    for (int i = 0; i < w->nwall; i++)
-        spread_wall(w, i, NULL);
-    for (size_t i = 0; i < n; i++)
-        w->begin[i + 1] += w->begin[i], next[i] = w->begin[i];
-    FW_NEED(w->in = fw_arena_array(w->arena, int, (size_t)w->begin[n] + 1));
-    for (int i = 0; i < w->nwall; i++)
-        spread_wall(w, i, next);
-    return FW_OK;
-}
-
-/* the nearest wall that the ray from p along the unit vector n meets within reach, and how far away; -1: none */
-static int look_within(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n,
-                       double reach, double *gap) {
-    const fw_geometry_box box = box_of(p, vec_along(p, reach, n));
-    const range r = bins_of(w, &box);
-    int found = -1;
-    *gap = reach;
-    for (int j = r.j0; j <= r.j1; j++)
-        for (int i = r.i0; i <= r.i1; i++)
-            for (int k = w->begin[j * w->nx + i]; k < w->begin[j * w->nx + i + 1]; k++) {
-                const wall *to = &w->wall[w->in[k]];
-                fw_geometry_vec2 along = vec_sub(to->b, to->a), off = vec_sub(to->a, p);
-                double det = vec_cross(n, along),
-                       beside = vec_cross(off, n); /* 0 to det within it */
-                if (det > 0 ? beside < 0 || beside > det : beside > 0 || beside < det) continue;
-                if (w->in[k] == own || det == 0) continue;
-                double t = vec_cross(off, along) / det;
-                if (t > 0 && t < *gap) *gap = t, found = w->in[k];
-            }
-    return found;
-}
-
-/* near the wall first: what is found there is the nearest of all */
-static int look(const walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n, double *gap) {
-    int found = look_within(w, own, p, n, first_m, gap);
-    return found >= 0 ? found : look_within(w, own, p, n, reach_m, gap);
-}
 
 /* x, y and turn of a body move its point p along n by this */
 static void put_side(const fw_mechanism *m, int body, fw_geometry_vec2 p, fw_geometry_vec2 n,
@@ -297,8 +170,9 @@ typedef struct seen {
     double length_m, gap_m;
 } seen;
 
-static fw_status put_beside(list *to, const fw_mechanism *m, const walls *w, const seen *s) {
-    const wall *a = &w->wall[s->own], *b = &w->wall[s->other];
+static fw_status put_beside(fw_mechanism_faces *to, const fw_mechanism *m,
+                            const fw_mechanism_walls *w, const seen *s) {
+    const fw_mechanism_wall *a = &w->wall[s->own], *b = &w->wall[s->other];
     const double depth = m->variant->thickness_m;
     fw_mechanism_face face = {.body = {a->solid, b->solid},
                               .area_m2 = s->length_m * depth,
@@ -310,12 +184,12 @@ static fw_status put_beside(list *to, const fw_mechanism *m, const walls *w, con
                               .piece = {a->piece, b->piece}};
     put_side(m, a->solid, s->at, s->normal, 1, face.by[0]);
     put_side(m, b->solid, vec_along(s->at, s->gap_m, s->normal), s->normal, -1, face.by[1]);
-    return put(to, &face);
+    return fw_mechanism_faces_add(to, &face);
 }
 
-static void put_strip(const fw_mechanism *m, const walls *w, const seen *s,
+static void put_strip(const fw_mechanism *m, const fw_mechanism_walls *w, const seen *s,
                       fw_mechanism_strip_beside *strip) {
-    int joint = FLEXED - w->wall[s->own].solid, k = m->pin[joint].hinge;
+    int joint = FW_MECHANISM_FLEXED - w->wall[s->own].solid, k = m->pin[joint].hinge;
     if (k == FW_NONE) return;
     const fw_mechanism_pin *pin = &m->pin[joint];
     fw_geometry_vec2 pin_at = fw_mechanism_pin_place(m, pin, 0);
@@ -327,11 +201,12 @@ static void put_strip(const fw_mechanism *m, const walls *w, const seen *s,
 
 /* A pair of bodies is seen from both of them, with half of the area each: from the outer one of two arcs there is more of it,
    and which body is described first decides nothing. The ground looks at none. */
-static fw_status look_from(const fw_mechanism *m, const walls *w, int own, double come_m, list *to,
+static fw_status look_from(const fw_mechanism *m, const fw_mechanism_walls *w, int own,
+                           double come_m, fw_mechanism_faces *to,
                            fw_mechanism_strip_beside *strip) {
-    const wall *a = &w->wall[own];
+    const fw_mechanism_wall *a = &w->wall[own];
     double length = vec_distance(a->a, a->b);
-    int rays = 1 + (int)(length / pitch_m);
+    int rays = 1 + (int)(length / FW_MECHANISM_RAYS_m);
     if (a->solid == FW_GROUND || !(length > 0)) return FW_OK;
     fw_geometry_vec2 along = vec_sub(a->b, a->a), n = {along.y / length, -along.x / length};
     for (int k = 0; k < rays; k++) {
@@ -339,13 +214,13 @@ static fw_status look_from(const fw_mechanism *m, const walls *w, int own, doubl
                   .at = vec_along(a->a, (k + 0.5) / rays, along),
                   .normal = n,
                   .length_m = length / rays};
-        s.other = look(w, own, s.at, n, &s.gap_m);
+        s.other = fw_mechanism_walls_look(w, own, s.at, n, &s.gap_m);
         if (s.other < 0) continue;
-        const wall *b = &w->wall[s.other];
+        const fw_mechanism_wall *b = &w->wall[s.other];
         fw_geometry_vec2 back = vec_unit(vec_sub(b->b, b->a)), out = {back.y, -back.x};
         s.gap_m = fmax(s.gap_m - come_m, 1e-9); /* closed walls are another matter (FW-D238) */
-        if (b->solid == a->solid || vec_dot(out, n) > -facing) continue;
-        if (a->solid <= FLEXED)
+        if (b->solid == a->solid || vec_dot(out, n) > -FW_MECHANISM_FACING) continue;
+        if (a->solid <= FW_MECHANISM_FLEXED)
             put_strip(m, w, &s, strip);
         else if (b->solid == FW_GROUND)
             FW_TRY(put_beside(to, m, w, &s));
@@ -363,15 +238,13 @@ static fw_status look_from(const fw_mechanism *m, const walls *w, int own, doubl
 fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *m,
                                     fw_mechanism_face **face, int *nface,
                                     fw_mechanism_strip_beside *strip) {
-    walls w = {.arena = arena};
-    list to = {.arena = arena};
+    fw_mechanism_walls w;
+    fw_mechanism_faces to = {.arena = arena};
     *face = NULL, *nface = 0;
     for (int k = 0; k < m->nhinge; k++)
         strip[k] = (fw_mechanism_strip_beside){.gap_m = HUGE_VAL, .piece = FW_NONE};
-    if (!m->layout || !m->layout->drawn) return FW_OK;
-    FW_TRY(take_walls(m, &w));
+    FW_TRY(fw_mechanism_walls_take(arena, m, &w));
     if (w.nwall == 0) return FW_OK;
-    FW_TRY(sort_walls(&w));
     for (int i = 0; i < w.nwall; i++)
         FW_TRY(look_from(m, &w, i, fw_layout_walls_m(m->layout), &to, strip));
     *face = to.face, *nface = (int)to.count;

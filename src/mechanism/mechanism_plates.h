@@ -137,9 +137,21 @@ fw_status fw_mechanism_pull_in(fw_arena *arena, const double *compliance, int n,
                                const fw_mechanism_face *face, int nface, fw_mechanism_pull law,
                                double enough_N_per_m, double *tension, int *first);
 
+typedef struct fw_mechanism_faces { /* a list that grows */
+    fw_arena *arena;
+    fw_mechanism_face *face;
+    size_t count, room;
+} fw_mechanism_faces;
+fw_status fw_mechanism_faces_add(fw_mechanism_faces *to, const fw_mechanism_face *face);
+
 /* undersides of all that moves over the carrier, cells of what is drawn; bodies in one row each where nothing is */
 fw_status fw_mechanism_faces_below(fw_arena *arena, const fw_mechanism_plates *plates, double gap_m,
                                    fw_mechanism_face **face, int *nface);
+/* Gaps (n) to a carrier that is gap_m away from the plane: as they are at rest, where weight and a curvature that a gradient of
+   stress gives have lowered or lifted bodies, `more` times as far as computed. *down, *up: by how much at most */
+fw_status fw_mechanism_faces_rest(fw_arena *arena, const fw_mechanism_plates *plates,
+                                  double curvature_per_m, double gap_m, double more,
+                                  fw_mechanism_face *face, int n, double *down, double *up);
 /* Walls that stand opposite each other, seen along the normals of what moves: bodies (one face for each two walls), and
    strips of flexures. As fabricated where the layout says so. */
 typedef struct fw_mechanism_strip_beside { /* of hinge k */
@@ -150,6 +162,40 @@ typedef struct fw_mechanism_strip_beside { /* of hinge k */
 fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *mechanism,
                                     fw_mechanism_face **face, int *nface,
                                     fw_mechanism_strip_beside *strip);
+/* ---- mechanism_walls.c: all that stands on the carrier, edge by edge, and rays from one to another ---- */
+
+typedef struct fw_mechanism_wall {
+    fw_geometry_vec2 a, b; /* the material to the left */
+    int solid, piece;      /* solid: a body, FW_GROUND, or FW_MECHANISM_FLEXED - joint of a strip */
+} fw_mechanism_wall;
+enum { FW_MECHANISM_FLEXED = -1000 };
+/* rays along an edge; - cos of the angle between the normals of two walls that face each other */
+#define FW_MECHANISM_RAYS_m 15e-6
+#define FW_MECHANISM_FACING 0.7
+typedef struct fw_mechanism_walls {
+    fw_arena *arena;
+    fw_mechanism_wall *wall;
+    int nwall, nx, ny;
+    fw_geometry_box box;
+    double side_m;   /* of a bin */
+    int *begin, *in; /* (nx ny + 1) of each bin, into its walls */
+} fw_mechanism_walls;
+fw_status fw_mechanism_walls_take(fw_arena *arena, const fw_mechanism *mechanism,
+                                  fw_mechanism_walls *walls);
+/* the nearest wall but `own` that the ray from p along the unit vector n meets within 200 um, and how far away; -1: none */
+int fw_mechanism_walls_look(const fw_mechanism_walls *walls, int own, fw_geometry_vec2 p,
+                            fw_geometry_vec2 n, double *gap);
+
+/* What of a body is slender, and bends towards what stands beside it: of every such wall whose liquid pulls it there at less
+   than enough_N_per_m, s that it bears, to 1 % below it */
+typedef struct fw_mechanism_limb {
+    double tension_N_per_m, gap_m;
+    int piece[2],
+        body[2]; /* of the layout: its own, and what faces it; FW_GROUND: what stands, or a flexure */
+    bool limbs; /* what faces it bends as well */
+} fw_mechanism_limb;
+fw_status fw_mechanism_limbs_beside(fw_arena *arena, const fw_mechanism *mechanism,
+                                    double enough_N_per_m, fw_mechanism_limb **limb, int *nlimb);
 /* A strip clamped at both ends, s (1 + more)/(gap that is left) over its width: the largest s */
 double fw_mechanism_strip_pull_in(double bend_Nm2, double length_m, double width_m, double gap_m,
                                   double more);

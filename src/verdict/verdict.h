@@ -133,8 +133,8 @@ typedef struct fw_verdict_pull {
     double number
         [2]; /* elastocapillary, of the flow's own drying: low, high; HUGE_VAL: nothing pulls */
     const char *a, *b; /* what meets; b NULL: the carrier */
-    double gap_m,
-        stiffness_N_per_m; /* stiffness: of a's centre of mass across the plane; NaN: beside */
+    /* lowered: at rest, by weight and stress, at most; stiffness: of a across the plane, NaN: beside */
+    double gap_m, lowered_m, stiffness_N_per_m;
 } fw_verdict_pull;
 
 typedef struct fw_verdict_stuck { /* surfaces that a scene closes: of a hinge or of a contact */

@@ -18,12 +18,16 @@ typedef struct device {
     fw_mechanism_plates rigid, soft;
     double *across[2], *beside, *firm; /* compliances: rigid, soft; in the plane, soft, rigid */
     bool held;                         /* in the plane */
+    double down_m, up_m;   /* what weight and stress do at rest across the plane, at most */
+    double *alone_N_per_m; /* (nbody) in the plane: what each bears as a rigid one, or more */
 } device;
 
 /* of walls: a tension of which nothing is known any closer, 20 times that of water */
 static const double wall_enough_N_per_m = 3;
 /* a crystal along other directions than the closed form's, shear: a strip beside a wall is known to */
 static const double strip_error = 0.2;
+/* of a gap: nearer is a touch; what weight and stress close at rest is said from there on */
+static const double touch_share = 0.02;
 
 static const char *body_name(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? "what stands" : fw_text_name(m->body[body].id);
@@ -53,26 +57,53 @@ static void strips_below(const device *d, double gap_m, fw_verdict_pull *to) {
     }
 }
 
-static fw_status pull_below(device *d, fw_verdict_pull *to) {
+/* one state of rest: low gaps with what bodies give at most, high ones with rigid ones */
+static fw_status pull_at_rest(device *d, double curvature_per_m, fw_mechanism_face *face, int n,
+                              fw_verdict_pull *to, int *body) {
     const fw_mechanism_below *below = &d->m->variant->below;
+    const double more = 1 + d->rigid.error, low = fmax(below->low_m, 1e-9);
+    double s, down, up;
+    int first;
+    FW_TRY(fw_mechanism_faces_rest(d->arena, soft_of(d), curvature_per_m, low, more, face, n, &down,
+                                   &up));
+    FW_TRY(fw_mechanism_pull_in(d->arena, d->across[1], d->rigid.n, face, n, FW_PULL_EACH, HUGE_VAL,
+                                &s, &first));
+    const int lost = first == FW_NONE ? FW_GROUND : face[first].body[0];
+    if (0.5 * s / more < to->tension_N_per_m[0]) *body = lost;
+    keep_lower(to, 0.5 * s / more, body_name(d->m, lost), NULL);
+    strips_below(d, fmax(low - down, 1e-9), to);
+    d->down_m = fmax(d->down_m, down);
+    FW_TRY(fw_mechanism_faces_rest(d->arena, &d->rigid, curvature_per_m, below->high_m, more, face,
+                                   n, &down, &up));
+    d->up_m = fmax(d->up_m, up);
+    FW_TRY(fw_mechanism_pull_in(d->arena, d->across[0], d->rigid.n, face, n, FW_PULL_WIDEST,
+                                HUGE_VAL, &s, &first));
+    to->tension_N_per_m[1] = fmax(to->tension_N_per_m[1], 0.5 * s * more);
+    return FW_OK;
+}
+
+/* by its weight alone, and with each gradient of stress that a scene has */
+static fw_status pull_below(device *d, fw_verdict_pull *to) {
+    const fw_mechanism *m = d->m;
+    const fw_mechanism_below *below = &m->variant->below;
     fw_mechanism_face *face;
-    int n, first;
-    double s, more = 1 + d->rigid.error;
+    int n, body = FW_GROUND;
+    double last = 0;
     if (!below->known || below->open) return FW_OK;
     to->known = true;
     to->gap_m = below->m;
-    double low = fmax(below->low_m, 1e-9);
-    FW_TRY(fw_mechanism_faces_below(d->arena, soft_of(d), low, &face, &n));
-    FW_TRY(fw_mechanism_pull_in(d->arena, d->across[1], d->rigid.n, face, n, FW_PULL_EACH, HUGE_VAL,
-                                &s, &first));
-    const int body = first == FW_NONE ? FW_GROUND : face[first].body[0];
-    keep_lower(to, 0.5 * s / more, body_name(d->m, body), NULL);
-    strips_below(d, low, to);
-    for (int i = 0; i < n; i++)
-        face[i].gap_m = below->high_m;
-    FW_TRY(fw_mechanism_pull_in(d->arena, d->across[0], d->rigid.n, face, n, FW_PULL_WIDEST,
-                                HUGE_VAL, &s, &first));
-    to->tension_N_per_m[1] = fmax(0.5 * s * more, to->tension_N_per_m[0]);
+    to->tension_N_per_m[1] = 0;
+    FW_TRY(fw_mechanism_faces_below(d->arena, soft_of(d), fmax(below->low_m, 1e-9), &face, &n));
+    FW_TRY(pull_at_rest(d, 0, face, n, to, &body));
+    for (int i = 0; i < m->device->nscene; i++) {
+        const fw_device_scene *s = &m->device->scene[i];
+        const double curvature = fw_mechanism_plates_curvature(m, s);
+        if (curvature == last || !fw_device_in_flow(s->flow, m->variant->flow)) continue;
+        FW_TRY(pull_at_rest(d, curvature, face, n, to, &body));
+        last = curvature;
+    }
+    to->tension_N_per_m[1] = fmax(to->tension_N_per_m[1], to->tension_N_per_m[0]);
+    to->lowered_m = d->down_m;
     if (body != FW_GROUND)
         to->stiffness_N_per_m =
             1 / d->across[0][(size_t)(3 * body) * (size_t)d->rigid.n + (size_t)(3 * body)];
@@ -132,12 +163,59 @@ static void strips_beside(const device *d, const fw_mechanism_strip_beside *stri
     }
 }
 
+/* what a body bears as a rigid one, up to `enough` */
+static fw_status bears_alone(device *d, const fw_mechanism_face *face, int n, int body,
+                             fw_mechanism_face *room, double enough_N_per_m) {
+    double *to = &d->alone_N_per_m[body];
+    if (*to > 0) return FW_OK; /* it is known */
+    *to = enough_N_per_m;
+    for (int way = 0; way < WAYS; way++) {
+        double s;
+        int first, found = on_one_side(face, n, body, way, room);
+        if (found == 0) continue;
+        FW_TRY(fw_mechanism_pull_in(d->arena, d->beside, d->rigid.n, room, found, FW_PULL_EACH,
+                                    2 * *to, &s, &first));
+        *to = fmin(*to, 0.5 * s);
+    }
+    return FW_OK;
+}
+
+/* What is bent goes with what turns its bodies: shares of the tension add up at most (Dunkerley). What bears more than ten
+   times as much as what gives way first is left out. */
+static fw_status limbs_beside(device *d, const fw_mechanism_face *face, int n,
+                              fw_mechanism_face *room, fw_verdict_pull *to) {
+    const fw_mechanism *m = d->m;
+    const double more = 1 + strip_error, times = 10,
+                 enough = times * fmin(wall_enough_N_per_m, to->tension_N_per_m[0]);
+    fw_mechanism_limb *limb;
+    int nlimb;
+    FW_TRY(fw_mechanism_limbs_beside(d->arena, m, 2 * more * enough, &limb, &nlimb));
+    for (int i = 0; i < nlimb; i++) {
+        double share = 2 * more / limb[i].tension_N_per_m, alone = 0;
+        for (int k = 0; k < 2; k++) {
+            const int body = limb[i].body[k];
+            if (body == FW_GROUND || limb[i].body[0] == limb[i].body[1]) continue;
+            FW_TRY(bears_alone(d, face, n, body, room, enough));
+            alone = fmax(alone, 1 / d->alone_N_per_m[body]);
+        }
+        if (!(1 / (share + alone) < to->tension_N_per_m[0])) continue;
+        const char *own = m->layout->piece[limb[i].piece[0]].label,
+                   *other = m->layout->piece[limb[i].piece[1]].label, *part;
+        FW_NEED(part = fw_arena_printf(d->arena, "a slender part of %s", own));
+        keep_lower(to, 1 / (share + alone), part,
+                   strcmp(own, other) == 0 ? "another part of it" : other);
+        to->gap_m = limb[i].gap_m;
+    }
+    return FW_OK;
+}
+
 static fw_status pull_beside(device *d, fw_verdict_pull *to) {
     const fw_mechanism *m = d->m;
     fw_mechanism_face *face, *room;
     fw_mechanism_strip_beside *strip;
     int n;
     if (!d->held || !m->layout || !m->layout->drawn) return FW_OK;
+    FW_NEED(d->alone_N_per_m = fw_arena_array(d->arena, double, (size_t)m->nbody));
     FW_NEED(strip = fw_arena_array(d->arena, fw_mechanism_strip_beside, (size_t)m->nhinge));
     FW_TRY(fw_mechanism_faces_beside(d->arena, m, &face, &n, strip));
     FW_NEED(room = fw_arena_array(d->arena, fw_mechanism_face, (size_t)n));
@@ -145,7 +223,7 @@ static fw_status pull_beside(device *d, fw_verdict_pull *to) {
     strips_beside(d, strip, to);
     for (int b = 0; b < m->nbody; b++)
         FW_TRY(pull_body(d, face, n, b, room, to));
-    return FW_OK;
+    return limbs_beside(d, face, n, room, to);
 }
 
 /* ---- does it come free? ---- */
@@ -187,6 +265,7 @@ static double corner_energy(const device *d, const double *c, int body, double g
 static void peel(const device *d, fw_verdict_stiction *to) {
     const fw_mechanism *m = d->m;
     const fw_mechanism_below *below = &m->variant->below;
+    const double low = fmax(below->low_m - d->down_m, 0), high = below->high_m + d->up_m;
     double all = 0, more = 1 + d->rigid.error;
     to->peel[0] = to->peel[1] = HUGE_VAL;
     for (int b = 0; b < m->nbody; b++)
@@ -195,8 +274,8 @@ static void peel(const device *d, fw_verdict_stiction *to) {
         double k[3][3], area = m->shape[b].area_m2;
         if (!invert3(d->across[0], d->rigid.n, b, k)) continue;
         double flat = 0.5 * k[0][0] * below->m * below->m / area;
-        double most = flat * more * below->high_m * below->high_m / (below->m * below->m);
-        double least = corner_energy(d, d->across[1], b, fmax(below->low_m, 0)) / (more * all);
+        double most = flat * more * high * high / (below->m * below->m);
+        double least = corner_energy(d, d->across[1], b, low) / (more * all);
         if (!(flat >= to->adhesion_J_per_m2))
             to->adhesion_J_per_m2 = flat, to->peeled = body_name(m, b);
         to->peel[0] = fmin(to->peel[0], least / d->drying->adhesion_high);
@@ -205,7 +284,7 @@ static void peel(const device *d, fw_verdict_stiction *to) {
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_plate_hinge *h = &d->rigid.hinge[k];
         double w = m->hinge[k].input.width_m, l2 = h->length_m * h->length_m;
-        double strip = 307.2 * h->bend_Nm2 * below->low_m * below->low_m / (w * l2 * l2);
+        double strip = 307.2 * h->bend_Nm2 * low * low / (w * l2 * l2);
         to->peel[0] = fmin(to->peel[0], strip / (1 + h->error) / d->drying->adhesion_high);
     }
 }
@@ -317,8 +396,6 @@ static fw_status say_stuck(device *d, const fw_verdict_stuck *s, fw_verdict_vari
                s->decision, fw_verdict_stuck_text(d->arena, s, d->drying->adhesion_high), v);
 }
 
-static const double touch_share = 0.02; /* of the drawn gap: nearer is a touch */
-
 static fw_status stuck(device *d, fw_verdict_stiction *to, fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = d->m;
     size_t n = 0;
@@ -404,16 +481,21 @@ static fw_status judge_below(fw_arena *arena, const fw_mechanism *m, fw_verdict_
     const bool sure = found == FW_REJECT;
     const char *number = range_words(arena, p->number), *peeled = range_words(arena, to->peel),
                *help = remedy(arena, p);
-    char gap[32];
+    char gap[32], down[32];
+    const char *lowered = "";
+    if (p->lowered_m > touch_share * p->gap_m)
+        FW_NEED(lowered =
+                    fw_arena_printf(arena, " (at rest it is lowered into them by up to %s um)",
+                                    fw_number_text(down, sizeof down, 1e6 * p->lowered_m, 3)));
     FW_NEED(number && peeled && help ? number : NULL);
     to->decision = found;
     return say(m, "as it dries", 583, to->decision,
                fw_arena_printf(arena,
-                               "the liquid of %s pulls %s down to the carrier across %s um "
+                               "the liquid of %s pulls %s down to the carrier across %s um%s "
                                "(elastocapillary number %s, at least 1 "
                                "is wanted), where it %s (peel number %s); %s",
                                m->variant->drying.words, p->a ? p->a : "it",
-                               fw_number_text(gap, sizeof gap, 1e6 * p->gap_m, 3), number,
+                               fw_number_text(gap, sizeof gap, 1e6 * p->gap_m, 3), lowered, number,
                                sure ? "stays" : "may stay", unknown ? "not known" : peeled, help),
                v);
 }
@@ -513,88 +595,4 @@ fw_verdict_decision fw_verdict_drying_bears(const fw_verdict_variant_verdict *v,
     if (down != FW_ACCEPT || !(beside.number[0] < 1)) return down;
     *number = 584;
     return FW_INCONCLUSIVE;
-}
-
-/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
-
-static fw_status leave_open(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
-                            int number, const char *what, int body, double by, const char *unit) {
-    char text[32];
-    FW_NEED(what = fw_arena_printf(
-                arena,
-                "%s, and %s%s, which is rigid there, may bend in the plane by up to %s %s where "
-                "it reaches beyond its hinges: make it wider or shorter",
-                what, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
-                fw_number_text(text, sizeof text, by, 3), unit));
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = FW_VERDICT_KEEP_HALF,
-                                                  .not_by_width = true,
-                                                  .text = what};
-    return FW_OK;
-}
-
-static fw_status opens(fw_arena *arena, int scene, double by, int body,
-                       fw_verdict_variant_verdict *v) {
-    const char *name = v->mechanism->device->scene[scene].name, *what;
-    for (int k = 0; k < v->nclearance; k++) {
-        fw_verdict_clearance *c = &v->clearance[k];
-        if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
-        if (c->low_m - by > c->required_m) continue;
-        c->decision = FW_INCONCLUSIVE;
-        what = c->required_m > 0 ? "what is asked for between parts is only just kept"
-                                 : "parts only just do not meet";
-        FW_TRY(leave_open(arena, v, name, 638, what, body, 1e6 * by, "um"));
-    }
-    for (int k = 0; k < v->nrequirement; k++) {
-        fw_verdict_requirement *r = &v->requirement[k];
-        const bool moves = fw_words_hold("displacement gap distance opening", " ", r->kind);
-        if (r->scene_index != scene || r->decision != FW_ACCEPT || !moves) continue;
-        if (!(r->low - by < r->min) && !(r->high + by > r->max)) continue;
-        r->decision = FW_INCONCLUSIVE;
-        FW_NEED(what = fw_verdict_requirement_text(arena, r));
-        FW_TRY(leave_open(arena, v, name, 639, what, body, 1e6 * by, "um"));
-    }
-    return FW_OK;
-}
-
-/* 1/omega^2 of the rigid bodies and of what hangs over add up at most (Dunkerley) */
-static fw_status slower(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_verdict_hung *hung = v->out_of_plane->hung;
-    const char *what;
-    int body = 0;
-    for (int i = 1; i < v->mechanism->nbody; i++)
-        if (hung[i].in_plane_s2 > hung[body].in_plane_s2) body = i;
-    for (int k = 0; k < v->nrequirement && v->mechanism->nbody > 0; k++) {
-        fw_verdict_requirement *r = &v->requirement[k];
-        if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_ACCEPT) continue;
-        const double low = r->low / sqrt(1 + hung[body].in_plane_s2 * pow(FW_TURN * r->low, 2));
-        if (!(low < r->min)) continue;
-        r->decision = FW_INCONCLUSIVE;
-        FW_NEED(what = fw_verdict_requirement_text(arena, r));
-        FW_TRY(leave_open(arena, v, r->scene, 640, what, body, 100 * (1 - low / r->low), "%"));
-    }
-    return FW_OK;
-}
-
-fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    double *to = fw_arena_array(arena, double, (size_t)m->nbody);
-    FW_NEED(to);
-    if (!v->out_of_plane || !v->out_of_plane->hung) return FW_OK;
-    for (int i = 0; i < m->device->nscene; i++) {
-        FW_TRY(fw_verdict_shaken_bears(arena, v, i));
-        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, to));
-        int body = 0;
-        double by = 0, other = 0;
-        for (int b = 0; b < m->nbody; b++)
-            if (to[b] > by)
-                other = by, by = to[b], body = b;
-            else
-                other = fmax(other, to[b]);
-        if (by + other > 0) FW_TRY(opens(arena, i, by + other, body, v));
-    }
-    return slower(arena, v);
 }

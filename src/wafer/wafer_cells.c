@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cells and arrays of the plate, and the cells by which every die gets its id. */
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include "wafer/wafer.h"
 #include <math.h>
 #include <string.h>

@@ -7,7 +7,7 @@
    those of plates that do not draw it on the first layer of theirs: the plate's tone then makes them
    readable. Within a place the cross is cut out of a block of that
    layer, as the crosses of a die are cut out of its frame. */
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include "geometry/segment.h"
 #include "wafer/wafer.h"
 #include <math.h>

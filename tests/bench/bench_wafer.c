@@ -3,7 +3,7 @@
    circle of 94 mm, each of 60 arc hinges and a frame. Rows: CPU ms and bytes of laying it out
    (places, cells, ids, plate), of each file, and of all together; everything but making the one
    die's mask. */
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include "measure.h"
 #include "wafer/wafer.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include "base/text.h"
 #include "test.h"
 

@@ -157,6 +157,7 @@ static void rig_new(rig *r, double x, double a, double b) {
     memset(r, 0, sizeof *r);
     r->arena = fw_arena_new(0);
     r->variant.thickness_m = H;
+    r->variant.material.youngs.value = E;
     r->body = (fw_mechanism_mass){
         .id = "B", .mass_kg = 1e-9, .x_m = x, .inertia_kg_m2 = 1e-9 * (a * a + b * b) / 12};
     r->shape = (fw_mechanism_shape){.area_m2 = a * b,
@@ -320,6 +321,211 @@ static void undersides(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* ---- limbs ---- */
+
+static const double BAR = 400e-6, THICK = 6e-6, BESIDE = 5e-6;
+
+/* a plate with n bars on top of it, THICK wide, BESIDE apart and BAR long */
+static void put_bars(fw_arena *arena, fw_layout_piece *p, int body, int n, double x0, double y0) {
+    const double pitch = THICK + BESIDE, foot = 200e-6;
+    fw_geometry_outline o = fw_geometry_outline_start(arena, (fw_geometry_vec2){x0, y0});
+    *p = (fw_layout_piece){.role = FW_ROLE_STRUCTURE, .body = body, .joint = FW_NONE, .label = "b"};
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){x0, y0 - foot}, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){x0 + foot, y0 - foot}, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){x0 + foot, y0}, 0);
+    for (int i = n - 1; i >= 0; i--) {
+        const double left = x0 + 20e-6 + i * pitch, right = left + THICK;
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){right, y0}, 0);
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){right, y0 + BAR}, 0);
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){left, y0 + BAR}, 0);
+        fw_geometry_outline_line(&o, (fw_geometry_vec2){left, y0}, 0);
+    }
+    assert_int_equal(fw_geometry_outline_close(&o, &p->contour), FW_OK);
+}
+
+static double least_of_limbs(rig *r, fw_layout_piece *piece, int n, bool *both) {
+    fw_layout layout = {.drawn = true, .piece = piece, .npiece = n};
+    fw_mechanism_limb *limb;
+    int count;
+    double least = HUGE_VAL;
+    r->m.layout = &layout;
+    assert_int_equal(fw_mechanism_limbs_beside(r->arena, &r->m, 1e3, &limb, &count), FW_OK);
+    for (int i = 0; i < count; i++)
+        if (limb[i].tension_N_per_m < least)
+            least = limb[i].tension_N_per_m, *both = limb[i].limbs;
+    r->m.layout = NULL;
+    return least;
+}
+
+/* Of a bar beside a wall that stands: w'''' = q/(1 - w). Two like bars from one foot: the same of both together, so that
+   half of it is lost already */
+static void bars_bend(void **state) {
+    (void)state;
+    rig r;
+    fw_layout_piece piece[2];
+    bool both;
+    rig_new(&r, 0, 100e-6, 100e-6);
+    const double EI = E * H * THICK * THICK * THICK / 12, wet = H * (1 + BESIDE / H);
+    const double alone = lost_at(true) * EI * BESIDE * BESIDE / (wet * BAR * BAR * BAR * BAR);
+    put_bars(r.arena, &piece[0], 0, 1, 0, 0);
+    put_wall(r.arena, &piece[1], FW_GROUND, 26e-6 + BESIDE, 0.5e-6, 80e-6, BAR);
+    double s = least_of_limbs(&r, piece, 2, &both);
+    assert_false(both);
+    assert_true(s > 0.92 * alone && s < alone);
+    for (int n = 2; n < 6; n++) { /* of what stands, too: fingers of a stator */
+        put_bars(r.arena, &piece[0], n % 2 ? FW_GROUND : 0, n, 0, 0);
+        s = least_of_limbs(&r, piece, 1, &both);
+        assert_true(both);
+        assert_true(s > 0.92 * alone / 2 && s < alone / 2);
+    }
+    /* one bar, and a plate: neither has anything beside it */
+    put_bars(r.arena, &piece[0], 0, 1, 0, 0);
+    assert_true(isinf(least_of_limbs(&r, piece, 1, &both)));
+    fw_arena_free(r.arena);
+}
+
+/* Fingers that mesh over their whole length: w1 + w2 of one from its root and of the other from its own, by a finite
+   difference of both beams; and half of the overlap bears more */
+static double meshed(double overlap) {
+    enum { N = 80 };
+    const double EI = E * H * THICK * THICK * THICK / 12, d = 1.0 / N;
+    double low = 0, high = 1;
+    for (int k = 0; k < 40; k++) {
+        const double q = 0.5 * (low + high) * 40;
+        double u[N] = {0}, v[N] = {0};
+        bool holds = true;
+        for (int round = 0; round < 400 && holds; round++) {
+            double f[N], most = 0;
+            for (int i = 0; i < N; i++) {
+                const double z = (i + 0.5) * d, other = 1 + (1 - overlap) - z; /* from its root */
+                const int j = (int)(other / d - 0.5 + 1e-9);
+                f[i] = other > 0 && other < 1 && z > 1 - overlap ? q * d / (1 - u[i] - v[j]) : 0;
+            }
+            for (int i = 0; i < N; i++) {
+                double one = 0, two = 0;
+                for (int j = 0; j < N; j++) {
+                    const double a = (i + 0.5) * d, b = (j + 0.5) * d, least = fmin(a, b),
+                                 give = least * least * (3 * fmax(a, b) - least) / 6;
+                    one += give * f[j];
+                    const double there = 1 + (1 - overlap) - b;
+                    if (there <= 0 || there >= 1) continue;
+                    const double l2 = fmin(a, there),
+                                 give2 = l2 * l2 * (3 * fmax(a, there) - l2) / 6;
+                    two += give2 * f[j];
+                }
+                u[i] = one, v[i] = two;
+                most = fmax(most, one);
+            }
+            holds = most < 0.8;
+        }
+        if (holds)
+            low = q / 40;
+        else
+            high = q / 40;
+    }
+    return 40 * low * EI * BESIDE * BESIDE / (H * (1 + BESIDE / H) * BAR * BAR * BAR * BAR);
+}
+
+static void fingers_mesh(void **state) {
+    (void)state;
+    const double overlap[2] = {0.95, 0.5};
+    for (int k = 0; k < 2; k++) {
+        rig r;
+        fw_layout_piece piece[2];
+        bool both;
+        rig_new(&r, 0, 100e-6, 100e-6);
+        put_bars(r.arena, &piece[0], 0, 1, 0, 0);
+        put_bars(r.arena, &piece[1], FW_GROUND, 1, 0, 0);
+        const double x = 2 * 20e-6 + 2 * THICK + BESIDE; /* turned by half a turn */
+        const fw_geometry_contour one = piece[1].contour;
+        for (int i = 0; i < one.count; i++) {
+            fw_geometry_segment *s = &piece[1].contour.segment[i];
+            s->a = (fw_geometry_vec2){x - s->a.x, (2 - overlap[k]) * BAR - s->a.y};
+            s->b = (fw_geometry_vec2){x - s->b.x, (2 - overlap[k]) * BAR - s->b.y};
+        }
+        const double s = least_of_limbs(&r, piece, 2, &both), exact = meshed(overlap[k]);
+        assert_true(both);
+        assert_true(s > 0.8 * exact && s < 1.02 * exact);
+        fw_arena_free(r.arena);
+    }
+}
+
+/* A web between two heads is clamped at both ends, and is so where it lies flush with them, too */
+static void webs(void **state) {
+    (void)state;
+    const double EI = E * H * THICK * THICK * THICK / 12, wet = H * (1 + BESIDE / H), head = 150e-6;
+    const double exact = lost_at(false) * EI * BESIDE * BESIDE / (wet * BAR * BAR * BAR * BAR);
+    for (int flush = 0; flush < 2; flush++) {
+        rig r;
+        fw_layout_piece piece[2];
+        bool both;
+        rig_new(&r, 0, 100e-6, 100e-6);
+        const double right = flush ? THICK : 100e-6;
+        const fw_geometry_vec2 at[12] = {
+            {-100e-6, -head}, {right, -head}, {right, 0},         {THICK, 0},
+            {THICK, BAR},     {right, BAR},   {right, BAR + head}, {-100e-6, BAR + head},
+            {-100e-6, BAR},   {0, BAR},       {0, 0},             {-100e-6, 0}};
+        fw_geometry_outline o = fw_geometry_outline_start(r.arena, at[0]);
+        for (int i = 1; i < 12; i++)
+            if (!flush || (i != 2 && i != 3 && i != 4 && i != 5))
+                fw_geometry_outline_line(&o, at[i], 0);
+        piece[0] =
+            (fw_layout_piece){.role = FW_ROLE_STRUCTURE, .body = 0, .joint = FW_NONE, .label = "w"};
+        assert_int_equal(fw_geometry_outline_close(&o, &piece[0].contour), FW_OK);
+        put_wall(r.arena, &piece[1], FW_GROUND, THICK + BESIDE, 1e-6, THICK + BESIDE + 50e-6,
+                 BAR - 1e-6);
+        const double s = least_of_limbs(&r, piece, 2, &both);
+        assert_false(both);
+        assert_true(s > (flush ? 0.8 : 0.92) * exact && s < 1.01 * exact);
+        fw_arena_free(r.arena);
+    }
+}
+
+/* ---- at rest ---- */
+
+/* weight lowers a plate on a leaf by m g C, and a curvature bends what is far from where it is held as a sphere does */
+static void gaps_at_rest(void **state) {
+    (void)state;
+    rig r;
+    const double gap = 5e-6, curvature = -20;
+    double down, up;
+    rig_new(&r, 0, 100e-6, 60e-6);
+    add_leaf(&r, 150e-6, true);
+    r.pin[0].root_a_m.x = -100e-6;
+    fw_layout_piece piece[1];
+    fw_layout layout = {.drawn = true, .piece = piece, .npiece = 1};
+    put_wall(r.arena, &piece[0], 0, -50e-6, -30e-6, 50e-6, 30e-6);
+    fw_mechanism_plates p;
+    assert_int_equal(fw_mechanism_plates_new(r.arena, &r.m, NULL, &p), FW_OK);
+    r.m.layout = &layout;
+    fw_mechanism_face *face;
+    int n;
+    double *c;
+    assert_int_equal(fw_mechanism_faces_below(r.arena, &p, gap, &face, &n), FW_OK);
+    assert_int_equal(fw_mechanism_plates_across(r.arena, &p, &c), FW_OK);
+    assert_int_equal(fw_mechanism_faces_rest(r.arena, &p, 0, gap, 1, face, n, &down, &up), FW_OK);
+    const double weight = r.body.mass_kg * FW_STANDARD_GRAVITY_m_per_s2;
+    for (int i = 0; i < n; i++) {
+        const double z = -weight * (c[0] - face[i].by[0][1] * c[3] - face[i].by[0][2] * c[6]);
+        assert_near(face[i].gap_m, gap + z, 1e-6 * fabs(z) + 1e-18);
+    }
+    assert_true(down > 0 && up == 0);
+    const double sagged = down;
+    assert_int_equal(fw_mechanism_faces_rest(r.arena, &p, curvature, gap, 1, face, n, &down, &up), FW_OK);
+    double far = 0, edge = 0;
+    for (int i = 0; i < n; i++) {
+        const double z = gap - face[i].gap_m;
+        if (z > far) far = z, edge = face[i].at.x;
+    }
+    assert_relative(down, far, 1e-12);
+    assert_true(down > sagged);
+    assert_true(fabs(edge) > 30e-6); /* farthest from the root */
+    /* twice as far as computed */
+    assert_int_equal(fw_mechanism_faces_rest(r.arena, &p, curvature, gap, 2, face, n, &far, &up), FW_OK);
+    assert_relative(far, 2 * down, 1e-12);
+    fw_arena_free(r.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plate_on_a_spring),
@@ -328,6 +534,10 @@ int main(void) {
         cmocka_unit_test(stage),
         cmocka_unit_test(cantilever),
         cmocka_unit_test(walls),
+        cmocka_unit_test(bars_bend),
+        cmocka_unit_test(fingers_mesh),
+        cmocka_unit_test(webs),
+        cmocka_unit_test(gaps_at_rest),
         cmocka_unit_test(undersides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

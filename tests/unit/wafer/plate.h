@@ -2,7 +2,7 @@
 /* A small die with a frame in two halves, lettering, a mark and a lane, and wafers of it. */
 #ifndef FW_TEST_PLATE_H
 #define FW_TEST_PLATE_H
-#include "layout/layout_text.h"
+#include "layout/layout.h"
 #include "mask/scene.h"
 #include "wafer/wafer.h"
 
