@@ -19,7 +19,9 @@ typedef enum fw_serve_job_state {
 } fw_serve_job_state;
 
 enum {
-    FW_JOBS_QUEUED = 4,      /* that wait */
+    FW_JOBS_QUEUED = 4, /* that wait */
+    FW_JOB_LEASE_MS =
+        90000, /* an automatic job nobody has asked for so long: pages in the background look once a minute */
     FW_JOBS_KEPT = 16,       /* with the finished ones, of which the oldest is forgotten */
     FW_JOB_MOST_LINES = 400, /* of messages */
     FW_JOB_MOST_LINE = 2000, /* bytes */
@@ -36,13 +38,15 @@ typedef struct fw_serve_job {
     unsigned id; /* 0: the slot is free */
     fw_arena *arena;
     const char *kind, *name;
-    bool keeps;                   /* a study: what it has done stays when it is cancelled */
+    const char *study; /* the study's name; NULL: no study, or none was named */
+    bool keeps;        /* a study: what it has done stays when it is cancelled */
+    bool automatic;    /* nobody has asked for it: it ends when no page looks at it any more */
     const char *directory, *path; /* below the scratch; from the root */
     const char *const *argv;
     fw_serve_job_state state;
     pid_t pid;
     int fd, err; /* its directory; its standard error, -1 when closed */
-    int64_t began_ms, told_ms, ended_ms;
+    int64_t began_ms, told_ms, ended_ms, asked_ms; /* asked: when a page last asked for it */
     char line[FW_JOB_MOST_LINE + 1];
     size_t line_length;
     char stage[120];
@@ -66,8 +70,9 @@ void fw_serve_jobs_run(fw_serve_jobs *jobs);
 bool fw_serve_jobs_busy(const fw_serve_jobs *jobs);
 size_t fw_serve_jobs_poll(const fw_serve_jobs *jobs, struct pollfd *poll, size_t most);
 typedef struct fw_serve_job_order { /* what is asked for */
-    const json_t *request;          /* {"kind", "set", "options", "files", "resume", "results"} */
-    const char *file, *text;        /* name and (n) bytes of the description */
+    const json_t
+        *request; /* {"kind", "set", "options", "files", "resume", "results", "automatic"} */
+    const char *file, *text; /* name and (n) bytes of the description */
     size_t n;
     const struct fw_serve_beside
         *beside;   /* where what it names lies; NULL: it names nothing there */
@@ -78,6 +83,8 @@ typedef struct fw_serve_job_order { /* what is asked for */
 fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
                             const fw_serve_job **job);
 fw_serve_job *fw_serve_jobs_find(fw_serve_jobs *jobs, unsigned id);
+/* the next one by number after `id` (0: the first); NULL: none */
+const fw_serve_job *fw_serve_jobs_after(const fw_serve_jobs *jobs, unsigned id);
 
 /* one that waits or runs: its process and files go, what it said stays. Of a study the samples stay, too, until it is
    forgotten or gone on with. */
@@ -92,7 +99,7 @@ void fw_serve_job_archive(fw_serve_job *job, fw_serve_request *request);
 /* nobody waits any more; the archive is made all the same: it will be asked for again */
 void fw_serve_jobs_forget(fw_serve_request *request);
 
-/* ---- job_kinds.c: from the request to a command line ---- */
+/* ---- job_kinds.c: from the request to a command line, and what it made ---- */
 /* argv of the program for {"kind", "set", "options", "files", "resume", "results"}; beside: the logs that "run" may name,
    NULL: none; FW_INPUT: *why says what is wrong */
 fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *file,
@@ -100,6 +107,8 @@ fw_status fw_serve_job_command(fw_arena *arena, const void *json, const char *fi
                                const char *const **argv, const char **why);
 
 /* ---- files ---- */
+/* what is below out/ of the job's directory, by path */
+fw_status fw_serve_job_list(fw_serve_job *job);
 /* a file of the list: its descriptor, or -1 */
 int fw_serve_job_open(const fw_serve_job *job, const fw_serve_job_file *file);
 /* in a process of its own, in the job's directory: archive.zip of out/ */

@@ -299,10 +299,34 @@ static void job_file(fw_serve_request *r, const fw_serve_job *job, const char *p
     fw_serve_reply_error(r, 404, NULL, "this job has no such file");
 }
 
+/* all that are kept, in short, by number: a page that comes anew sees what others have begun */
+static void get_jobs(fw_serve_request *r) {
+    fw_text text = fw_text_new(r->arena);
+    fw_json json = fw_json_new(&text, FW_JSON_SPACED);
+    const fw_serve_job *job = NULL;
+    fw_json_object(&json, NULL);
+    fw_json_list(&json, "jobs");
+    while ((job = fw_serve_jobs_after(r->server->jobs, job ? job->id : 0))) {
+        fw_json_object(&json, NULL);
+        fw_json_whole(&json, "id", job->id);
+        fw_json_text(&json, "kind", job->kind);
+        fw_json_text(&json, "study", job->study);
+        fw_json_truth(&json, "automatic", job->automatic);
+        fw_json_text(&json, "state", fw_serve_job_state_name(job->state));
+        fw_json_fixed(&json, "seconds", fw_serve_job_seconds(job), 3);
+        fw_json_text(&json, "stage", job->stage);
+        fw_json_end(&json);
+    }
+    fw_json_end(&json);
+    fw_json_end(&json);
+    fw_serve_reply_document(r, 200, &json, &text);
+}
+
 static void get_job(fw_serve_request *r) {
     const char *rest;
     fw_serve_job *job = job_of(r, &rest);
     if (!job) return;
+    job->asked_ms = fw_serve_now_ms();
     if (!*rest)
         describe(r, job);
     else if (strncmp(rest, "/files/", 7) == 0)
@@ -354,6 +378,7 @@ static const fw_serve_route table[] = {
     {.method = "POST", .path = "/api/edit", .handle = compute, .compute = FW_COMPUTE_EDIT},
     {.method = "POST", .path = "/api/explore", .handle = compute, .compute = FW_COMPUTE_EXPLORE},
     {.method = "POST", .path = "/api/jobs", .handle = post_job},
+    {.method = "GET", .path = "/api/jobs", .handle = get_jobs},
     {.method = "GET", .path = "/api/jobs/*", .handle = get_job},
     {.method = "DELETE", .path = "/api/jobs/*", .handle = delete_job},
 };

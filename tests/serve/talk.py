@@ -246,6 +246,24 @@ class Talk(unittest.TestCase):
         for number in waits[2:]:
             self.assertEqual(self.ends(number)["state"], "done")
 
+    def test_jobs_of_pages_that_are_gone(self):
+        """a page that was loaded anew four times had begun four checks that nobody could end; what nobody has asked for ends when no page
+        looks at it, and every page sees what waits"""
+        slow = {"kind": "study", "text": (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text(encoding="utf-8").replace("</device>", """
+<study name="many" kind="yield" samples="4000"><uncertain what="material/@thickness" mean="50 um" sd="0.5 um"/></study></device>"""), "options": {"study": "many"}}
+        asked = self.begin(slow)
+        mine = self.begin({"kind": "check", "text": TEXT, "automatic": True})
+        listed = {j["id"]: j for j in self.server.json("GET", "/api/jobs")["jobs"]}
+        self.assertEqual((listed[asked]["kind"], listed[asked]["study"], listed[asked]["automatic"]), ("study", "many", False))
+        self.assertEqual((listed[mine]["kind"], listed[mine]["study"], listed[mine]["automatic"]), ("check", None, True))
+        self.assertEqual(set(listed[mine]), {"id", "kind", "study", "automatic", "state", "seconds", "stage"})
+        self.assertEqual(list(listed), sorted(listed))
+        # another page ends both
+        for number in (asked, mine):
+            self.server.json("DELETE", f"/api/jobs/{number}")
+            states = {j["id"]: j["state"] for j in self.server.json("GET", "/api/jobs")["jobs"]}
+            self.assertIn(states.get(number), ("cancelled", None))
+
     def test_jobs_that_are_wrong(self):
         self.assertIn("plan, check", self.fails(400, "POST", "/api/jobs", {"kind": "rm", "text": TEXT}))
         for body in ({"kind": "plan"}, {"kind": "plan", "text": TEXT, "options": {"output": "/x/y"}}, {"kind": "plan", "text": TEXT, "set": [1]},

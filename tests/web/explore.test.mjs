@@ -184,7 +184,7 @@ describe("a range", () => {
 
     test("two inputs are a map, each cell what check says; no serious finding of axe", async () => {
         await page.selectOption('select[aria-label="and vary"]', "leaf");
-        await page.waitForFunction(() => globalThis.flexwright.parts.explore.spec?.inputs.length === 2 && globalThis.flexwright.parts.explore.done.size > 100, null, { timeout: LONG });
+        await page.waitForFunction(() => globalThis.flexwright.parts.explore.spec?.inputs.length === 2 && globalThis.flexwright.parts.explore.done.size > 100 && !globalThis.flexwright.parts.explore.control, null, { timeout: LONG }); // it is drawn anew until then
         const cells = await points(page);
         for (const c of [cells[0], cells[cells.length - 1]]) {
             const told = check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `width=${c.x} um`, "--set", `leaf=${c.y} um`);

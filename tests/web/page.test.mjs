@@ -270,6 +270,32 @@ describe("the six-bar", () => {
         await page.keyboard.press("Escape");
     });
 
+    test("what a page has begun by itself ends with it, and a study that it has begun is seen and stopped by the next", async () => {
+        const device = readFileSync(join(source, "docs/gallery/leaf-four-bar/device.xml"), "utf8").replace("</device>", `<study name="long" kind="yield" samples="4000"><uncertain what="material/@thickness" mean="50 um" sd="0.5 um"/></study></device>`);
+        const own = await serve("leaf-four-bar");
+        writeFileSync(own.file, device);
+        let first;
+        try {
+            first = await open(own);
+            const ask = (p) => p.evaluate(async () => (await (await fetch("/api/jobs", { credentials: "same-origin" })).json()).jobs.filter((j) => ["queued", "running"].includes(j.state)));
+            await view(first, "explore");
+            await first.click('.study[data-name="long"] [data-act=run]');
+            await first.waitForSelector('.study[data-name="long"] [data-act=stop]');
+            await first.waitForFunction(async () => (await (await fetch("/api/jobs", { credentials: "same-origin" })).json()).jobs.some((j) => j.kind === "study" && j.state === "running"));
+            await first.reload();
+            await first.waitForSelector("#banner");
+            await first.waitForFunction(async () => (await (await fetch("/api/jobs", { credentials: "same-origin" })).json()).jobs.filter((j) => j.automatic && ["queued", "running"].includes(j.state)).length <= 1);
+            assert.equal((await ask(first)).filter((j) => j.kind === "study").length, 1);
+            await view(first, "explore");
+            await first.click('.study[data-name="long"] [data-act=stop-other]');
+            await first.waitForSelector('.study[data-name="long"] [data-act=resume-other]');
+            assert.equal((await ask(first)).filter((j) => j.kind === "study").length, 0);
+        } finally {
+            if (first) await close(first);
+            await own.stop();
+        }
+    });
+
     test("a job is cancelled, and the next one works", async () => {
         await page.click("#download");
         await page.click("dialog .cancel");

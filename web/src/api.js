@@ -60,6 +60,8 @@ export async function request(method, path, body, { signal, as = "json", quiet =
 export const get = (path, options) => request("GET", path, undefined, options);
 export const post = (path, body, options) => request("POST", path, body, options);
 export const remove = (path) => request("DELETE", path);
+/** The same of a page that is going: nobody hears the answer. */
+export const removeAndGo = (path) => fetch(path, { method: "DELETE", headers: { "X-Flexwright-Token": token ?? "" }, credentials: "same-origin", keepalive: true }).catch(() => {});
 
 export async function openSession() {
     const session = await get("/api/session", { quiet: true });

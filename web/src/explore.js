@@ -216,6 +216,7 @@ export class Explore {
         if (spec.why !== undefined) return this.#say();
         const control = (this.control = new AbortController());
         const key = this.#keyOf(requestKey);
+        this.judged = { quick: "As drawn, at a first look", full: "As drawn", made: "As it will be made" }[this.how.value];
         Object.assign(this, { byItself, stopped: null, tried: key, doing: key, whole: false, spec, asked: 0, inAll: 1 });
         this.done = new Map();
         this.points = [];
@@ -377,14 +378,14 @@ export class Explore {
         const words = list.length > 6 ? [...list.slice(0, 6), `and ${list.length - 6} more stretches`] : list;
         const text = words.join("; ");
         const why = [...this.done.values()].find((p) => p.why)?.why;
-        const said = this.whole ? `${text.charAt(0).toUpperCase()}${text.slice(1)}` : `So far, by ${this.done.size} ${this.done.size === 1 ? "device" : "devices"}: ${text}`;
+        const said = this.whole ? `${this.judged}: ${text}` : `${this.judged}, so far, by ${this.done.size} ${this.done.size === 1 ? "device" : "devices"}: ${text}`;
         return `${said}.${why ? ` ${why}` : ""}`;
     }
 
     #mapWords() {
         const all = [...this.done.values()];
         const count = (s) => all.filter((p) => p.state === s).length;
-        return `${["accept", "inconclusive", "reject", "run", "failed"].filter(count).map((s) => `${count(s)} of ${all.length} ${WORDS[s]}`).join(", ")}. A click on a place tells its value.`;
+        return `${this.judged}: ${["accept", "inconclusive", "reject", "run", "failed"].filter(count).map((s) => `${count(s)} of ${all.length} ${WORDS[s]}`).join(", ")}. A click on a place tells its value.`;
     }
 
     #say() {

@@ -2,7 +2,7 @@
 // Long work: jobs of the server, with progress and a way to end them. A JobView is the part of a tab
 // that is filled by a job: it says what is missing, shows progress, keeps the last good result while
 // the next one is made, and marks it when the text has moved on.
-import { get, onConnection, post, remove } from "./api.js";
+import { get, onConnection, post, remove, removeAndGo } from "./api.js";
 import { inputKey, mayChange, requestKey, Shown } from "./belong.js";
 import { isPresent, taken } from "./design.js";
 import { announce, become, button, h, say } from "./dom.js";
@@ -17,7 +17,7 @@ const waiting = new Map(); // id -> function that looks at it again
 /** Called for every `job` event of the server's stream. */
 export function heard(event) {
     const job = jobs.get(event.id);
-    if (!job) return;
+    if (!job) return emit("jobs-elsewhere", event);
     Object.assign(job, event);
     emit("jobs", job);
     waiting.get(event.id)?.();
@@ -38,20 +38,21 @@ const news = (id) => new Promise((resolve) => {
 
 /** Starts a job and waits for its end; onprogress(job); files: name -> text, that options name; resume: the number of a
  *  study that is gone on with, results: the directory of one beside the file; packs: with the numbers of the laboratory.
- *  Throws when it could not be started. byItself: nobody has asked for it, and what is typed in a field is left alone. */
+ *  Throws when it could not be started. byItself: what is typed in a field is left alone; automatic: nobody has asked for it, and it
+ *  ends with the page. */
 export async function run(kind, { byItself = false, ...asked } = {}) {
     if (!byItself) await taken();
     return begun(kind, asked);
 }
 
-async function begun(kind, { text = state.text, options = {}, files, resume, results, packs: used = kind !== "calibrate", onprogress, signal }) {
+async function begun(kind, { text = state.text, options = {}, files, resume, results, packs: used = kind !== "calibrate", automatic = false, onprogress, signal }) {
     const packs = used ? Object.keys(state.lab) : [];
     const all = { ...files, ...(packs.length ? state.lab : {}) };
     const { id } = await post("/api/jobs", {
         kind, text, set: { ...state.set }, options: packs.length ? { ...options, lab: packs.join(",") } : options,
-        ...(Object.keys(all).length ? { files: all } : {}), ...(resume ? { resume } : {}), ...(results ? { results } : {}),
+        ...(Object.keys(all).length ? { files: all } : {}), ...(resume ? { resume } : {}), ...(results ? { results } : {}), ...(automatic ? { automatic } : {}),
     });
-    const job = { id, kind, state: "queued", seconds: 0, stage: null };
+    const job = { id, kind, automatic, state: "queued", seconds: 0, stage: null };
     jobs.set(id, job);
     const cancel = () => waiting.get(id)?.();
     signal?.addEventListener("abort", cancel);
@@ -80,6 +81,28 @@ async function begun(kind, { text = state.text, options = {}, files, resume, res
 export function forget(job) {
     if (!job || !jobs.delete(job.id)) return;
     remove(`/api/jobs/${job.id}`).catch(() => {}); // it is gone either way
+}
+
+// A page that is closed or loaded anew has nobody who waits for what it began by itself.
+addEventListener("pagehide", () => {
+    for (const job of jobs.values()) if (job.automatic && !ENDED.has(job.state)) removeAndGo(`/api/jobs/${job.id}`);
+});
+
+/** What waits or runs that other pages have begun, or this one before it was loaded anew. */
+export async function elsewhere() {
+    const all = (await get("/api/jobs")).jobs;
+    return all.filter((job) => !jobs.has(job.id));
+}
+
+/** A list of all that waits or runs, each with a button that ends it; gone(): one was ended. */
+async function waitingList(gone) {
+    const all = (await get("/api/jobs")).jobs.filter((job) => !ENDED.has(job.state));
+    return h("ul", { class: "messages waiting-jobs" }, all.map((job) => h("li", {},
+        `${job.kind}${job.study ? ` ${job.study}` : ""}: ${job.state === "queued" ? "waits" : `runs for ${duration(job.seconds)}`}${jobs.has(job.id) ? "" : ", begun by another page"} `,
+        button("Cancel", { icon: "close", class: "small" }, async () => {
+            await remove(`/api/jobs/${job.id}`).catch(() => {}); // it may just have ended
+            gone();
+        }))));
 }
 
 export const fileOf = (job, path) => `/api/jobs/${job.id}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
@@ -204,11 +227,12 @@ export class JobView {
                 if (control !== this.control) return;
                 key = this.tried = requestKey(this.options());
             }
-            const job = await run(this.kind, { byItself: true, options: this.options(), signal: control.signal, onprogress: (j) => (this.working = j) });
+            const job = await run(this.kind, { byItself: true, automatic: byItself, options: this.options(), signal: control.signal, onprogress: (j) => (this.working = j) });
             if (control !== this.control) return forget(job);
             await this.#ended(job, key);
         } catch (error) {
             if (control === this.control) this.#failed([error.message], key);
+            if (control === this.control && error.status === 429) await this.#others(() => this.run(byItself));
         } finally {
             clearInterval(clock);
             if (control === this.control) {
@@ -243,6 +267,15 @@ export class JobView {
         await this.render(job, this.content);
         for (const shown of this.showing) shown.take(key);
         announce(`${this.action}: done in ${duration(job.seconds)}`);
+    }
+
+    /** Too many wait: each of them can be ended here. */
+    async #others(again) {
+        try {
+            this.errors.append(await waitingList(again));
+        } catch {
+            // then only the message stands there
+        }
     }
 
     #failed(messages, of) {

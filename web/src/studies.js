@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studies of the description: run, stopped, gone on with, looked at; and the best device of one put into the text. A
 // study is a job of the server, the command `flexwright study`; what it has judged stays when it is stopped.
-import { get } from "./api.js";
+import { get, remove } from "./api.js";
 import { begin, inputKey, mayChange, ofAnother, requestKey, Shown } from "./belong.js";
 import { edit, taken } from "./design.js";
 import { announce, button, h, icon, say, select } from "./dom.js";
 import { duration, number, percent, si } from "./format.js";
-import { fileOf, forget, hasFile, run } from "./jobs.js";
+import { elsewhere, fileOf, forget, hasFile, run } from "./jobs.js";
 import { emit, on, state } from "./store.js";
 
 const KINDS = { // what a new one is made of: rows beside its inputs
@@ -17,6 +17,7 @@ const KINDS = { // what a new one is made of: rows beside its inputs
     yield: { words: "how many dies hold every limit", vary: null, respond: [] },
 };
 const PICTURES_MOST = 8;
+const ELSEWHERE_MS = 1000; // between two looks at what others have begun
 
 export class Studies {
     /** chosen(): the inputs that are explored at the moment, with their ranges as texts: [{what, from, to}] */
@@ -25,12 +26,14 @@ export class Studies {
         this.kept = new Map(); // name -> {job, of: key of its input, control, stage, why, done}
         this.list = h("div", { class: "study-list" });
         this.there = []; // directories of samples beside the file
+        this.others = new Map(); // name -> job of a study that another page has begun, or this one before it was loaded anew
         this.kind = select("Kind of study", Object.entries(KINDS).map(([k, x]) => [k, `${k}: ${x.words}`]), "size", () => {});
         this.add = button("Add to the description", { icon: "plus", id: "study-add" }, () => this.#add());
         holder.append(h("section", { class: "studies", "aria-labelledby": "h-studies" }, h("h2", { id: "h-studies" }, "Studies"),
             h("p", { class: "doc" }, "A study judges many devices of this description, in files of its own: stopped, it goes on where it was. One stands in the text as <study>."),
             this.list, h("div", { class: "row" }, this.kind, this.add), h("p", { class: "doc" }, "A new one varies what is chosen above, over the ranges that stand there.")));
         for (const event of ["text", "options", "change", "preview"]) on(event, () => this.visible && this.#show());
+        on("jobs-elsewhere", () => this.visible && this.#lookElsewhere());
         mayChange(() => [...this.kept.values()].some((x) => x.control), { job: true });
     }
 
@@ -38,10 +41,28 @@ export class Studies {
         this.visible = yes;
         if (!yes) return;
         this.#show();
+        this.#lookElsewhere();
         get("/api/beside").then((beside) => {
             this.there = beside.studies;
             this.#show();
         }).catch(() => {}); // then none are offered
+    }
+
+    /** The newest study of each name that is not this page's; one question at a time. */
+    async #lookElsewhere() {
+        if (this.looking) return (this.again = true);
+        this.looking = true;
+        this.again = false;
+        try {
+            this.others = new Map((await elsewhere()).filter((job) => job.kind === "study" && job.study).map((job) => [job.study, job]));
+            this.#show();
+        } catch {
+            // the connection says so
+        }
+        setTimeout(() => {
+            this.looking = false;
+            if (this.again && this.visible) this.#lookElsewhere();
+        }, ELSEWHERE_MS);
     }
 
     /** Names and kinds as the text has them. */
@@ -144,22 +165,32 @@ export class Studies {
         const kept = this.kept.get(name);
         const mine = kept && !kept.control && ofAnother(kept.of) ? undefined : kept; // a study of another device may have the same name
         const present = mine?.of === this.#key(name);
+        const other = mine?.control ? undefined : this.others.get(name); // begun by another page
+        const runs = other && ["queued", "running"].includes(other.state);
         const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
         const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${mine.far ? ` after ${mine.far}` : ""}${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
+        const theirs = runs ? `another page runs it: ${other.state === "queued" ? "waiting" : `${other.stage ?? "working"} · ${duration(other.seconds)}`}` : other && !mine ? "another page has run it: what it has judged can be gone on with" : "";
         const part = mine?.control && /(\d+) of (?:at most )?(\d+) devices/.exec(mine.stage);
         const goOn = Boolean(mine?.stopped && present && mine.job);
         // buttons stay while a field is left whose edit changes the words: a click is not lost between its two halves
-        const key = JSON.stringify([kind, inputs, mine?.control ? said : "", Boolean(mine), Boolean(mine?.control), mine?.job?.id, mine?.done, Boolean(mine?.why), goOn, this.there]);
-        if (card.dataset.key === key) return say(card.querySelector(".study-said"), said);
+        const key = JSON.stringify([kind, inputs, mine?.control ? said : "", Boolean(mine), Boolean(mine?.control), mine?.job?.id, mine?.done, Boolean(mine?.why), goOn, this.there, other?.id, runs]);
+        if (card.dataset.key === key) return say(card.querySelector(".study-said"), theirs || said);
         card.dataset.key = key;
         card.head.replaceChildren(
             h("strong", {}, name), h("span", { class: "doc" }, `${kind}${inputs.length ? ` over ${inputs.join(", ")}` : ""}`), h("span", { class: "space" }),
-            ...(mine?.control ? [h("progress", { "aria-label": `Study ${name}: progress`, max: part ? Number(part[2]) : null, value: part ? Number(part[1]) : null }), button("Stop", { icon: "close", class: "small", "data-act": "stop" }, () => mine.control?.abort())] : [
+            ...(mine?.control ? [h("progress", { "aria-label": `Study ${name}: progress`, max: part ? Number(part[2]) : null, value: part ? Number(part[1]) : null }), button("Stop", { icon: "close", class: "small", "data-act": "stop" }, () => mine.control?.abort())] : runs ? [button("Stop", { icon: "close", class: "small", "data-act": "stop-other" }, async () => {
+                await remove(`/api/jobs/${other.id}`).catch(() => {}); // it may just have ended
+                this.#lookElsewhere();
+            })] : [
+                other && !mine ? button("Go on", { icon: "play", class: "small primary", "data-act": "resume-other" }, () => {
+                    this.others.delete(name);
+                    this.#run(name, { resume: other.id });
+                }) : null,
                 goOn ? button("Go on", { icon: "play", class: "small primary", "data-act": "resume" }, () => this.#run(name, { resume: mine.job.id })) : null,
                 button(mine ? "Run anew" : "Run", { icon: "target", class: `small${mine ? "" : " primary"}`, "data-act": "run" }, () => this.#run(name)),
                 this.there.length ? select(`Open results of ${name}`, [["", "Open results…"], ...this.there.map((x) => [x, x])], "", (results) => results && this.#run(name, { results })) : null,
             ]).filter(Boolean),
-            h("p", { class: mine?.why ? "job-errors study-said" : "job-message study-said", role: "status" }, said));
+            h("p", { class: mine?.why ? "job-errors study-said" : "job-message study-said", role: "status" }, theirs || said));
         if (!mine?.done) {
             card.body.replaceChildren();
             card.result.take(null);
