@@ -173,7 +173,7 @@ static fw_status give_way(fw_dynamics_run *r, const bool *stated, const double *
             if (stated[k]) b[i] -= row[k] * given[k];
     }
     if (count > 0 && fw_maths_lu_factor(count, a, pivot)) {
-        fw_maths_lu_solve(count, a, pivot, b);
+        fw_maths_lu_solve(count, a, pivot, NULL, b);
         for (int i = 0; i < count; i++)
             v[place[i]] = b[i];
     }
@@ -214,7 +214,7 @@ static fw_status settle(fw_dynamics_run *r) {
         for (size_t i = 0; i < n; i++)
             K[i * n + i] += 1e-9 * most / (i % 3 == 2 ? m->jinv[i / 3] : m->minv[i / 3]);
         if (!fw_maths_lu_factor(m->nq, K, pivot)) break;
-        fw_maths_lu_solve(m->nq, K, pivot, Q);
+        fw_maths_lu_solve(m->nq, K, pivot, NULL, Q);
         for (size_t i = 0; i < n; i++)
             step = fmax(step, fabs(Q[i]));
         if (!(step < before) && round > 3) break;

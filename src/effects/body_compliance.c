@@ -221,7 +221,7 @@ static bool find_place(const fw_effects_force_element *e, const fw_effects_port_
     for (int turn = 0; turn < TURNS; turn++) {
         y->own.class_->tangent(&y->own, &at->own, at->stiff, at->damp);
         if (!factor_series(y, at, 3 * e->ports)) return false;
-        fw_maths_lu_solve(3 * y->ngiven, at->series, at->pivot, miss);
+        fw_maths_lu_solve(3 * y->ngiven, at->series, at->pivot, NULL, miss);
         const bool last = size_of(miss, 3 * y->ngiven) <= root * reach;
         off = add_step(y, s, at, miss, off, last);
         if (last) return true;
@@ -254,7 +254,7 @@ static void find_slopes(const yielding *y, there *at, int n) {
             for (int k = 0; k < 3; k++)
                 column[3 * g + k] += turn[k];
         }
-        fw_maths_lu_solve(m, at->series, at->pivot, column);
+        fw_maths_lu_solve(m, at->series, at->pivot, NULL, column);
         for (int k = 0; k < m; k++)
             at->x[place_of(y, k) * n + j] += column[k];
     }
@@ -371,7 +371,7 @@ static void slope(const fw_effects_force_element *e, const fw_effects_port_state
     y->own.class_->slope(&y->own, &at.own, by);
     for (int g = 0; g < y->ngiven; g++)
         times(at.a[g], by + 3 * y->given[g], given + 3 * g);
-    fw_maths_lu_solve(3 * y->ngiven, at.series, at.pivot, given);
+    fw_maths_lu_solve(3 * y->ngiven, at.series, at.pivot, NULL, given);
     for (int k = 0; k < 3 * y->ngiven; k++)
         dx[place_of(y, k)] = given[k];
     for (int i = 0; i < n; i++) {

@@ -178,7 +178,7 @@ static fw_status tendons_pull(const fw_effect_case *c, const fw_effects_envelope
         if (pull[i] > 0) back = fmax(back, row);
     }
     known = known && fw_maths_lu_factor((int)count, system, pivot);
-    if (known) fw_maths_lu_solve((int)count, system, pivot, pull);
+    if (known) fw_maths_lu_solve((int)count, system, pivot, NULL, pull);
     for (size_t i = 0; i < count; i++) {
         known = known && pull[i] >= 0;
         for (size_t l = 0; l < modes && loose[i]; l++)

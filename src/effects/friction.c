@@ -178,7 +178,7 @@ static fw_status torques(rubbing *r, bool *known) {
         *known = *known && isfinite(r->torque[i]);
     }
     *known = *known && fw_maths_lu_factor(count, r->gain, pivot);
-    if (*known) fw_maths_lu_solve(count, r->gain, pivot, r->torque);
+    if (*known) fw_maths_lu_solve(count, r->gain, pivot, NULL, r->torque);
     for (int i = 0; i < count; i++)
         *known = *known && r->torque[i] >= 0;
     return FW_OK;

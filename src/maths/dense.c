@@ -19,16 +19,26 @@ static void swap(double *x, double *y) {
     *y = z;
 }
 
-/* row of the largest entry below and on the diagonal of column k; im may be NULL */
-static int largest(int n, const double *re, const double *im, int k) {
+/* row of the largest entry below and on the diagonal of column k, and behind the last that is not 0; im may be
+   NULL */
+static int largest(int n, const double *re, const double *im, int k, int *below) {
     int best = k;
     double most = -1;
     for (int i = k; i < n; i++) {
         size_t at = (size_t)i * (size_t)n + (size_t)k;
         double size = fabs(re[at]) + (im ? fabs(im[at]) : 0);
         if (size > most) most = size, best = i;
+        if (size != 0) *below = i + 1;
     }
     return most > 0 && isfinite(most) ? best : -1;
+}
+
+/* behind the last entry of a row (n) that is not 0, at least `from`. Where bodies are coupled to their neighbours
+   alone most of a matrix is zeros, and elimination leaves them: skipped, they change no bit of a result */
+static int row_ends(const double *re, const double *im, int from, int n) {
+    while (n > from && re[n - 1] == 0 && (!im || im[n - 1] == 0))
+        n--;
+    return n;
 }
 
 /* Gaussian elimination with partial pivoting. Error: round-off times the growth and the condition;
@@ -36,31 +46,32 @@ static int largest(int n, const double *re, const double *im, int k) {
 bool fw_maths_lu_factor(int n, double *a, int *pivot) {
     size_t m = (size_t)n;
     for (int k = 0; k < n; k++) {
-        int p = pivot[k] = largest(n, a, NULL, k);
+        int below = n, p = pivot[k] = largest(n, a, NULL, k, &below);
         if (p < 0) return false;
         double *top = a + (size_t)k * m, *other = a + (size_t)p * m;
         for (int j = 0; p != k && j < n; j++)
             swap(&top[j], &other[j]);
-        for (int i = k + 1; i < n; i++) {
+        const int end = row_ends(top, NULL, k + 1, n);
+        for (int i = k + 1; i < below; i++) {
             double *restrict row = a + (size_t)i * m;
+            if (row[k] == 0) continue;
             double factor = row[k] /= top[k];
-            if (factor == 0) continue;
-            for (int j = k + 1; j < n; j++)
+            for (int j = k + 1; j < end; j++)
                 row[j] -= factor * top[j];
         }
     }
     return true;
 }
 
-void fw_maths_lu_solve(int n, const double *a, const int *pivot, double *x) {
+void fw_maths_lu_solve(int n, const double *a, const int *pivot, const int *within, double *x) {
     size_t m = (size_t)n;
     for (int k = 0; k < n; k++)
         swap(&x[k], &x[pivot[k]]);
     for (int i = 1; i < n; i++)
-        for (int j = 0; j < i; j++)
+        for (int j = within ? within[4 * i] : 0; j < i; j++)
             x[i] -= a[(size_t)i * m + (size_t)j] * x[j];
     for (int i = n - 1; i >= 0; i--) {
-        for (int j = i + 1; j < n; j++)
+        for (int j = i + 1, end = within ? within[4 * i + 1] : n; j < end; j++)
             x[i] -= a[(size_t)i * m + (size_t)j] * x[j];
         x[i] /= a[(size_t)i * m + (size_t)i];
     }
@@ -77,19 +88,20 @@ static void divide(double *x, double *y, double a, double b) {
 bool fw_maths_lu_factor_complex(int n, double *re, double *im, int *pivot) {
     size_t m = (size_t)n;
     for (int k = 0; k < n; k++) {
-        int p = pivot[k] = largest(n, re, im, k);
+        int below = n, p = pivot[k] = largest(n, re, im, k, &below);
         if (p < 0) return false;
         double *top_re = re + (size_t)k * m, *top_im = im + (size_t)k * m;
         for (int j = 0; p != k && j < n; j++) {
             swap(&top_re[j], &re[(size_t)p * m + (size_t)j]);
             swap(&top_im[j], &im[(size_t)p * m + (size_t)j]);
         }
-        for (int i = k + 1; i < n; i++) {
+        const int end = row_ends(top_re, top_im, k + 1, n);
+        for (int i = k + 1; i < below; i++) {
             double *restrict x = re + (size_t)i * m, *restrict y = im + (size_t)i * m;
+            if (x[k] == 0 && y[k] == 0) continue;
             divide(&x[k], &y[k], top_re[k], top_im[k]);
             double a = x[k], b = y[k];
-            if (a == 0 && b == 0) continue;
-            for (int j = k + 1; j < n; j++) {
+            for (int j = k + 1; j < end; j++) {
                 x[j] -= a * top_re[j] - b * top_im[j];
                 y[j] -= a * top_im[j] + b * top_re[j];
             }
@@ -99,7 +111,7 @@ bool fw_maths_lu_factor_complex(int n, double *re, double *im, int *pivot) {
 }
 
 void fw_maths_lu_solve_complex(int n, const double *re, const double *im, const int *pivot,
-                               double *x, double *y) {
+                               const int *within, double *x, double *y) {
     size_t m = (size_t)n;
     for (int k = 0; k < n; k++) {
         swap(&x[k], &x[pivot[k]]);
@@ -108,6 +120,8 @@ void fw_maths_lu_solve_complex(int n, const double *re, const double *im, const 
     for (int pass = 0; pass < 2; pass++)
         for (int step = 0; step < n; step++) {
             int i = pass ? n - 1 - step : step, from = pass ? i + 1 : 0, to = pass ? n : i;
+            if (within && pass) to = within[4 * i + 1];
+            if (within && !pass) from = within[4 * i];
             const double *a = re + (size_t)i * m, *b = im + (size_t)i * m;
             for (int j = from; j < to; j++) {
                 x[i] -= a[j] * x[j] - b[j] * y[j];
@@ -495,7 +509,7 @@ fw_status fw_maths_dense_solve_symmetric(fw_arena *arena, int n, const double *a
     memcpy(x, right, m * sizeof *x);
     fw_status status = FW_OK;
     bool regular = fw_maths_lu_factor(n, copy, pivot);
-    if (regular) fw_maths_lu_solve(n, copy, pivot, x);
+    if (regular) fw_maths_lu_solve(n, copy, pivot, NULL, x);
     if (!regular || !solves(n, a, x, right) || !bounded(n, a, x, right)) {
         memcpy(x, right, m * sizeof *x);
         status = least_squares(arena, n, a, x);

@@ -41,12 +41,13 @@ bool fw_maths_solve3(const double a[3][3], int columns, double x[3][3], double *
 
 /* P a = L U in place, a (n x n) by rows, pivot (n); false: exactly singular, or not finite */
 bool fw_maths_lu_factor(int n, double *a, int *pivot);
-void fw_maths_lu_solve(int n, const double *a, const int *pivot,
-                       double *x); /* x (n): right side in */
+/* x (n): right side in. within (n x 4) or NULL: of each row of the factors the first and behind the last entry that is
+   not 0; two places are the caller's */
+void fw_maths_lu_solve(int n, const double *a, const int *pivot, const int *within, double *x);
 /* the same for re + i im */
 bool fw_maths_lu_factor_complex(int n, double *re, double *im, int *pivot);
 void fw_maths_lu_solve_complex(int n, const double *re, const double *im, const int *pivot,
-                               double *x, double *y);
+                               const int *within, double *x, double *y);
 
 /* a (n x n, symmetric, used up) = sum of value[k] v_k v_k^T: value (n) ascending, v_k in row k of
    vector (n x n). false: not finite, or not found */

@@ -146,7 +146,7 @@ static fw_maths_ode_result newton(alpha *s, double h, double t_new) {
         for (int i = 0; i < n; i++)
             r[i] = f[n + i] - s->a_new[i];
         if (!fw_maths_ode_finite(r, n)) return FW_ODE_NAN;
-        fw_maths_lu_solve(n, s->matrix, s->pivot, r);
+        fw_maths_lu_solve(n, s->matrix, s->pivot, NULL, r);
         b->newton++;
         for (int c = 0; c < b->ode.n; c++)
             s->e[c] = 0;

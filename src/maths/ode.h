@@ -85,6 +85,8 @@ struct fw_maths_stepper { /* first member of every integrator's own struct */
     double *f_old, *f; /* (n) f there */
     int padded;        /* n, rounded up to whole vectors of 8 */
     double *tolerance; /* (padded) atol; infinite where the error does not count */
+    struct fw_maths_ode_apart
+        *apart; /* columns of the Jacobian that are found together; NULL: none */
     bool dense_ready;
     long steps, rejected, rhs, jacobians, factorisations, newton; /* kept over restarts */
 };
@@ -214,8 +216,20 @@ static inline void fw_ode_nested_component(const fw_maths_stepper *s, int rows, 
 
 /* ---- shared by implicit integrators: the Jacobian, and systems (sigma I - J) x = r ---- */
 
+/* Columns of the Jacobian without a row in common, which one evaluation finds together. They are those of the last one
+   that was found column by column, and each later one is asked whether they are still (fw_maths_ode_jacobian). */
+typedef struct fw_maths_ode_apart {
+    int groups; /* 0: not known; FW_ODE_TOGETHER: too many rows are common to too many */
+    int *group; /* (controlled) */
+    int *owner; /* (controlled/3 x controlled): whose entry a row has in a group; -1: none */
+    double *r;  /* (2 controlled) */
+} fw_maths_ode_apart;
+enum { FW_ODE_TOGETHER = -1, FW_ODE_MANY = 48 }; /* of fewer columns it does not pay */
+fw_status fw_maths_ode_apart_new(fw_arena *arena, const fw_maths_ode *ode,
+                                 fw_maths_ode_apart **apart);
+
 /* j (n x controlled) by rows at (t, y) with f = f(t, y): the problem's own, or by differences with
-   one evaluation per column; work: 2 padded. false: not finite */
+   one evaluation per column, or per group of columns apart; work: 2 padded. false: not finite */
 bool fw_maths_ode_jacobian(fw_maths_stepper *s, double t, const double *y, const double *f,
                            double *j, double *work);
 
@@ -227,6 +241,8 @@ typedef struct fw_maths_ode_shifted {
     double *re, *im;  /* (size x size); im NULL: sigma is real */
     double *right[2]; /* (size) */
     int *pivot;       /* (size) */
+    int *
+        within; /* (size x 4) first and behind the last entry that is not 0: of the factors, of K_v */
 } fw_maths_ode_shifted;
 
 fw_status fw_maths_ode_shifted_new(fw_arena *arena, const fw_maths_ode *ode, bool complex,

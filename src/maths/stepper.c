@@ -35,6 +35,7 @@ fw_status fw_maths_stepper_new(fw_arena *arena, const fw_maths_stepper_row *row,
                                fw_maths_stepper **stepper) {
     fw_maths_stepper *s = NULL;
     double *y_old, *y, *f_old, *f, *tolerance;
+    fw_maths_ode_apart *apart = NULL;
     *stepper = NULL;
     if (contradicts(row, ode)) return FW_INPUT;
     FW_NEED(y_old = fw_maths_ode_vector(arena, ode->n));
@@ -42,8 +43,11 @@ fw_status fw_maths_stepper_new(fw_arena *arena, const fw_maths_stepper_row *row,
     FW_NEED(f_old = fw_maths_ode_vector(arena, ode->n));
     FW_NEED(f = fw_maths_ode_vector(arena, ode->n));
     FW_NEED(tolerance = fw_maths_ode_vector(arena, ode->n));
+    if (row->implicit && !ode->jacobian && ode->controlled >= FW_ODE_MANY)
+        FW_TRY(fw_maths_ode_apart_new(arena, ode, &apart));
     FW_TRY(row->create(arena, ode, &s)); /* last: what it holds outside the arena has an owner */
     s->row = row;
+    s->apart = apart;
     s->ode = *ode;
     s->rtol = rtol;
     s->atol = atol;

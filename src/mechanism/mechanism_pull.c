@@ -37,7 +37,7 @@ fw_status fw_mechanism_plates_beside(fw_arena *arena, const fw_mechanism_plates 
     for (size_t k = 0; k < n && *known; k++) {
         memset(x, 0, n * sizeof *x);
         x[k] = 1;
-        fw_maths_lu_solve(p->n, a, pivot, x);
+        fw_maths_lu_solve(p->n, a, pivot, NULL, x);
         for (size_t i = 0; i < n; i++)
             c[i * n + k] = x[i] / ((i % 3 == 2 ? unit : 1) * (k % 3 == 2 ? unit : 1));
         *known = c[k * n + k] > 0;
@@ -70,7 +70,7 @@ fw_status fw_mechanism_plates_stiffness(fw_arena *arena, const fw_mechanism_plat
         for (int k = 0; k < 2; k++) {
             memset(x, 0, n * sizeof *x);
             x[3 * out->body + k] = 1;
-            fw_maths_lu_solve(p->n, a, pivot, x);
+            fw_maths_lu_solve(p->n, a, pivot, NULL, x);
             c[k][0] = x[3 * out->body], c[k][1] = x[3 * out->body + 1];
         }
         double mean = 0.5 * (c[0][0] + c[1][1]), apart = 0.5 * (c[0][0] - c[1][1]);
@@ -227,7 +227,7 @@ static double step_of(const pulled *p, const double *miss) {
         p->a[i] = (i % (n + 1) == 0) - p->slope[i];
     memcpy(p->step, miss, n * sizeof *miss);
     if (!fw_maths_lu_factor(p->n, p->a, p->pivot)) return -1;
-    fw_maths_lu_solve(p->n, p->a, p->pivot, p->step);
+    fw_maths_lu_solve(p->n, p->a, p->pivot, NULL, p->step);
     for (int i = 0; i < p->nface; i++) {
         double closes = -closed(&p->face[i], p->step), most = (1 - kept) * p->gap[i];
         size = fmax(size, fabs(closes) / p->face[i].gap_m);

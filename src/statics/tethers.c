@@ -208,7 +208,7 @@ static void body_compliance(chain *c, int own, double out[3][3]) {
         memset(u, 0, (size_t)c->size * sizeof *u);
         for (int i = 0; i < 3; i++)
             u[3 * body + i] = row[k][i];
-        fw_maths_lu_solve(c->size, c->k, c->pivot, u);
+        fw_maths_lu_solve(c->size, c->k, c->pivot, NULL, u);
         for (int i = 0; i < 3; i++) {
             out[i][k] = 0.0;
             for (int j = 0; j < 3; j++)

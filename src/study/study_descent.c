@@ -256,7 +256,7 @@ static void fit(cloud *c, int k) {
     for (int i = 0; i < n; i++)
         a[i * n + i] += fmax(sum, 1e-9) * (i < c->n ? 1e-7 : 1e-3);
     if (fw_maths_lu_factor(n, a, c->pivot))
-        fw_maths_lu_solve(n, a, c->pivot, y);
+        fw_maths_lu_solve(n, a, c->pivot, NULL, y);
     else
         memset(y, 0, (size_t)n * sizeof *y);
 }

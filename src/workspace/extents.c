@@ -96,7 +96,7 @@ static double from_coordinates(const double g[3], const double half[3], const pl
         lambda[i] = g[equation[i]];
     }
     if (!fw_maths_lu_factor(n, a, pivot)) return (double)INFINITY;
-    fw_maths_lu_solve(n, a, pivot, lambda); /* a bad pivot only gives a bad bound */
+    fw_maths_lu_solve(n, a, pivot, NULL, lambda); /* a bad pivot only gives a bad bound */
     double bound = dual(g, half, p, unknown, lambda, n);
     return bound == bound ? bound : (double)INFINITY;
 }

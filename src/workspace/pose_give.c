@@ -302,7 +302,7 @@ static bool settle(const limber *l, const fw_workspace_grip *grip, standing *s) 
     for (int round = 0; round < ROUNDS; round++) {
         all(l, s, grip, x, a);
         if (!fw_maths_lu_factor(UNKNOWN, a, pivot)) return false;
-        fw_maths_lu_solve(UNKNOWN, a, pivot, x);
+        fw_maths_lu_solve(UNKNOWN, a, pivot, NULL, x);
         double most = 0.0;
         for (int k = 0; k < 12; k++)
             most = fmax(most, fabs(x[k]));

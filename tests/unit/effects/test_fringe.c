@@ -69,7 +69,7 @@ static double elements(double w, double h, double one, double other) {
     }
     matrix[n * (n + 1) + n] = 0, q[n] = 0;
     assert_true(fw_maths_lu_factor(n + 1, matrix, pivot));
-    fw_maths_lu_solve(n + 1, matrix, pivot, q);
+    fw_maths_lu_solve(n + 1, matrix, pivot, NULL, q);
     double charge = 0;
     for (int i = 0; i < n / 2; i++)
         charge += q[i] * cabs(p[i].b - p[i].a);
@@ -109,7 +109,7 @@ static double bars(const double rect[2][4]) {
     }
     matrix[n * (n + 1) + n] = 0, q[n] = 0;
     assert_true(fw_maths_lu_factor(n + 1, matrix, pivot));
-    fw_maths_lu_solve(n + 1, matrix, pivot, q);
+    fw_maths_lu_solve(n + 1, matrix, pivot, NULL, q);
     double charge = 0;
     for (int i = 0; i < first; i++)
         charge += q[i] * cabs(p[i].b - p[i].a);
@@ -239,7 +239,7 @@ static double boxes(double l, double h, double g, double reach) {
         matrix[n * (n + 1) + j] = area[j];
     matrix[n * (n + 1) + n] = 0, q[n] = 0;
     assert_true(fw_maths_lu_factor(n + 1, matrix, pivot));
-    fw_maths_lu_solve(n + 1, matrix, pivot, q);
+    fw_maths_lu_solve(n + 1, matrix, pivot, NULL, q);
     double charge = 0;
     for (int i = 0; i < first; i++)
         charge += q[i] * area[i];

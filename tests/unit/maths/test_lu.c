@@ -23,7 +23,7 @@ static void test_residuals(void **state) {
         for (int i = 0; i < n; i++)
             x[i] = r[i] = noise(&seed), y[i] = s[i] = noise(&seed);
         assert_true(fw_maths_lu_factor(n, f, pivot));
-        fw_maths_lu_solve(n, f, pivot, x);
+        fw_maths_lu_solve(n, f, pivot, NULL, x);
         for (int i = 0; i < n; i++) {
             double sum = -r[i], size = 0;
             for (int j = 0; j < n; j++) {
@@ -37,7 +37,7 @@ static void test_residuals(void **state) {
         for (int i = 0; i < n; i++)
             x[i] = r[i];
         assert_true(fw_maths_lu_factor_complex(n, f, g, pivot));
-        fw_maths_lu_solve_complex(n, f, g, pivot, x, y);
+        fw_maths_lu_solve_complex(n, f, g, pivot, NULL, x, y);
         for (int i = 0; i < n; i++) {
             double re = -r[i], im = -s[i], size = 0;
             for (int j = 0; j < n; j++) {

@@ -215,11 +215,98 @@ static void test_generalised_alpha_estimate(void **state) {
     }
 }
 
+/* ---- neighbours: most columns of the Jacobian have no row in common ---- */
+
+enum { CHAIN = 40 };
+
+/* masses that hold their neighbours by stiff springs, damped, one pushed; from t = 0.5 on another spring joins two that are far
+   apart */
+static void chain(void *context, double t, const double *y, double *f) {
+    const double *u = y, *v = y + CHAIN, far = t > 0.5 && *(const bool *)context ? 3e4 : 0;
+    for (int i = 0; i < CHAIN; i++) {
+        const double left = i > 0 ? u[i - 1] : 0, right = i + 1 < CHAIN ? u[i + 1] : 0,
+                     a = u[i] - left, b = u[i] - right,
+                     c = v[i] - (i > 0 ? v[i - 1] : 0), d = v[i] - (i + 1 < CHAIN ? v[i + 1] : 0);
+        f[i] = v[i];
+        f[CHAIN + i] = -1e5 * (a + b + a * a * a + b * b * b) - 2e3 * (c + d);
+    }
+    f[CHAIN + 20] += 1e4 * cos(3 * t);
+    f[CHAIN + 3] -= far * (u[3] - u[33]);
+    f[CHAIN + 33] += far * (u[3] - u[33]);
+}
+
+static fw_maths_stepper *many_stepper(fw_arena *arena, const fw_maths_ode *ode, double rtol) {
+    fw_maths_stepper *s = NULL;
+    double *atol = fw_arena_array(arena, double, (size_t)ode->n);
+    assert_non_null(atol);
+    for (int i = 0; i < ode->n; i++)
+        atol[i] = rtol;
+    assert_int_equal(fw_maths_stepper_new(arena, &fw_maths_radau5_row, ode, rtol, atol, &s), FW_OK);
+    return s;
+}
+
+/* Found together columns are those that are found one by one, so that the steps are the same but for round-off; a coupling that
+   comes later is seen */
+static void test_neighbours(void **state) {
+    (void)state;
+    for (int far = 0; far < 2; far++) {
+        bool joins = far != 0;
+        const fw_maths_ode ode = {
+            .rhs = chain, .context = &joins, .n = 2 * CHAIN, .controlled = 2 * CHAIN, .positions = CHAIN};
+        const double start[2 * CHAIN] = {0};
+        double end[2][2 * CHAIN];
+        long rhs[2], jacobians[2];
+        for (int apart = 0; apart < 2; apart++) {
+            fw_arena *arena = fw_arena_new(0);
+            fw_maths_stepper *s = many_stepper(arena, &ode, 1e-7);
+            assert_non_null(s->apart);
+            if (!apart) s->apart = NULL;
+            fw_maths_stepper_start(s, 0, start, 1);
+            assert_int_equal(run_to_end(s), FW_ODE_STEP);
+            memcpy(end[apart], s->y, sizeof end[apart]);
+            rhs[apart] = s->rhs, jacobians[apart] = s->jacobians;
+            if (apart) assert_true(s->apart->groups > 0 && s->apart->groups < 2 * CHAIN / 4);
+            fw_arena_free(arena);
+        }
+        assert_true(jacobians[1] > 5 && labs(jacobians[1] - jacobians[0]) <= 1 + jacobians[0] / 10);
+        /* eighty columns by one evaluation each, or a group at a time */
+        assert_true(rhs[0] - rhs[1] > 40 * (jacobians[1] - (far ? 4 : 2)));
+        for (int i = 0; i < 2 * CHAIN; i++)
+            assert_near(end[1][i], end[0][i], 1e-6 * (1 + fabs(end[0][i])));
+    }
+}
+
+/* where every column has a row in common with every other they stay one by one */
+static void all_together(void *context, double t, const double *y, double *f) {
+    (void)context, (void)t;
+    double sum = 0;
+    for (int i = 0; i < 60; i++)
+        sum += y[i];
+    for (int i = 0; i < 60; i++)
+        f[i] = -1e4 * (y[i] - 1) - 100 * sum;
+}
+
+static void test_all_together(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const fw_maths_ode ode = {.rhs = all_together, .n = 60, .controlled = 60};
+    const double start[60] = {0};
+    fw_maths_stepper *s = many_stepper(arena, &ode, 1e-6);
+    fw_maths_stepper_start(s, 0, start, 1);
+    assert_int_equal(run_to_end(s), FW_ODE_STEP);
+    assert_int_equal(s->apart->groups, FW_ODE_TOGETHER);
+    for (int i = 0; i < 60; i++) /* -1e4 (y - 1) - 6000 y = 0 */
+        assert_near(s->y[i], 1e4 / 1.6e4, 1e-5);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_van_der_pol),
         cmocka_unit_test(test_van_der_pol_costs),
         cmocka_unit_test(test_robertson),
+        cmocka_unit_test(test_neighbours),
+        cmocka_unit_test(test_all_together),
         cmocka_unit_test(test_a_fast_one_at_rest),
         cmocka_unit_test(test_tolerance_proportionality),
         cmocka_unit_test(test_generalised_alpha_order),

@@ -430,7 +430,7 @@ static double two_fingers(double L, double o) {
             for (int b = 0; b < ALL; b++)
                 y[a] += field[a * ALL + b] * x[b];
         }
-        fw_maths_lu_solve(ALL, stiff, pivot, y);
+        fw_maths_lu_solve(ALL, stiff, pivot, NULL, y);
         for (int a = 0; a < ALL; a++)
             most = fmax(most, fabs(y[a]));
         for (int a = 0; a < ALL; a++)
