@@ -451,14 +451,10 @@ fw_status fw_layout_shapes_say_closed(fw_layout_drawing *d, int body) {
             if (gap.gaps == 0) continue;
             fw_diag_warning(d->diags, 702, d->device->revolute[j].place,
                             "the neck of %s%s, %s um wide and ending %s um from it, leads across "
-                            "what is drawn of "
-                            "%s, at (%s, %s) um%s: a gap that the description leaves open is "
-                            "closed there, and the "
-                            "body is as stiff as that makes it. No other way leads into the body "
-                            "without that: draw "
-                            "within %s um of the hinge, with nothing in between, what it is to "
-                            "hold, or move the "
-                            "hinge",
+                            "what is drawn of %s, at (%s, %s) um%s: a gap that the description "
+                            "leaves open is closed there, and the body is as stiff as that makes "
+                            "it. The layout knows no way past it: draw what the hinge is to hold "
+                            "within %s um of it, with nothing in between, or move the hinge",
                             FW_NAMED("hinge", d->device->revolute[j].id),
                             fw_layout_um(wide, 2.0 * side->neck_m),
                             fw_layout_um(far, side->neck_end_m), label, fw_layout_um(x, gap.at.x),
