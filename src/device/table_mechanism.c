@@ -73,14 +73,16 @@ static const fw_xml_attribute_row body_rows[] = {
     {"width", SIZE, .fallback = "not drawn",
      .sentence =
          "Of the bars that join its hinges, each of which begins at its hinge with a neck that "
-         "is narrower, by 6 um and where the hinge's ring asks for it by more. With "
-         "plate-width there are no bars: it bounds the width of the necks that lead into "
-         "the plate."},
+         "is narrower, by 6 um and where the hinge's ring asks for it by more. Bars run "
+         "straight, across whatever else is drawn of the body. With plate-width there are "
+         "none: it bounds the width of the necks."},
     {"inner-corner", GAP, .fallback = "0 um: sharp, as drawn",
      .sentence =
          "Radius with which inward corners of the shapes inside it are rounded, those where "
          "two shapes meet as well."},
-    {"plate-width", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-height."},
+    {"plate-width", SIZE, .fallback = "no plate",
+     .sentence = "Of a rectangle; with plate-height. Where the body has shapes inside it, it is "
+                 "one more of them."},
     {"plate-height", SIZE, .fallback = "no plate", .sentence = "Of a rectangle; with plate-width."},
     {"plate-x", PLACE, .fallback = "x", .sentence = "Centre of the rectangle, as drawn."},
     {"plate-y", PLACE, .fallback = "y", .sentence = "Centre of the rectangle, as drawn."},
@@ -190,8 +192,13 @@ const fw_xml_element_row fw_device_table_mechanism[] = {
     {"mechanism", "device", .once = true,
      .sentence = "Any planar mechanism; with <six-bar> it adds to that and may use its ids."},
     {"body", "mechanism", "id", FW_SPACE_BODY, .most = 50000, ROWS(body_rows),
-     .sentence = "A rigid body; it needs mass and inertia, or a shape: width, plate-width and "
-                 "plate-height, or elements inside it."},
+     .sentence =
+         "A rigid body; it needs mass and inertia, or a shape: width, plate-width and "
+         "plate-height, or elements inside it. Each of its hinges has a neck that leads "
+         "straight into the body: with shapes into the nearest that takes all of its width, "
+         "along a way that closes no gap between them (else FW-D702), within 0.6 mm of the "
+         "hinge's free circle; towards the middle of a plate-width that no shape is nearer "
+         "than; along the bars of a width."},
     {"revolute", "mechanism", "id", FW_SPACE_JOINT, .most = 100000, ROWS(revolute_rows),
      .sentence = "A pin on which b turns against a. Its angle is phi_b - phi_a - free-angle; a "
                  "spring, a damper and stops may act on it."},

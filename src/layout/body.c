@@ -172,13 +172,8 @@ static fw_status cut_free(fw_layout_drawing *d, int body, const fw_geometry_cont
 
 /* the plate without the discs of the hinges; the necks of its own hinges reach into it */
 static fw_status plate_parts(fw_layout_drawing *d, int body, parts *out) {
-    const fw_device_body *b = &d->device->body[body];
-    double w = 0.5 * b->plate_width_m, h = 0.5 * b->plate_height_m;
-    fw_layout_local local = {fw_v(b->plate_x_m, b->plate_y_m), cos(b->plate_angle_rad),
-                             sin(b->plate_angle_rad), false};
-    fw_geometry_vec2 corner[4] = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
     fw_geometry_contour plate;
-    FW_TRY(fw_layout_polygon(d->arena, &local, corner, 4, -1, &plate));
+    FW_TRY(fw_layout_plate_outline(d, body, &plate));
     return cut_free(d, body, &plate, NULL, 0, out);
 }
 
@@ -243,13 +238,15 @@ static fw_status unite_parts(fw_layout_drawing *d, int body, const fw_geometry_c
 }
 
 /* What is drawn of a body with shapes: they come first and keep their edges, hinges cut free; then
-   parts are united with them one by one, and holes are cut out and opened. */
+   parts are united with them one by one, those of its hinges from number `head` on, and holes are
+   cut out and opened. */
 static fw_status unite_with_shapes(fw_layout_drawing *d, int body, const fw_geometry_contour *part,
-                                   int npart, fw_geometry_contour *out) {
+                                   int npart, int head, fw_geometry_contour *out) {
     fw_geometry_region region = d->shapes[body].solid;
     int outer = 0;
     FW_TRY(cut_discs(d, body, NULL, 0, &region));
     for (int i = 0; i < npart; i++) {
+        if (i == head) d->shapes[body].left = region;
         fw_geometry_region next = {(fw_geometry_contour *)&part[i], 1}, both;
         FW_TRY(fw_geometry_region_boolean(d->arena, &region, &next, FW_UNION, &both));
         region = both;
@@ -309,12 +306,13 @@ static fw_status unite_all(fw_layout_drawing *d, const work *w) {
         FW_TRY(plate_parts(d, w->body, all));
     else if (!fw_layout_only_shapes(d->device, w->body))
         FW_TRY(bar_parts(d, w->body, w->joint, w->njoint, all));
+    const int head = all->count;
     for (int i = 0; i < w->njoint; i++)
         all->item[all->count++] = side_of(d, w->joint[i], w->body)->head;
     for (int i = 0; i < w->nextra; i++)
         all->item[all->count++] = w->extra[i];
     if (fw_layout_has_shapes(d->device, w->body))
-        return unite_with_shapes(d, w->body, all->item, all->count, &d->raw[w->slot]);
+        return unite_with_shapes(d, w->body, all->item, all->count, head, &d->raw[w->slot]);
     FW_TRY(unite_parts(d, w->body, all->item, all->count, &d->raw[w->slot]));
     d->nlug = w->first_lug;
     if (w->body < 0 || !d->device->body[w->body].platform) return FW_OK;
@@ -588,6 +586,9 @@ fw_status fw_layout_body_draw(fw_layout_drawing *d, int body, int only,
     d->base = FW_NONE;
     FW_TRY(status);
     if (body < 0) return FW_OK;
-    if (fw_layout_has_shapes(d->device, body)) FW_TRY(fw_layout_shapes_say_cut(d, body));
+    if (fw_layout_has_shapes(d->device, body)) {
+        FW_TRY(fw_layout_shapes_say_cut(d, body));
+        FW_TRY(fw_layout_shapes_say_closed(d, body));
+    }
     return fw_layout_body_measure(d, body, NULL, 0);
 }

@@ -50,6 +50,15 @@ fw_status fw_layout_polygon(fw_arena *arena, const fw_layout_local *local,
     return fw_layout_sketch_close(&sketch, contour);
 }
 
+fw_status fw_layout_plate_outline(fw_layout_drawing *d, int body, fw_geometry_contour *plate) {
+    const fw_device_body *b = &d->device->body[body];
+    const double w = 0.5 * b->plate_width_m, h = 0.5 * b->plate_height_m;
+    const fw_layout_local local = {fw_v(b->plate_x_m, b->plate_y_m), cos(b->plate_angle_rad),
+                                   sin(b->plate_angle_rad), false};
+    const fw_geometry_vec2 corner[4] = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
+    return fw_layout_polygon(d->arena, &local, corner, 4, -1, plate);
+}
+
 /* ---- the drawing ---- */
 
 const char *fw_layout_um(char buffer[32], double metres) {

@@ -180,6 +180,8 @@ typedef struct fw_layout_track { /* where it goes through the frame */
 
 typedef struct fw_layout_shapes {   /* what the description draws of a body, in the world */
     fw_geometry_region solid, hole; /* holes counter-clockwise as well */
+    fw_geometry_region all;         /* solid, and the body's own plate as one more of its shapes */
+    fw_geometry_region left;        /* of all, and of bars, beside the hinges; heads come on top */
 } fw_layout_shapes;
 
 typedef struct fw_layout_drawing {
@@ -294,11 +296,26 @@ fw_status fw_layout_shapes_pierce(fw_layout_drawing *d, int body, fw_geometry_re
 /* notes of what the round places of hinges take off it, heads and necks apart (FW-D537), and a warning where
    it is more than a twentieth; its raw outline is drawn */
 fw_status fw_layout_shapes_say_cut(fw_layout_drawing *drawing, int body);
+/* warnings of necks that close what the description leaves open (FW-D702); its heads are drawn */
+fw_status fw_layout_shapes_say_closed(fw_layout_drawing *d, int body);
 /* unit vector from W and where from W the neck, `half_m` wide to either side, may begin to end in
-   what is drawn, at least clear_m; false: nowhere within reach */
-bool fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_geometry_vec2 w,
-                               double clear_m, double half_m, fw_geometry_vec2 *direction,
-                               double *begins_m);
+   what is drawn, at least clear_m; *found false: nowhere within reach. across: one that closes what
+   the description leaves open is better than none. */
+typedef struct fw_layout_neck_way {
+    fw_geometry_vec2 w;
+    double clear_m, half_m;
+    bool across;
+} fw_layout_neck_way;
+fw_status fw_layout_shape_direction(const fw_layout_drawing *d, int body,
+                                    const fw_layout_neck_way *way, fw_geometry_vec2 *direction,
+                                    double *begins_m, bool *found);
+/* of the way along a direction into the body's own plate, which begins at begins_m: no other shape
+   is nearer to the hinge, but for those that the neck enters first; and it closes nothing */
+fw_status fw_layout_plate_way(const fw_layout_drawing *d, int body, const fw_layout_neck_way *way,
+                              fw_geometry_vec2 direction, double begins_m, bool *nearest,
+                              bool *open);
+/* outline of the body's own plate, in the world */
+fw_status fw_layout_plate_outline(fw_layout_drawing *d, int body, fw_geometry_contour *plate);
 /* error `number`: "BODY: WHAT, near (x, y) um" */
 fw_status fw_layout_shape_refuse(fw_layout_drawing *d, int number, fw_place place, int body,
                                  const char *what, fw_geometry_vec2 at);

@@ -75,13 +75,8 @@ static fw_status show_shapes(fw_layout_drawing *d, int body) {
 }
 
 static fw_status show_plate(fw_layout_drawing *d, int body) {
-    const fw_device_body *b = &d->device->body[body];
-    double w = 0.5 * b->plate_width_m, h = 0.5 * b->plate_height_m;
-    const fw_layout_local local = {fw_v(b->plate_x_m, b->plate_y_m), cos(b->plate_angle_rad),
-                                   sin(b->plate_angle_rad), false};
-    const fw_geometry_vec2 corner[4] = {{-w, -h}, {w, -h}, {w, h}, {-w, h}};
     fw_geometry_contour plate;
-    FW_TRY(fw_layout_polygon(d->arena, &local, corner, 4, -1, &plate));
+    FW_TRY(fw_layout_plate_outline(d, body, &plate));
     return add_outline(d, body, &plate);
 }
 

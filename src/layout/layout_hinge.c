@@ -172,7 +172,8 @@ static void choose_rings(fw_layout_hinge_plan *plan, double gap) {
 
 typedef struct way { /* from a hinge into one of its bodies */
     fw_geometry_vec2 direction;
-    double half_m, drawn_at_m; /* as of fw_layout_side */
+    double half_m, drawn_at_m, plate_at_m; /* as of fw_layout_side */
+    const fw_device_body *plate;
 } way;
 
 /* a hinge, and a body where there is one, that the last error is about; FW_GEOMETRY */
@@ -185,25 +186,44 @@ static fw_status blame(fw_layout_drawing *d, int number, int joint, int body) {
     return FW_GEOMETRY;
 }
 
-/* what is drawn of a body lies where its shortest neck finds it; where a wide neck does not, a
-   narrower one is tried */
+/* What is drawn of a body lies where its shortest neck finds it; where a wide neck does not, a
+   narrower one is tried. A body's own plate is one more of its shapes, and the neck leads towards its
+   middle where no other is nearer. Necks that would close what the description leaves open come
+   last (FW-D702). Decision 207; test_shapes.c necks_find_the_nearest */
 static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layout_hinge_plan *plan,
                         way *to) {
     static const double narrower[] = {1.0, 0.7, 0.5, 0.3};
     const fw_device *device = d->device;
     const fw_device_revolute *j = &device->revolute[joint];
     fw_geometry_vec2 w = fw_layout_joint_point(device, joint);
-    *to = (way){.half_m = half_width(d, body)};
-    if (!fw_layout_only_shapes(device, body)) {
-        to->direction = fw_towards(w, body_target(d, body, joint));
-        return FW_OK;
+    *to = (way){.half_m = half_width(d, body),
+                .direction = fw_towards(w, body_target(d, body, joint))};
+    if (body >= 0 && !isnan(device->body[body].plate_width_m)) {
+        to->plate = &device->body[body];
+        to->plate_at_m = plate_begins(to->plate, w, to->direction);
     }
-    double keep_out = keep_out_of(plan, device->flexure[j->flexure].gap_m), wide = to->half_m;
-    for (size_t i = 0; i < sizeof narrower / sizeof narrower[0]; i++) {
-        to->half_m = narrower[i] * wide;
-        if (fw_layout_shape_direction(d, body, w, keep_out, to->half_m, &to->direction,
-                                      &to->drawn_at_m))
-            return FW_OK;
+    if (!fw_layout_has_shapes(device, body) || (!to->plate && !fw_layout_only_shapes(device, body)))
+        return FW_OK;
+    const way into_plate = *to;
+    const double keep_out = keep_out_of(plan, device->flexure[j->flexure].gap_m);
+    fw_layout_neck_way neck = {w, keep_out, into_plate.half_m, false};
+    bool nearest = false, open = false, found = false;
+    if (to->plate)
+        FW_TRY(fw_layout_plate_way(d, body, &neck, to->direction, to->plate_at_m, &nearest, &open));
+    if (nearest && open) return FW_OK;
+    for (int across = 0; across < (open ? 1 : 2); across++)
+        for (size_t i = 0; i < sizeof narrower / sizeof narrower[0]; i++) {
+            neck.half_m = narrower[i] * into_plate.half_m;
+            neck.across = across;
+            to->half_m = neck.half_m;
+            FW_TRY(
+                fw_layout_shape_direction(d, body, &neck, &to->direction, &to->drawn_at_m, &found));
+            to->plate = NULL;
+            if (found) return FW_OK;
+        }
+    if (into_plate.plate) {
+        *to = into_plate;
+        return FW_OK;
     }
     char x[32], y[32], r[32], least[32];
     fw_diag_error(d->diags, 317, j->place,
@@ -235,9 +255,8 @@ static fw_status choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_p
         side->direction = is_a ? da : db;
         side->half_width_m = is_a ? to_a.half_m : to_b.half_m;
         side->form = fw_layout_head_form(0);
-        if (side->body >= 0 && !isnan(d->device->body[side->body].plate_width_m))
-            side->plate = &d->device->body[side->body];
-        if (side->plate) side->plate_at_m = plate_begins(side->plate, w, side->direction);
+        side->plate = is_a ? to_a.plate : to_b.plate;
+        side->plate_at_m = is_a ? to_a.plate_at_m : to_b.plate_at_m;
         side->drawn_at_m = is_a ? to_a.drawn_at_m : to_b.drawn_at_m;
         side->local = (fw_layout_local){w, n.x, n.y, i == 0};
         double up = cross(n, side->direction), along = fw_dot(n, side->direction);

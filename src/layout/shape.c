@@ -178,6 +178,19 @@ static fw_status gather(fw_layout_drawing *d, int body, fw_layout_shapes *s) {
     return FW_OK;
 }
 
+/* Where edges of plate and shapes nearly coincide the body's own union says so; then necks find the
+   shapes alone. */
+static fw_status with_plate(fw_layout_drawing *d, int body, fw_layout_shapes *s) {
+    fw_geometry_contour plate;
+    fw_geometry_region own = {&plate, 1}, both;
+    s->all = s->solid;
+    if (isnan(d->device->body[body].plate_width_m) || s->solid.count == 0) return FW_OK;
+    FW_TRY(fw_layout_plate_outline(d, body, &plate));
+    fw_status status = fw_geometry_region_boolean(d->arena, &s->solid, &own, FW_UNION, &both);
+    if (status == FW_OK) s->all = both;
+    return status == FW_GEOMETRY ? FW_OK : status;
+}
+
 fw_status fw_layout_shapes_unite(fw_layout_drawing *d) {
     const fw_device *device = d->device;
     fw_status status = FW_OK;
@@ -188,6 +201,7 @@ fw_status fw_layout_shapes_unite(fw_layout_drawing *d) {
     FW_NEED(d->shapes = fw_arena_array(d->arena, fw_layout_shapes, (size_t)device->nbody));
     for (int b = 0; b < device->nbody; b++) { /* all refusals in one run */
         fw_status one = gather(d, b, &d->shapes[b]);
+        if (one == FW_OK) one = with_plate(d, b, &d->shapes[b]);
         if (one != FW_OK && one != FW_GEOMETRY) return one;
         if (one == FW_GEOMETRY) status = one;
     }
@@ -269,7 +283,7 @@ static bool holds(const fw_geometry_region *r, fw_geometry_vec2 p) {
 }
 
 static bool is_solid(const fw_layout_shapes *s, fw_geometry_vec2 p) {
-    return holds(&s->solid, p) && !holds(&s->hole, p);
+    return holds(&s->all, p) && !holds(&s->hole, p);
 }
 
 /* the neck across `length` from `from` on lies in what is drawn, with all of its width */
@@ -293,45 +307,161 @@ static double reach_along(const fw_layout_shapes *s, fw_geometry_vec2 w, fw_geom
     return HUGE_VAL;
 }
 
-static fw_geometry_vec2 nearest_point(const fw_layout_shapes *s, fw_geometry_vec2 w) {
+static fw_geometry_vec2 nearest_point(const fw_geometry_region *r, fw_geometry_vec2 w) {
     double least = HUGE_VAL;
     fw_geometry_vec2 best = w;
-    for (int i = 0; i < s->solid.count; i++)
-        for (int k = 0; k < s->solid.contour[i].count; k++) {
+    for (int i = 0; i < r->count; i++)
+        for (int k = 0; k < r->contour[i].count; k++) {
             double t;
             fw_geometry_vec2 at;
-            double far = fw_geometry_segment_nearest(&s->solid.contour[i].segment[k], w, &t, &at);
+            double far = fw_geometry_segment_nearest(&r->contour[i].segment[k], w, &t, &at);
             if (far < least - 1e-12) least = far, best = at;
         }
     return best;
+}
+
+/* Gaps of what is drawn that a neck closes beside leading into it, and the place of one of them.
+   What a simple outline N has in common with what is drawn, S, tells: of c pieces, which join m
+   pieces of S, c - m go round a gap (Mayer and Vietoris: H1(N u S) = H1(S) + ker(H0(N n S) -> H0(N) + H0(S))),
+   and a hole in one of them is a gap that N covers. One piece without a hole closes nothing. */
+typedef struct closing {
+    int gaps;
+    fw_geometry_vec2 at;
+} closing;
+
+static const double TOLD_GAP_M2 = 1e-12; /* 1 um2: no mask shows less */
+
+static int outer_of(const fw_geometry_region *r) {
+    int n = 0;
+    for (int i = 0; i < r->count; i++)
+        n += fw_geometry_contour_area(&r->contour[i]) > 0;
+    return n;
+}
+
+static fw_status closes(fw_arena *arena, const fw_geometry_region *drawn,
+                        const fw_geometry_contour *neck, fw_geometry_vec2 w, closing *out) {
+    fw_geometry_region own = {(fw_geometry_contour *)neck, 1}, common, both;
+    double nearest = HUGE_VAL;
+    int met = 0, holes = 0;
+    *out = (closing){0};
+    fw_status status = fw_geometry_region_boolean(arena, drawn, &own, FW_INTERSECTION, &common);
+    if (status != FW_OK) return status == FW_GEOMETRY ? FW_OK : status; /* edges nearly coincide */
+    for (int i = 0; i < common.count; i++) {
+        const double area = fw_geometry_contour_area(&common.contour[i]);
+        if (fabs(area) < TOLD_GAP_M2) continue;
+        fw_geometry_region piece = {&common.contour[i], 1};
+        const fw_geometry_vec2 middle = fw_geometry_region_moments(&piece).centroid;
+        const double far = area < 0 ? -1.0 : fw_norm(fw_sub(middle, w));
+        if (area > 0) met++;
+        if (area < 0) holes++;
+        if (far < nearest) nearest = far, out->at = middle;
+    }
+    if (met + holes < 2) return FW_OK;
+    status = fw_geometry_region_boolean(arena, drawn, &own, FW_UNION, &both);
+    if (status != FW_OK) return status == FW_GEOMETRY ? FW_OK : status;
+    const int joined = outer_of(drawn) - outer_of(&both) + 1;
+    out->gaps = holes + (met > joined ? met - joined : 0);
+    return FW_OK;
+}
+
+/* what a neck along u from the free circle to `end` would close */
+static fw_status closes_along(const fw_layout_drawing *d, int body, const fw_layout_neck_way *way,
+                              fw_geometry_vec2 u, double end, bool *open) {
+    const fw_layout_local local = {way->w, u.x, u.y, false};
+    const double half = way->half_m - fw_layout_rule.neck_inset_m;
+    const fw_geometry_vec2 corner[4] = {
+        {way->clear_m, -half}, {end, -half}, {end, half}, {way->clear_m, half}};
+    fw_geometry_contour neck;
+    closing gap;
+    *open = true;
+    if (!(half > 0 && end > way->clear_m)) return FW_OK;
+    FW_TRY(fw_layout_polygon(d->arena, &local, corner, 4, -1, &neck));
+    FW_TRY(closes(d->arena, &d->shapes[body].all, &neck, way->w, &gap));
+    *open = gap.gaps == 0;
+    return FW_OK;
 }
 
 /* Of 64 directions, from the one straight to the nearest edge (W outside) or to the centroid (W
    inside, or on the edge, of which rounding would say either) on, that of the shortest neck; of
    equally long ones the first, of two as far off as each other the one nearer to the centroid, so
    that mirrored bodies get mirrored necks. Test: test_shapes.py, test_hinges_on_the_edge */
-bool fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_geometry_vec2 w,
-                               double clear_m, double half_m, fw_geometry_vec2 *direction,
-                               double *begins_m) {
+fw_status fw_layout_shape_direction(const fw_layout_drawing *d, int body,
+                                    const fw_layout_neck_way *way, fw_geometry_vec2 *direction,
+                                    double *begins_m, bool *found) {
     const fw_layout_shapes *s = &d->shapes[body];
-    fw_geometry_vec2 middle = fw_geometry_region_moments(&s->solid).centroid;
-    fw_geometry_vec2 near = nearest_point(s, w);
+    const fw_geometry_vec2 w = way->w, middle = fw_geometry_region_moments(&s->all).centroid;
+    fw_geometry_vec2 near = nearest_point(&s->all, w);
     bool inside = is_solid(s, w) || fw_norm(fw_sub(near, w)) < ON_EDGE_M;
     fw_geometry_vec2 base = fw_towards(w, inside ? middle : near);
     fw_geometry_vec2 to = fw_towards(w, middle);
-    double side = vec_cross(base, to) < 0 ? -1.0 : 1.0, best = clear_m + FARTHEST_M;
-    bool found = false;
+    double side = vec_cross(base, to) < 0 ? -1.0 : 1.0, best = way->clear_m + FARTHEST_M;
+    *found = false;
     for (int k = 0; k < DIRECTIONS; k++) {
         double turn = side * ((k + 1) / 2) * (k % 2 ? 1 : -1) * 2.0 * FW_PI / DIRECTIONS;
         fw_geometry_vec2 u = turn == 0 ? base : fw_geometry_vec_rotate(base, turn);
-        double most = found ? best - SAME_STEP_M : best;
-        double far = reach_along(s, w, u, clear_m, half_m, most);
-        if (!(far < most)) continue;
-        best = far, found = true;
+        double most = *found ? best - SAME_STEP_M : best;
+        double far = reach_along(s, w, u, way->clear_m, way->half_m, most);
+        bool open = far < most;
+        if (open && !way->across)
+            FW_TRY(closes_along(d, body, way, u, far + fw_layout_rule.neck_into_plate_m, &open));
+        if (!open) continue;
+        best = far, *found = true;
         *direction = u;
         *begins_m = far;
     }
-    return found;
+    return FW_OK;
+}
+
+static double distance_from(const fw_geometry_region *r, fw_geometry_vec2 w) {
+    if (r->count == 0) return HUGE_VAL;
+    return holds(r, w) ? 0.0 : fw_norm(fw_sub(nearest_point(r, w), w));
+}
+
+fw_status fw_layout_plate_way(const fw_layout_drawing *d, int body, const fw_layout_neck_way *way,
+                              fw_geometry_vec2 direction, double begins_m, bool *nearest,
+                              bool *open) {
+    const fw_layout_shapes *s = &d->shapes[body];
+    const fw_geometry_vec2 w = way->w;
+    const double deep = fw_layout_rule.neck_into_plate_m;
+    const double others = fmax(way->clear_m, distance_from(&s->solid, w));
+    double first = way->clear_m; /* of anything that is drawn, along the neck's middle */
+    while (first < begins_m && !is_solid(s, fw_add(w, first, direction)))
+        first += STEP_M;
+    /* of all that is drawn nothing is nearer than the others: then it is the plate */
+    *nearest =
+        fmax(way->clear_m, distance_from(&s->all, w)) < others || first <= others + SAME_STEP_M;
+    return closes_along(d, body, way, direction, fmax(way->clear_m, begins_m + way->half_m) + deep,
+                        open);
+}
+
+/* ---- what necks close ---- */
+
+fw_status fw_layout_shapes_say_closed(fw_layout_drawing *d, int body) {
+    const fw_geometry_region *left = &d->shapes[body].left;
+    const char *label = fw_layout_body_label(d, body);
+    FW_NEED(label);
+    for (int j = 0; j < d->device->nrevolute && !d->said; j++)
+        for (int i = 0; i < 2; i++) {
+            const fw_layout_side *side = &d->hinge[j].side[i];
+            const fw_geometry_vec2 w = side->local.origin;
+            char wide[32], far[32], x[32], y[32], most[32];
+            closing gap;
+            if (side->body != body) continue;
+            FW_TRY(closes(d->arena, left, &side->head, w, &gap));
+            if (gap.gaps == 0) continue;
+            fw_diag_warning(d->diags, 702, d->device->revolute[j].place,
+                            "the neck of %s%s, %s um wide and ending %s um from it, leads across "
+                            "what is drawn of %s, at (%s, %s) um%s: a gap that the description "
+                            "leaves open is closed there, and the body is as stiff as that makes "
+                            "it. The layout knows no way past it: draw what the hinge is to hold "
+                            "within %s um of it, with nothing in between, or move the hinge",
+                            FW_NAMED("hinge", d->device->revolute[j].id),
+                            fw_layout_um(wide, 2.0 * side->neck_m),
+                            fw_layout_um(far, side->neck_end_m), label, fw_layout_um(x, gap.at.x),
+                            fw_layout_um(y, gap.at.y), gap.gaps > 1 ? " and elsewhere" : "",
+                            fw_layout_um(most, d->layout->hinge[j].keep_out_m + FARTHEST_M));
+        }
+    return FW_OK;
 }
 
 /* ---- what hinges take of it ---- */

@@ -404,10 +404,11 @@ static void say_group(fw_text *text, const fw_process_flow *flow, const fw_relea
                       const fw_release_hold *h) {
     fw_text_add(text, ". From ");
     say_moment(text, flow, g->hangs_m);
+    const char *hinges = g->ground_hinges > 0 ? fw_text_few(text->arena, g->at) : "";
+    text->failed = text->failed || !hinges;
     fw_text_printf(text, " on, when %s has let go, %s hangs on %s%s", g->last_bond,
                    h->ngroup > 1 ? "its mechanism" : "the device",
-                   g->ground_hinges == 0 && g->tethers == 0 ? "nothing" : "",
-                   g->ground_hinges > 0 ? g->at : "");
+                   g->ground_hinges == 0 && g->tethers == 0 ? "nothing" : "", hinges ? hinges : "");
     if (g->tethers > 0)
         fw_text_printf(text, "%s%d tether%s", g->ground_hinges > 0 ? " and " : "", g->tethers,
                        g->tethers == 1 ? "" : "s");

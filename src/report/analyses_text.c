@@ -22,17 +22,19 @@ static void rank_line(fw_text *out, int dof, const fw_statics_row_rank *r) {
         return;
     }
     fw_text_printf(out, "%d of %d constraint rows are independent", r->rank, r->rows);
+    const char *joints = r->joints ? fw_text_few(out->arena, r->joints) : NULL;
+    out->failed = out->failed || (r->joints && !joints);
     if (!isfinite(r->kept)) { /* of a large mechanism, whose singular values are not computed */
-        if (r->joints) fw_text_printf(out, ": %s repeat each other", r->joints);
+        if (joints) fw_text_printf(out, ": %s repeat each other", joints);
         fw_text_add(out, "\n");
         return;
     }
     fw_text_add(out, " (singular values from 1 to ");
     fw_text_number(out, r->kept, 2);
-    if (r->joints) {
+    if (joints) {
         fw_text_add(out, ", then ");
         fw_text_number(out, r->dropped, 2);
-        fw_text_printf(out, ": %s repeat each other", r->joints);
+        fw_text_printf(out, ": %s repeat each other", joints);
     }
     fw_text_add(out, ")\n");
 }

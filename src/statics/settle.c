@@ -464,6 +464,8 @@ static fw_status cannot_follow(walker *k, double s) {
     memcpy(w->y, k->from, (size_t)m->nq * sizeof(double));
     if (fw_statics_equilibrium_evaluate(w) == FW_OK) FW_TRY(find_contradiction(k));
     FW_TRY(driver_names(k, &names, &count));
+    const char *few = count > 0 ? fw_text_few(w->arena, names.data) : "";
+    FW_NEED(few);
     fw_number_text(at, sizeof at, s, 4);
     fw_status status;
     if (count > 0)
@@ -471,7 +473,7 @@ static fw_status cannot_follow(walker *k, double s) {
                                "the drivers of %s%s contradict %s from load factor %s on: "
                                "%s prescribe%s values that the joints do not allow%s",
                                FW_NAMED("scene", fw_statics_equilibrium_scene_name(w)),
-                               count > 1 ? "each other" : "the joints", at, names.data,
+                               count > 1 ? "each other" : "the joints", at, few,
                                count > 1 ? "" : "s", count > 1 ? " together" : "");
     else
         status = fw_diag_error(

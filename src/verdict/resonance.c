@@ -577,13 +577,15 @@ fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
         if (!fw_verdict_stands_still(v, i)) continue;
         if (still++ == 0) first = i;
         FW_TRY(met_there(v, i, &met));
-        if (met.length) told = true;
-        if (met.length)
-            fw_diag_warning(
-                diags, 655, d->scene[i].place,
-                "nothing moves in %s%s: what is required there of %s is met by a device that "
-                "does nothing; give the scene what drives the device",
-                FW_NAMED("scene", d->scene[i].name), met.data);
+        if (met.length == 0) continue;
+        const char *few = fw_text_few(arena, met.data);
+        FW_NEED(few);
+        told = true;
+        fw_diag_warning(
+            diags, 655, d->scene[i].place,
+            "nothing moves in %s%s: what is required there of %s is met by a device that "
+            "does nothing; give the scene what drives the device",
+            FW_NAMED("scene", d->scene[i].name), few);
     }
     if (ran > 0 && still == ran && !told && !v->workspace.required)
         fw_diag_warning(

@@ -506,6 +506,31 @@ class Probe(unittest.TestCase):
                 elif words:
                     self.assertIn("that no hinge is strained says nothing of what the device bears", " ".join(done.stderr.split()))
 
+    def test_lists_of_ids_for_people_end_after_eight(self):
+        """joints that repeat each other, drivers that contradict each other, and what a scene that stands still meets; JSON names all"""
+        pins = "".join(f'<body id="b{i}" mass="1 mg" inertia="1 mg mm^2" x="{i} mm" y="0 mm"/>' for i in range(10))
+        pins += "".join(f'<revolute id="{name}{i}" a="ground" a-x="{i + at} mm" b="b{i}" b-x="{at} mm"/>'
+                        for i in range(10) for name, at in (("p", -0.2), ("q", 0.2)))
+        pins += '<body id="free" mass="1 mg" inertia="1 mg mm^2" x="0 mm" y="5 mm"/><revolute id="f" a="ground" a-y="5 mm" b="free" stiffness="1 uN m/rad"/>'
+        start, end = '<device xmlns="urn:flexwright:device:1" name="many">', "</device>"
+        device = self.file(f'{start}<mechanism>{pins}</mechanism><scene name="s" duration="1 ms"/>{end}')
+        said = run("modes", device).stdout
+        self.assertIn("p0, q0, p1, q1, p2, q2, p3, q3 and 12 more repeat each other", said)
+        self.assertIn("q9", run("modes", device, "--json").stdout)
+        arms = "".join(f'<body id="b{i}" mass="1 mg" inertia="1 mg mm^2" x="0 mm" y="0 mm"/>' for i in range(11))
+        arms += '<revolute id="p10" a="ground" b="b10" stiffness="1 uN m/rad"/>'
+        arms += "".join(f'<revolute id="p{i}" a="ground" b="b{i}"/><revolute id="q{i}" a="b10" a-x="{i + 1} mm" b="b{i}" b-x="{i + 1} mm"/>'
+                        for i in range(10))
+        arms += "".join(f'<driver id="m{i}" joint="p{i}" value="{i + 1} mrad*t/(1 ms)"/>' for i in range(10))
+        device = self.file(f'{start}<mechanism>{arms}</mechanism><scene name="s" duration="1 ms"/>{end}')
+        self.assertIn("m0, m1, m2, m3, m4, m5, m6, m7 and 2 more prescribe values", " ".join(run("statics", device).stderr.split()))
+        text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8").replace('value="115 uN"', 'value="0 uN"')
+        row = '<probe id="n{0}" kind="displacement" on="stage" direction="0 deg"/><require probe="n{0}" measure="final" max="70 um"/>'
+        device = self.file(text.replace("</device>", "".join(row.format(i) for i in range(10)) + end))
+        done = run("check", device, "--corners", "none", "--advice", "none")
+        self.assertIn("FW-D655", done.stderr)
+        self.assertRegex(" ".join(done.stderr.split()), r"what is required there of (\w+ \([\w-]+\), ){7}\w+ \([\w-]+\) and 4 more is met")
+
     def test_equilibria_under_one_load_have_bands(self):
         """a load that is there at once, and no inertia: samples do not differ, and what is displaced from the drawing has a band"""
         text = (ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text(encoding="utf-8")

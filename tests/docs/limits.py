@@ -34,6 +34,7 @@ CASES = {
                          "--set body[coupler]/@width=17um --set body[rocker]/@width=17um", "FW-D510"),
     "Strength of bodies": (f"{THEORY}/neck.xml", None, "check --corners none --advice none",
                            r"neck: INCONCLUSIVE.*body arm is not known to bear what force brings.*where it is [67]"),
+    "Notching at the foot": ("tests/data/swept-holes.xml", None, "check --corners none --advice none -v", "over-etch at the oxide may notch the foot of narrow lines"),
     "Exactly two ground hinges": ("tests/data/hangs-between.xml", None, "check --corners none --advice none", "one base between them"),
     "Flexures close to each other": ("docs/gallery/straight-stage/device.xml", None,
                                      "check --corners none --advice none --set flexure[leaf]/@length=1900um", r"1500 um apart, but their surfaces .*FW-D125"),
@@ -88,7 +89,7 @@ CASES = {
     "What the release reaches": (SIX, None, "recipe --flow copper-on-porous-silicon", "NOT COMPUTABLE, missing: "),
 }
 # the program says nothing, and the page says so
-SILENT = ["What goes between the extremes of loads", "Slender parts round a corner", "Breaking tethers", "Faces and corners of contacts", "Stiffness of contacts", "Residual stress that varies", "Resistance of nets", "Bond wires and guides",
+SILENT = ["Dimples below what moves", "What goes between the extremes of loads", "Slender parts round a corner", "Breaking tethers", "Faces and corners of contacts", "Stiffness of contacts", "Residual stress that varies", "Resistance of nets", "Bond wires and guides",
           "Tight bounds", "Drivers that shake as fast", "Pulses of an expression", "Peaks of joint forces at singular", "Differences within one device", "Resonances where a frequency goes", "What throws back, where arcs",
           "Bias that differs from place", "Polygons that others make of the arcs", "Safety instructions",
           "Leaves that bend out between", "What only the words of a pack",

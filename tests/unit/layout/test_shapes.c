@@ -20,7 +20,7 @@ typedef struct drawn {
 static const char head[] =
     "<device xmlns=\"urn:flexwright:device:1\" name=\"d\"><material ref=\"silicon-100\" "
     "thickness=\"50 um\"/><flexure id=\"f\" kind=\"csfh\" radius=\"80 um\" angle=\"240 deg\" "
-    "width=\"8 um\" gap=\"8 um\"/><mechanism>";
+    "width=\"8 um\" gap=\"8 um\"/><flexure id=\"leaf\" kind=\"leaf\" length=\"400 um\" width=\"12 um\"/><mechanism>";
 #define BODY(shapes)                                                                               \
     "<body id=\"jaw\" x=\"0 mm\" y=\"0 mm\">" shapes "</body><revolute id=\"A\" a=\"ground\" "     \
     "b=\"jaw\" hinge=\"f\"/>"
@@ -37,7 +37,7 @@ static drawn draw(const char *mechanism, const char *rest) {
     if (status == FW_OK) status = fw_layout_build(d.arena, d.device, &d.diags, &d.layout);
     size_t holes = 0; /* release holes without room, and plates that begin in a hinge's round place, are no fault */
     for (size_t i = 0; i < d.diags.count; i++)
-        holes += d.diags.item[i].number == 189 || d.diags.item[i].number == 537;
+        holes += d.diags.item[i].number == 189 || d.diags.item[i].number == 537 || d.diags.item[i].number == 702;
     if (status != FW_OK || !d.layout->drawn || d.diags.count > holes)
         fail_msg("%s: %s", fw_status_text(status),
                  d.diags.count ? d.diags.item[0].message : "not drawn");
@@ -343,6 +343,117 @@ static void tethers_end_at_thin_bars(void **state) {
     assert_true(n > 900);
 }
 
+static int said(const drawn *d, int number) {
+    int n = 0;
+    for (size_t i = 0; i < d->diags.count; i++)
+        n += d->diags.item[i].number == number;
+    return n;
+}
+
+/* two plates, a spring of fifteen bars between them, and a hinge below and above either; `first`: how the plate
+   at the left is written */
+static drawn twin(const char *attributes, const char *shape) {
+    static char mechanism[8192];
+    int n = snprintf(mechanism, sizeof mechanism,
+                     "<body id=\"lo\" x=\"0 mm\" y=\"0 mm\"%s>%s<plate x=\"2900 um\" width=\"900 um\" "
+                     "height=\"500 um\"/><bar x=\"490 um\" to-x=\"1000 um\" to-y=\"0 um\" width=\"14 um\"/>",
+                     attributes, shape);
+    int x = 1000, y = 0;
+    for (int leg = 0; leg <= 8; leg++) {
+        const int to = leg == 8 ? 0 : leg % 2 ? -350 : 350;
+        n += snprintf(mechanism + n, sizeof mechanism - (size_t)n,
+                      "<bar x=\"%d um\" y=\"%d um\" to-x=\"%d um\" to-y=\"%d um\" width=\"14 um\" "
+                      "ends=\"round\"/><bar x=\"%d um\" y=\"%d um\" to-x=\"%d um\" to-y=\"%d um\" width=\"14 "
+                      "um\" ends=\"round\"/>",
+                      x, y, x, to, x, to, leg == 8 ? 2460 : x + 150, to);
+        x += 150, y = to;
+    }
+    for (int i = 0; i < 4; i++)
+        n += snprintf(mechanism + n, sizeof mechanism - (size_t)n,
+                      "%s<revolute id=\"%c\" axis=\"0 deg\" a=\"ground\" a-x=\"%d um\" a-y=\"%d um\" b=\"lo\" "
+                      "b-x=\"%d um\" b-y=\"%d um\" hinge=\"leaf\"/>",
+                      i ? "" : "</body>", "ACEG"[i], i / 2 * 2900, i % 2 ? 600 : -600, i / 2 * 2900,
+                      i % 2 ? 600 : -600);
+    return draw(mechanism, NO_TETHER);
+}
+
+/* A body's own plate is one more of its shapes: hinges beside the second plate lead into that, and not across the
+   spring to the first. Either way of writing the first plate gives the same body, but for its corners and for how wide a
+   neck into it is. */
+static void necks_find_the_nearest(void **state) {
+    (void)state;
+    drawn own = twin(" plate-width=\"1 mm\" plate-height=\"0.5 mm\"", "");
+    drawn shape = twin("", "<plate width=\"1 mm\" height=\"0.5 mm\"/>");
+    assert_int_equal(said(&own, 702) + said(&shape, 702), 0);
+    assert_int_equal(pieces(&own, 0).count, 1); /* nothing is enclosed, so that nothing is cut open */
+    assert_int_equal(pieces(&shape, 0).count, 1);
+    assert_relative(own.layout->body[0].area_m2, shape.layout->body[0].area_m2, 5e-3);
+    assert_near(own.layout->body[0].centroid.x, shape.layout->body[0].centroid.x, 5 * UM);
+    fw_arena_free(own.arena);
+    fw_arena_free(shape.arena);
+}
+
+/* what hangs on a plate of the body's own beside the way of its neck, and what its neck enters first, moves no neck:
+   the body has its area more, and nothing else */
+static void shapes_move_no_neck(void **state) {
+    (void)state;
+#define OWN(shapes)                                                                                 \
+    "<body id=\"jaw\" x=\"0 mm\" y=\"0 mm\" plate-x=\"700 um\" plate-y=\"100 um\" plate-width=\"900 um\" " \
+    "plate-height=\"300 um\">" shapes "</body><revolute id=\"A\" a=\"ground\" b=\"jaw\" hinge=\"f\"/>"
+    static const struct {
+        const char *mechanism;
+        double more; /* um2 */
+    } with[] = {
+        {OWN("<bar x=\"1000 um\" y=\"200 um\" to-x=\"1000 um\" to-y=\"400 um\" width=\"20 um\"/>"), 20 * 150},
+        {OWN("<disc x=\"1150 um\" y=\"100 um\" radius=\"60 um\"/>"), 0.5 * M_PI * 3600},
+    };
+    const double plain = area_of(OWN("<disc x=\"700 um\" y=\"100 um\" radius=\"60 um\"/>"));
+    assert_relative(plain, area_of(OWN("")), 1e-9);
+    for (size_t i = 0; i < sizeof with / sizeof with[0]; i++) {
+        const double more = area_of(with[i].mechanism) - plain;
+        /* where the shape meets the plate's edge two corners are rounded */
+        if (fabs(more - with[i].more) > 2 * 100) fail_msg("case %zu: %.9g um2 more, not %.9g", i, more, with[i].more);
+    }
+#undef OWN
+}
+
+/* A thin bar before the plate is left alone where another way leads past it. Where all ways lead across it, that is said at
+   its place, once for the hinge. */
+static void necks_close_nothing(void **state) {
+    (void)state;
+    /* the hinge at the origin hangs below the plate; `wall` stands 290 um above it, and is joined to the plate on the left */
+#define UNDER(wall)                                                                                 \
+    "<body id=\"jaw\" x=\"0 mm\" y=\"0 mm\"><plate y=\"500 um\" width=\"1600 um\" height=\"200 um\"/>" wall     \
+    "</body><revolute id=\"A\" axis=\"0 deg\" a=\"ground\" b=\"jaw\" hinge=\"f\"/>"
+#define BAR(x, y, to_x, to_y)                                                                       \
+    "<bar x=\"" #x " um\" y=\"" #y " um\" to-x=\"" #to_x " um\" to-y=\"" #to_y " um\" width=\"14 um\"/>"
+    drawn plain = draw(UNDER(""), NO_TETHER);
+    assert_int_equal(pieces(&plain, 0).count, 1);
+    const double keep_out_um = plain.layout->hinge[0].keep_out_m / UM;
+    assert_true(keep_out_um < 270);
+    fw_arena_free(plain.arena);
+
+    drawn past = draw(UNDER(BAR(-160, 450, -160, 283) BAR(-167, 290, 40, 290)), NO_TETHER);
+    assert_int_equal(said(&past, 702), 0);
+    assert_int_equal(pieces(&past, 0).count, 1);
+    fw_arena_free(past.arena);
+
+    drawn across = draw(UNDER(BAR(-700, 450, -700, 283) BAR(-707, 290, 707, 290)), NO_TETHER);
+    assert_int_equal(said(&across, 702), 1);
+    for (size_t i = 0; i < across.diags.count; i++) {
+        double x, y;
+        const char *at = strstr(across.diags.item[i].message, ", at (");
+        if (across.diags.item[i].number != 702) continue;
+        assert_int_equal(across.diags.item[i].severity, FW_WARNING);
+        assert_int_equal(across.diags.item[i].place.line, 1);
+        if (!at || sscanf(at, ", at (%lf, %lf) um", &x, &y) != 2) fail_msg("%s", across.diags.item[i].message);
+        assert_near(y, 290, 1.0);
+    }
+    fw_arena_free(across.arena);
+#undef UNDER
+#undef BAR
+}
+
 static void memory_runs_out(void **state) {
     (void)state;
     static char xml[16384];
@@ -372,6 +483,9 @@ int main(void) {
         cmocka_unit_test(between_hinges),
         cmocka_unit_test(what_hinges_take_is_said),
         cmocka_unit_test(tethers_end_at_thin_bars),
+        cmocka_unit_test(necks_find_the_nearest),
+        cmocka_unit_test(shapes_move_no_neck),
+        cmocka_unit_test(necks_close_nothing),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

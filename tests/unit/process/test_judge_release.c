@@ -214,6 +214,25 @@ static void what_may_come_off(void **state) {
     assert_non_null(reason_with(judged(distances(20, 50), SOI), "narrow openings"));
 }
 
+/* what a mechanism hangs on last, for people: eight hinges, and how many more */
+static void words_name_eight_hinges(void **state) {
+    (void)state;
+    fw_text at = fw_text_new(arena);
+    for (int i = 0; i < 12; i++)
+        fw_text_printf(&at, "%shinge h%d", i ? ", " : "", i);
+    assert_int_equal(fw_text_end(&at), FW_OK);
+    fw_release_body_hold body = {.label = "stage", .free_m = 20 * UM, .holders = 12};
+    fw_release_group_hold group = {.at = at.data, .ground_hinges = 12, .hangs_m = 20 * UM, .last_bond = "stage"};
+    fw_release_hold hold = {.body = &body, .nbody = 1, .group = &group, .ngroup = 1};
+    fw_process_flow flow = *judged(NULL, SOI);
+    flow.hold = &hold;
+    const char *words = NULL;
+    assert_int_equal(fw_process_hold_words(arena, &flow, &words), FW_OK);
+    assert_non_null(strstr(words, "the device hangs on hinge h0, "));
+    assert_non_null(strstr(words, "hinge h7 and 4 more"));
+    assert_null(strstr(words, "hinge h8"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(time_follows, setup, teardown),
@@ -225,6 +244,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(wide_openings_run_ahead, setup, teardown),
         cmocka_unit_test_setup_teardown(assumed_lags_are_said, setup, teardown),
         cmocka_unit_test_setup_teardown(what_may_come_off, setup, teardown),
+        cmocka_unit_test_setup_teardown(words_name_eight_hinges, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
