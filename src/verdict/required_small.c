@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "effects/effects.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
@@ -547,4 +548,20 @@ fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
     }
     if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
     return FW_OK;
+}
+
+/* ---- which mode a probe is of, in the plane and across it ---- */
+
+const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
+                                                  const fw_device_probe *probe,
+                                                  const fw_statics_modes *modes, int *in_plane) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    fw_mechanism_frequencies in = {NULL, 0, sizeof(fw_statics_mode)},
+                             out = {NULL, 0, sizeof(fw_verdict_plate_mode)};
+    bool across;
+    if (modes && modes->count > 0) in.f_Hz = &modes->mode[0].f_Hz, in.count = modes->count;
+    if (o && o->nmode > 0) out.f_Hz = &o->mode[0].f_Hz, out.count = o->nmode;
+    int at = fw_mechanism_plates_nth(probe->mode, probe->plane, in, out, &across);
+    *in_plane = at + 1;
+    return at >= 0 && across ? &o->mode[at] : NULL;
 }

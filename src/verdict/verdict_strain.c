@@ -6,6 +6,7 @@
 #include "verdict/verdict_parts.h"
 #include "base/constants.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
 #include "verdict/verdict.h"
 #include <math.h>
 #include <string.h>
@@ -75,6 +76,19 @@ void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, do
                             3 / 0.42 * (arm->twist[k] / h3 + arm->twist3[k] / h) / G;
         }
     c[0] += 1.2 * arm->slide / (G * h);
+}
+
+fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                                 fw_mechanism_plates *soft) {
+    const fw_device_material *of = &m->variant->material;
+    const double nu = of->poisson.unknown ? 0.3 : of->poisson.value;
+    double *give;
+    FW_NEED(give = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
+    for (int k = 0; k < 2 * m->nhinge; k++)
+        if (arm && arm[k].known)
+            fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
+                                        give + 9 * (k / 2));
+    return fw_mechanism_plates_new(arena, m, give, soft);
 }
 
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
