@@ -2,6 +2,7 @@
 /* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue counts. And what bodies bear
    of what was seen there: the stress of the ways of body_arms.c under what hinges and loads bring.
    Theory: docs/theory/verdict.md, docs/theory/release.md. Test: test_body_arms.c */
+#include "base/constants.h"
 #include "base/text.h"
 #include "geometry/segment.h"
 #include "verdict/strain.h"
@@ -235,9 +236,61 @@ double fw_verdict_fatigue_utilisation(const fw_flexure_strain_life *law,
     return exp(-x);
 }
 
+/* of what nothing is known to damp the quality is at most 1e8: single crystals of silicon have some 1e7 at best near 300 K, plated
+   metals 1e4 (assumed, after Chandorkar et al., IEEE MEMS 2008, 74) */
+static double falls_by(const fw_verdict_ring *r) {
+    const double quality_most = 1e8;
+    return r->decrement > 0 ? r->decrement : FW_PI / quality_most;
+}
+
+/* A block is a fiftieth of the amplitude, or one swing where that is more; its middle stands for it. Test: test_fatigue.c
+   rings_out */
+size_t fw_verdict_rung_out(const fw_verdict_after *after, int k, double peak_Pa,
+                           fw_maths_cycle *to) {
+    const double block = 0.02, down_to = log(20);
+    const fw_verdict_ring *r = &after->ring[k];
+    const double d = falls_by(r), step = fmax(block, d);
+    size_t n = 0;
+    for (double at = 0.5 * step; at < down_to && n < FW_RING_BLOCKS; at += step) {
+        double share = r->share * exp(-at);
+        for (int j = 1; k == 0 && j < after->n; j++) {
+            const fw_verdict_ring *on = &after->ring[j];
+            share += on->share * exp(-at * falls_by(on) * on->omega_per_s / (d * r->omega_per_s));
+        }
+        to[n++] = (fw_maths_cycle){2 * fmin(share, 1) * peak_Pa, after->rest * peak_Pa, step / d};
+    }
+    return n;
+}
+
+/* what rings on is put behind cycles; undamped: what nothing is known to damp instead. Returns how many */
+static size_t put_after(const fw_verdict_after *after, double peak_Pa, bool undamped,
+                        fw_maths_cycle *to) {
+    size_t n = 0;
+    for (int k = 0; after && k < after->n; k++)
+        if (undamped == !(after->ring[k].decrement > 0))
+            n += fw_verdict_rung_out(after, k, peak_Pa, to + n);
+    return n;
+}
+
+static double largest_face(const fw_maths_turning root[FW_FACES]) {
+    double most = 0;
+    for (int side = 0; side < FW_FACES; side++) {
+        most = fmax(most, fabs(root[side].latest));
+        for (size_t i = 0; i < root[side].count; i++)
+            most = fmax(most, fabs(root[side].value[i]));
+    }
+    return most;
+}
+
 fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *law,
-                                fw_maths_turning root[FW_FACES], double Pa_per_strain, double times,
+                                fw_maths_turning root[FW_FACES], double peak_strain,
+                                double youngs_Pa, double times, const fw_verdict_after *after,
                                 fw_verdict_fatigue *out) {
+    const double most = largest_face(root),
+                 Pa = youngs_Pa * (most > 0 ? fmax(1, peak_strain / most) : 1),
+                 peak_Pa = fmax(peak_strain, most) * youngs_Pa;
+    const double small = 0.9; /* what rings on may be off by a tenth: small motions (assumed) */
+    const size_t rings = after ? (size_t)after->n * FW_RING_BLOCKS : 0;
     *out = (fw_verdict_fatigue){0};
     for (int side = 0; side < FW_FACES; side++) {
         fw_maths_turning *r = &root[side];
@@ -246,17 +299,28 @@ fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *l
         double *work;
         fw_maths_cycle *cycle;
         FW_NEED(work = fw_arena_array(arena, double, 2 * r->count + 1));
-        FW_NEED(cycle = fw_arena_array(arena, fw_maths_cycle, r->count + 1));
+        FW_NEED(cycle = fw_arena_array(arena, fw_maths_cycle, r->count + 1 + rings));
         size_t n = fw_maths_rainflow_repeating(r->value, r->count, work, cycle);
         double counted = 0;
         for (size_t i = 0; i < n; i++) {
-            cycle[i].range *= Pa_per_strain;
-            cycle[i].mean *= Pa_per_strain;
+            cycle[i].range *= Pa;
+            cycle[i].mean *= Pa;
             counted += cycle[i].count;
         }
-        double used = fw_verdict_fatigue_utilisation(law, cycle, n, times);
+        const size_t rung = put_after(after, peak_Pa, false, cycle + n);
+        for (size_t i = 0; i < rung; i++)
+            cycle[n + i].range *= small;
+        out->at_least =
+            fmax(out->at_least, fw_verdict_fatigue_utilisation(law, cycle, n + rung, times));
+        for (size_t i = 0; i < rung; i++)
+            cycle[n + i].range /= small;
+        n += rung;
+        const double used = fw_verdict_fatigue_utilisation(law, cycle, n, times),
+                     damage = fw_verdict_miner(law, cycle, n, times, 1);
+        n += put_after(after, peak_Pa, true, cycle + n);
+        out->at_most = fmax(out->at_most, fw_verdict_fatigue_utilisation(law, cycle, n, times));
         if (!(used > out->utilisation)) continue;
-        *out = (fw_verdict_fatigue){used, fw_verdict_miner(law, cycle, n, times, 1), counted};
+        out->utilisation = used, out->damage = damage, out->cycles = counted;
     }
     return FW_OK;
 }

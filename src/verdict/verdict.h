@@ -53,8 +53,8 @@ typedef struct fw_verdict_hinge_verdict {
     const fw_flexure_limit *limit; /* the criterion that governs; NULL: a number without a source */
     double limit_Pa; /* peak stress that it allows in this motion, before the safety factor */
     double failure_probability; /* at the peak, no safety factor; NaN: nothing known or asked */
-    /* NaN: no cycles asked; damage: Miner's sum, no safety factor; cycles: of one repetition */
-    double fatigue_utilisation, damage, cycles;
+    /* NaN: no cycles asked; damage: Miner's sum, no safety factor; cycles: of one repetition; rung: used if undamped, or 0 */
+    double fatigue_utilisation, damage, cycles, rung;
 } fw_verdict_hinge_verdict;
 
 /* how near what moves comes to what it may meet, in one scene or required box */

@@ -319,7 +319,8 @@ static double cycles_of(const both *is, const double (*wrench)[3], double end_s,
 }
 
 /* Share of what it lasts, at most: all that rings and all of the plane is an amplitude, fully reversed about what there is
-   at rest, in every cycle; 0: nothing is repeated, or no life is known */
+   at rest, in every cycle of the scene, and behind it falls by what the material's loss factor takes, pi times that a swing;
+   0: nothing is repeated, or no life is known */
 static fw_status lasted(fw_arena *arena, const both *is, const fw_verdict_variant_verdict *v, int k,
                         const fw_device_scene *s, const double (*wrench)[3], double in,
                         double across, double *share) {
@@ -334,10 +335,18 @@ static fw_status lasted(fw_arena *arena, const both *is, const fw_verdict_varian
     FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form, wrench, 1, rest));
     const double allowed = limit ? limit->allowable_Pa : m->variant->material.strength.value;
     const double amplitude_Pa = in * allowed / d->safety_factor + (across - rest[1]) * more * E;
-    const fw_maths_cycle one = {2 * amplitude_Pa, rest[1] * more * E,
-                                cycles_of(is, wrench, s->duration_s, v->hinge[k].cycles)};
+    const fw_quantity *loss = &m->variant->material.loss;
+    const double mean_Pa = rest[1] * more * E, eta = loss->unknown ? 0 : loss->value;
+    const fw_verdict_after after = {.rest = amplitude_Pa > 0 ? mean_Pa / amplitude_Pa : 0,
+                                    .ring = {{1, FW_PI * fmax(eta, 0), 1}},
+                                    .n = 1};
+    fw_maths_cycle *all = fw_arena_array(arena, fw_maths_cycle, 1 + FW_RING_BLOCKS);
+    FW_NEED(all);
+    all[0] = (fw_maths_cycle){2 * amplitude_Pa, mean_Pa,
+                              cycles_of(is, wrench, s->duration_s, v->hinge[k].cycles)};
+    const size_t n = 1 + fw_verdict_rung_out(&after, 0, amplitude_Pa, all + 1);
     *share = d->safety_factor *
-             fw_verdict_fatigue_utilisation(&h->limits.life, &one, 1, d->limits.cycles);
+             fw_verdict_fatigue_utilisation(&h->limits.life, all, n, d->limits.cycles);
     return FW_OK;
 }
 
@@ -351,8 +360,9 @@ static fw_status tell_lasted(fw_arena *arena, const fw_device_scene *s, double s
         v, s, 637, FW_INCONCLUSIVE, 0.95 / share,
         fw_arena_printf(arena,
                         "%s%s is not known to last %s repetitions of %s%s, which bends it across "
-                        "the plane, too: it uses up to %s %% of its fatigue limit there; a thicker "
-                        "layer, shorter or wider flexures, or a weaker shock relieve it",
+                        "the plane, too: it uses up to %s %% of its fatigue limit there, with what "
+                        "rings on where the scene ends; a thicker layer, shorter or wider "
+                        "flexures, or a weaker shock relieve it",
                         FW_NAMED("hinge", hinge),
                         fw_number_text(times, sizeof times, v->mechanism->device->limits.cycles, 3),
                         FW_NAMED("scene", s->name),

@@ -34,7 +34,39 @@ def allowable(n):
     return elastic * (n / LIFE) ** B + plastic * (2 * n) ** C
 
 
+LEVER = """<device xmlns="urn:flexwright:device:1" name="lever">
+<material ref="copper-plated" fatigue-strength="0.1 GPa" fatigue-cycles="1e7" fatigue-exponent="-0.1"/>
+<limits safety-factor="1.3" cycles="1e7"/><flow ref="copper-on-porous-silicon"/>
+<flexure id="leaf" kind="leaf" length="400 um" width="12 um"/><mechanism>
+<body id="lo" x="0 mm" y="0 mm" plate-width="0.5 mm" plate-height="0.5 mm"/>
+<revolute id="A" axis="0 deg" a="ground" a-y="-0.7 mm" b="lo" b-y="-0.7 mm" hinge="leaf"%s/></mechanism>%s</device>"""
+STEP = '<scene name="nod" duration="%s"><force on="lo" fx="%s uN"/></scene>'
+
+
 class Limits(unittest.TestCase):
+    def lever(self, *scenes, hinge=""):
+        done = run("check", "-", "--json", "--corners", "none", "--advice", "none", input=LEVER % (hinge, "".join(scenes)))
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        return json.loads(done.stdout)
+
+    def test_what_rings_on_behind_a_scene_is_counted(self):
+        """A step that is repeated rings on where its scene ends, by what the copper's loss factor leaves of it: the same event, and
+        the same use of its life, however long the scene is. Where nothing damps it that is not known, unless it is so little that
+        a hundred million radians of it would not matter"""
+        used = {}
+        for lasts in ("0.5 ms", "5 ms", "50 ms", "500 ms"):
+            used[lasts] = self.lever(STEP % (lasts, 8))["hinges"][0]
+            self.assertEqual(used[lasts]["verdict"], "inconclusive")
+            self.assertLess(used[lasts]["utilisation_band"][0], used["0.5 ms"]["utilisation"])
+        for now in used.values():
+            self.assertAlmostEqual(now["fatigue_utilisation"], used["500 ms"]["fatigue_utilisation"], delta=0.005)
+        free = ' damping="0 N m s/rad"'
+        for push, said in ((4.5, "inconclusive"), (1.5, "accept")):
+            whole = self.lever(STEP % ("5 ms", push), hinge=free)
+            self.assertEqual(whole["verdict"], said)
+            self.assertEqual([r["code"] for r in whole["reasons"]], ["FW-D698"] if said != "accept" else [])
+        self.assertEqual(self.lever(STEP % ("5 ms", 4.5))["verdict"], "accept")
+
     def test_a_sine_is_one_cycle(self):
         """to and fro once a scene: amplitude over the one that lasts that many cycles"""
         static = check(NODDER, "limits/@cycles=1", status=0)["governing"]
