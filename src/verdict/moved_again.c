@@ -107,8 +107,9 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
     return FW_OK;
 }
 
-/* FW-D698: of the hinge that may use the most */
-fw_status fw_verdict_tell_rings_on(fw_arena *arena, fw_verdict_variant_verdict *v) {
+/* FW-D698: of the hinge that may use the most; FW-D700 */
+fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
+                                   fw_verdict_variant_verdict *v) {
     const fw_device *d = v->mechanism->device;
     const fw_verdict_hinge_verdict *worst = NULL;
     char to_end[32], behind[32], times[32];
@@ -116,6 +117,7 @@ fw_status fw_verdict_tell_rings_on(fw_arena *arena, fw_verdict_variant_verdict *
         const fw_verdict_hinge_verdict *h = &v->hinge[k];
         if (h->rung > 1 && h->utilisation < 1 && (!worst || h->rung > worst->rung)) worst = h;
     }
+    FW_TRY(fw_verdict_tell_in_turn(arena, monitor, v));
     for (int i = 0; worst && i < d->nscene; i++) {
         if (strcmp(d->scene[i].name, worst->scene) != 0) continue;
         fw_percent_text(to_end, sizeof to_end, worst->fatigue_utilisation);

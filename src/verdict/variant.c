@@ -576,7 +576,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     if (!brief) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
     FW_TRY(judge_hinges(arena, device, layout, monitor, diags, v));
     if (!brief) FW_TRY(fw_verdict_tell_still(arena, diags, v));
-    FW_TRY(fw_verdict_tell_rings_on(arena, v));
+    FW_TRY(fw_verdict_tell_repeated(arena, monitor, v));
     FW_TRY(in_series(arena, v));
     FW_TRY(fw_verdict_out_of_plane_strain(arena, v));
     first = v->nreason;

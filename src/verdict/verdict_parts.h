@@ -164,8 +164,6 @@ bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene);
 /* resonance.c: warning FW-D655 where nothing moves in a scene, and what is required there, or no hinge used, says nothing */
 fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
                                 const fw_verdict_variant_verdict *v);
-/* moved_again.c: a reason where what rings on leaves a hinge open */
-fw_status fw_verdict_tell_rings_on(fw_arena *arena, fw_verdict_variant_verdict *v);
 /* text NULL: FW_NOMEM. keep: share of the scene's loads that would do, held between 0.001 and 0.99 */
 fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device_scene *scene,
                                   int number, fw_verdict_decision decision, double keep,

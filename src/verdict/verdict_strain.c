@@ -6,7 +6,6 @@
 #include "verdict/verdict_parts.h"
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "mechanism/mechanism_plates.h"
 #include "verdict/verdict.h"
 #include <math.h>
 #include <string.h>
@@ -76,19 +75,6 @@ void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, do
                             3 / 0.42 * (arm->twist[k] / h3 + arm->twist3[k] / h) / G;
         }
     c[0] += 1.2 * arm->slide / (G * h);
-}
-
-fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
-                                 fw_mechanism_plates *soft) {
-    const fw_device_material *of = &m->variant->material;
-    const double nu = of->poisson.unknown ? 0.3 : of->poisson.value;
-    double *give;
-    FW_NEED(give = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
-    for (int k = 0; k < 2 * m->nhinge; k++)
-        if (arm && arm[k].known)
-            fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
-                                        give + 9 * (k / 2));
-    return fw_mechanism_plates_new(arena, m, give, soft);
 }
 
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
@@ -560,4 +546,49 @@ fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double giv
     const double bent = bends ? 1 / (1 + bending) : 1 + bending, left = 1 / (1 + gives),
                  strip = gave ? left / (1 + along) : 1 + along, all = k == 2 ? left * bent : bent;
     return (fw_verdict_way){.stiffer = all - 1, .along = strip / all - 1, .gives = gave};
+}
+
+/* ---- scenes that are repeated in turn ----
+   Each is repeated as often as `cycles` says. Who has them all goes from the farthest of one to that of another: in turn, which makes
+   most of such ranges, is counted. Out: utilisation, no safety factor; 0: fewer than two scenes bend the hinge. Test: test_limits.py */
+static const fw_verdict_strain_monitor *saw_of(const fw_verdict_variant_verdict *v, int i, int k,
+                                               const fw_verdict_strain_monitor *monitor) {
+    const fw_verdict_strain_monitor *saw = v->motion[i] ? v->motion[i]->observed : NULL;
+    if (v->motion[i] && !saw) saw = &monitor[i];
+    return saw && saw->root && saw->hinge[k].strain.value > 0 ? saw : NULL;
+}
+
+fw_status fw_verdict_in_turn(fw_arena *arena, const fw_verdict_variant_verdict *v, int k,
+                             const fw_verdict_strain_monitor *monitor, double *used) {
+    const fw_mechanism *m = v->mechanism;
+    const double E = m->variant->material.youngs.value;
+    size_t most = 1, rings = 0, bent = 0;
+    double *turn;
+    fw_maths_cycle *cycle;
+    *used = 0;
+    for (int i = 0; i < m->device->nscene; i++) {
+        const fw_verdict_strain_monitor *saw = saw_of(v, i, k, monitor);
+        for (int side = 0; saw && side < FW_FACES; side++)
+            most += saw->root[k][side].count;
+        if (saw) bent++, rings += saw->after ? (size_t)saw->after[k].n : 0;
+    }
+    if (bent < 2) return FW_OK;
+    FW_NEED(turn = fw_arena_array(arena, double, 3 * most));
+    FW_NEED(cycle = fw_arena_array(arena, fw_maths_cycle, most + rings * FW_RING_BLOCKS));
+    for (int side = 0; side < FW_FACES; side++) {
+        size_t n = 0, at = 0;
+        for (int i = 0; i < m->device->nscene; i++) {
+            const fw_verdict_strain_monitor *saw = saw_of(v, i, k, monitor);
+            for (size_t j = 0; saw && j < saw->root[k][side].count; j++)
+                turn[n++] = E * saw->root[k][side].value[j];
+            for (int j = 0; saw && saw->after && j < saw->after[k].n; j++)
+                if (saw->after[k].ring[j].decrement > 0)
+                    at += fw_verdict_rung_out(&saw->after[k], j, E * saw->hinge[k].strain.value,
+                                              cycle + at);
+        }
+        at += fw_maths_rainflow_repeating(turn, n, turn + most, cycle + at);
+        *used = fmax(*used, fw_verdict_fatigue_utilisation(&m->hinge[k].limits.life, cycle, at,
+                                                           m->device->limits.cycles));
+    }
+    return FW_OK;
 }

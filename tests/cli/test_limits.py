@@ -67,6 +67,25 @@ class Limits(unittest.TestCase):
             self.assertEqual([r["code"] for r in whole["reasons"]], ["FW-D698"] if said != "accept" else [])
         self.assertEqual(self.lever(STEP % ("5 ms", 4.5))["verdict"], "accept")
 
+    def test_scenes_that_are_repeated_in_turn(self):
+        """Slow pushes to one side and to the other, each lasted: who has both in turn goes from one side to the other, twice the range of
+        one that is about its own middle, sqrt(2) of its fully reversed amplitude. Two pushes to the same side only add up: a tenth
+        of the exponent of two times the cycles"""
+        slow = '<scene name="%s" duration="100 ms"><force on="lo" fx="%s uN" law="table" table="0 ms: 0; 50 ms: 1; 100 ms: 0"/></scene>'
+        one = self.lever(slow % ("a", 16))
+        used = one["hinges"][0]["utilisation_band"][1]
+        self.assertEqual(one["verdict"], "accept")
+        push = 16 * 0.9 / used
+        for other, said, times in ((-push, "inconclusive", 2 ** 0.5), (push, "accept", None), (-0.1 * push, "accept", None)):
+            whole = self.lever(slow % ("a", push), slow % ("b", other))
+            self.assertEqual(whole["verdict"], said, whole["reasons"])
+            self.assertEqual([r["code"] for r in whole["reasons"]], ["FW-D700"] if times else [])
+            if times:
+                told = float(whole["reasons"][0]["text"].split("and up to ")[1].split(" %")[0])
+                self.assertAlmostEqual(told / 90, times, delta=0.03)
+        both = self.lever(slow % ("a", push * 1.08), slow % ("b", push * 1.08))
+        self.assertEqual([r["code"] for r in both["reasons"]], ["FW-D700"])
+
     def test_a_sine_is_one_cycle(self):
         """to and fro once a scene: amplitude over the one that lasts that many cycles"""
         static = check(NODDER, "limits/@cycles=1", status=0)["governing"]
