@@ -348,7 +348,8 @@ static void answers_behind_the_end(void **state) {
             const fw_quantity_law_response long_one = fw_quantity_law_responds(&laws[i], lasts + 5e-3, low, high),
                                            ends = fw_quantity_law_responds(&laws[i], lasts, low, high),
                                            cut = fw_quantity_law_responds(&laws[i], 0.6 * lasts, low, high);
-            assert_true(ends.most > 0.9999 * most && ends.far > 0.9999 * far && ends.behind > 0.9999 * behind);
+            /* jumps are met there within a step, by 4e-4 of the shortest */
+            assert_true(ends.most > 0.999 * most && ends.far > 0.999 * far && ends.behind > 0.999 * behind);
             assert_true(ends.most < 1.04 * most && ends.far < 1.05 * far && ends.behind < behind + 0.1 * most);
             assert_near(long_one.most, ends.most, 0.02 * ends.most);
             assert_near(cut.most, ends.most, 1e-9);
