@@ -196,46 +196,6 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
 
 /* ---- fatigue ---- */
 
-/* D = times sum n_i/N(factor sigma_ar,i),  sigma_ar = sqrt((sigma_a + |sigma_m|) sigma_a)
-   in: cycles of stress, Pa; out: 1, and it fails at 1 by the data; linear, without order of loads:
-   sums from 0.3 to 3 at failure are usual. Cost: two pow a cycle
-   source: M. A. Miner, J. Appl. Mech. 12 (1945) A159; test_fatigue.c miner_of_one_amplitude */
-double fw_verdict_miner(const fw_flexure_strain_life *law, const fw_maths_cycle *cycle, size_t n,
-                        double times, double factor) {
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) {
-        double a = fw_flexure_equivalent_amplitude_Pa(0.5 * cycle[i].range, cycle[i].mean);
-        sum += cycle[i].count / fw_flexure_strain_life_cycles(law, factor * a);
-    }
-    return times * sum;
-}
-
-/* D rises with the factor, on logarithms nearly as a line: secant, kept inside its bracket. One
-   step where the law is Basquin's alone. Test: test_fatigue.c
-   utilisation_is_amplitude_over_allowable */
-double fw_verdict_fatigue_utilisation(const fw_flexure_strain_life *law,
-                                      const fw_maths_cycle *cycle, size_t n, double times) {
-    double x = 0, y = log(fw_verdict_miner(law, cycle, n, times, 1)), slope = -1 / law->exponent;
-    double low = -(double)INFINITY, high = (double)INFINITY; /* of ln factor */
-    if (!isfinite(y)) return y > 0 ? y : 0;
-    for (int i = 0; i < 100 && fabs(y) > 1e-12; i++) {
-        if (y < 0)
-            low = x;
-        else
-            high = x;
-        double next = x - y / slope;
-        if (!(next > low && next < high)) next = 0.5 * (low + high);
-        if (!isfinite(next) || next == x) break;
-        double there = log(fw_verdict_miner(law, cycle, n, times, exp(next)));
-        if (!isfinite(there)) break;
-        double secant = (there - y) / (next - x);
-        if (secant > 0) slope = secant;
-        x = next;
-        y = there;
-    }
-    return exp(-x);
-}
-
 /* of what nothing is known to damp the quality is at most 1e8: single crystals of silicon have some 1e7 at best near 300 K, plated
    metals 1e4 (assumed, after Chandorkar et al., IEEE MEMS 2008, 74) */
 static double falls_by(const fw_verdict_ring *r) {
@@ -321,6 +281,51 @@ fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *l
         out->at_most = fmax(out->at_most, fw_verdict_fatigue_utilisation(law, cycle, n, times));
         if (!(used > out->utilisation)) continue;
         out->utilisation = used, out->damage = damage, out->cycles = counted;
+    }
+    return FW_OK;
+}
+
+/* ---- scenes that are repeated in turn ----
+   Each is repeated as often as `cycles` says. Who has them all goes from the farthest of one to that of another: in turn, which makes
+   most of such ranges, is counted. Out: utilisation, no safety factor; 0: fewer than two scenes bend the hinge. Test: test_limits.py */
+static const fw_verdict_strain_monitor *saw_of(const fw_verdict_variant_verdict *v, int i, int k,
+                                               const fw_verdict_strain_monitor *monitor) {
+    const fw_verdict_strain_monitor *saw = v->motion[i] ? v->motion[i]->observed : NULL;
+    if (v->motion[i] && !saw) saw = &monitor[i];
+    return saw && saw->root && saw->hinge[k].strain.value > 0 ? saw : NULL;
+}
+
+fw_status fw_verdict_in_turn(fw_arena *arena, const fw_verdict_variant_verdict *v, int k,
+                             const fw_verdict_strain_monitor *monitor, double *used) {
+    const fw_mechanism *m = v->mechanism;
+    const double E = m->variant->material.youngs.value;
+    size_t most = 1, rings = 0, bent = 0;
+    double *turn;
+    fw_maths_cycle *cycle;
+    *used = 0;
+    for (int i = 0; i < m->device->nscene; i++) {
+        const fw_verdict_strain_monitor *saw = saw_of(v, i, k, monitor);
+        for (int side = 0; saw && side < FW_FACES; side++)
+            most += saw->root[k][side].count;
+        if (saw) bent++, rings += saw->after ? (size_t)saw->after[k].n : 0;
+    }
+    if (bent < 2) return FW_OK;
+    FW_NEED(turn = fw_arena_array(arena, double, 3 * most));
+    FW_NEED(cycle = fw_arena_array(arena, fw_maths_cycle, most + rings * FW_RING_BLOCKS));
+    for (int side = 0; side < FW_FACES; side++) {
+        size_t n = 0, at = 0;
+        for (int i = 0; i < m->device->nscene; i++) {
+            const fw_verdict_strain_monitor *saw = saw_of(v, i, k, monitor);
+            for (size_t j = 0; saw && j < saw->root[k][side].count; j++)
+                turn[n++] = E * saw->root[k][side].value[j];
+            for (int j = 0; saw && saw->after && j < saw->after[k].n; j++)
+                if (saw->after[k].ring[j].decrement > 0)
+                    at += fw_verdict_rung_out(&saw->after[k], j, E * saw->hinge[k].strain.value,
+                                              cycle + at);
+        }
+        at += fw_maths_rainflow_repeating(turn, n, turn + most, cycle + at);
+        *used = fmax(*used, fw_verdict_fatigue_utilisation(&m->hinge[k].limits.life, cycle, at,
+                                                           m->device->limits.cycles));
     }
     return FW_OK;
 }

@@ -543,34 +543,3 @@ fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const f
                                         give + 9 * (k / 2));
     return fw_mechanism_plates_new(arena, m, give, soft);
 }
-
-/* ---- scenes that are repeated in turn ---- */
-
-fw_status fw_verdict_tell_in_turn(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
-                                  fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    double most = 1, used;
-    int worst = FW_NONE;
-    char alone[32], all[32];
-    for (int k = 0; d->limits.cycles > 0 && k < v->nhinge; k++) {
-        const fw_verdict_hinge_verdict *h = &v->hinge[k];
-        if (!v->mechanism->hinge[k].limits.life.known || !(h->utilisation_high < 1)) continue;
-        FW_TRY(fw_verdict_in_turn(arena, v, k, monitor, &used));
-        used *= d->safety_factor * h->utilisation_high / h->utilisation;
-        if (used > most) most = used, worst = k;
-    }
-    for (int i = 0; worst != FW_NONE && i < d->nscene; i++)
-        if (strcmp(d->scene[i].name, v->hinge[worst].scene) == 0)
-            return fw_verdict_scene_reason(
-                v, &d->scene[i], 700, FW_INCONCLUSIVE, 0.95 / most,
-                fw_arena_printf(
-                    arena,
-                    "hinge %s is bent by several scenes, each as often as cycles says: by the "
-                    "worst of them alone it uses up to %s %% of its fatigue limit, and up to %s "
-                    "%% where they take turns, since from the farthest of one to that of another "
-                    "is a cycle; describe what no one device does in turn in files of its own",
-                    fw_text_name(v->hinge[worst].id),
-                    (fw_percent_text(alone, sizeof alone, v->hinge[worst].utilisation_high), alone),
-                    (fw_percent_text(all, sizeof all, most), all)));
-    return FW_OK;
-}
