@@ -369,6 +369,14 @@ static fw_status tell_lasted(fw_arena *arena, const fw_device_scene *s, double s
                         (fw_percent_text(used, sizeof used, share), used)));
 }
 
+/* strain that is borne once, not the one that the cycles of a scene leave */
+static double once_limit(const fw_mechanism *m, const fw_mechanism_hinge *h) {
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&h->limits);
+    const fw_device_material *of = &m->variant->material;
+    return (limit ? limit->allowable_Pa : of->strength.value) / m->device->safety_factor /
+           of->youngs.value;
+}
+
 static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v,
                               fw_verdict_across *to) {
     const fw_mechanism *m = v->mechanism;
@@ -385,7 +393,7 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
     to->strained = to->strained_sure = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *h = &m->hinge[k];
-        const double limit = v->hinge[k].strain_limit, in = in_the_plane(v, k, to->scene_index);
+        const double limit = once_limit(m, h), in = in_the_plane(v, k, to->scene_index);
         double strain[2], share;
         put_wrenches(is, k, curvature, wrench);
         FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form,
