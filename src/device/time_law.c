@@ -249,7 +249,8 @@ static void check_reach(fw_device_reader *r, const fw_xml_record *record,
     if (!(met > 0) || !(met < 0.99 * most)) return;
     fw_diag_warning(r->diags, 701, fw_xml_place_of(record, "law"),
                     "%s: where the scene ends, at %s, its law has come to %s %% of what it comes "
-                    "to, at %s: nothing is said of the rest; make the scene longer, or let the "
+                    "to, at %s: nothing is said of what the rest does in the plane; make the scene "
+                    "longer, or let the "
                     "law be as far as it is meant to come",
                     fw_xml_label(record, label), fw_xml_in_unit(end, end_s, "ms"),
                     fw_number_text(part, sizeof part, 100 * met / most, 3),

@@ -11,7 +11,9 @@ static double shock_of(const fw_device_scene *s) { /* m/s2, at most, ringing inc
     for (int i = 0; i < s->nbase; i++)
         if (s->base[i].az_m_per_s2 != 0)
             sum += 2 * fabs(s->base[i].az_m_per_s2) *
-                   fw_quantity_law_measure(s->base[i].law, s->duration_s).most;
+                   fw_quantity_law_measure(s->base[i].law,
+                                           fw_quantity_law_done_s(s->base[i].law, s->duration_s))
+                       .most;
     return sum;
 }
 

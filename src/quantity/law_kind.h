@@ -74,6 +74,8 @@ struct fw_quantity_law_kind {
     void (*value)(const fw_quantity_law *law, double t_s, double piece_s, double value[3]);
     /* all times at which it or its slope jumps; NULL: there are none */
     void (*breaks)(const fw_quantity_law *law, fw_quantity_law_breaks *breaks);
+    /* from when on it stays what it is; NULL: nobody knows, or it goes on for ever */
+    double (*done)(const fw_quantity_law *law);
     /* largest |value| in [0, end_s], or an upper bound; NULL: by samples */
     double (*largest)(const fw_quantity_law *law, double end_s);
     /* upper bounds of slope and variation, `most` is there already; NULL: none are known */

@@ -25,6 +25,10 @@ static void step_breaks(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
     fw_quantity_law_break(b, law->end_s);
 }
 
+static double step_done(const fw_quantity_law *law) {
+    return isfinite(law->end_s) ? law->end_s : law->start_s;
+}
+
 static double step_largest(const fw_quantity_law *law, double end_s) {
     return law->start_s <= end_s && law->end_s > 0 && law->start_s < law->end_s ? 1 : 0;
 }
@@ -46,6 +50,7 @@ const fw_quantity_law_kind fw_quantity_law_step = {.name = "step",
                                                    FW_LAW_ROWS(step_attributes),
                                                    .value = step_value,
                                                    .breaks = step_breaks,
+                                                   .done = step_done,
                                                    .largest = step_largest,
                                                    .size = step_size,
                                                    .stepwise = true,
@@ -66,6 +71,10 @@ static void ramp_value(const fw_quantity_law *law, double t_s, double piece_s, d
 static void ramp_breaks(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
     fw_quantity_law_break(b, law->start_s);
     fw_quantity_law_break(b, law->start_s + law->rise_s);
+}
+
+static double rise_done(const fw_quantity_law *law) { /* of a half-sine, too */
+    return law->start_s + law->rise_s;
 }
 
 static double ramp_largest(const fw_quantity_law *law, double end_s) {
@@ -89,6 +98,7 @@ const fw_quantity_law_kind fw_quantity_law_ramp = {
     FW_LAW_ROWS(ramp_attributes),
     .value = ramp_value,
     .breaks = ramp_breaks,
+    .done = rise_done,
     .largest = ramp_largest,
     .size = ramp_size,
     .straight = fw_quantity_law_always,
@@ -128,6 +138,10 @@ static void table_value(const fw_quantity_law *law, double t_s, double piece_s, 
 static void table_breaks(const fw_quantity_law *law, fw_quantity_law_breaks *b) {
     for (int i = 0; i < law->ntable; i++)
         fw_quantity_law_break(b, law->table_t_s[i]);
+}
+
+static double table_done(const fw_quantity_law *law) {
+    return law->ntable > 0 ? law->table_t_s[law->ntable - 1] : 0;
 }
 
 static double table_largest(const fw_quantity_law *law, double end_s) {
@@ -170,6 +184,7 @@ const fw_quantity_law_kind fw_quantity_law_table = {
     FW_LAW_ROWS(table_attributes),
     .value = table_value,
     .breaks = table_breaks,
+    .done = table_done,
     .largest = table_largest,
     .size = table_size,
     .straight = fw_quantity_law_always,
@@ -326,6 +341,7 @@ const fw_quantity_law_kind fw_quantity_law_half_sine = {
     FW_LAW_ROWS(half_attributes),
     .value = half_value,
     .breaks = half_breaks,
+    .done = rise_done,
     .largest = half_largest,
     .size = half_size,
     .slope_variation = half_slope_variation,

@@ -212,17 +212,23 @@ fw_quantity_law_shaking fw_quantity_law_shakes(const fw_quantity_law *law, doubl
 
 enum { PER_PERIOD = 24 };
 
-double fw_quantity_law_swing(const fw_quantity_law *law, fw_quantity_law_acts as, double end_s,
-                             double omega_per_s, double damping) {
+typedef struct swung {
+    double most, last[3]; /* q, its rate over omega, and the law at the end */
+    double behind;        /* |q - f| at most */
+} swung;
+
+static bool swing_to(const fw_quantity_law *law, fw_quantity_law_acts as, double end_s,
+                     double omega_per_s, double damping, swung *to) {
     const bool squared = as == FW_LAW_SQUARED, behind = as == FW_LAW_OF_COORDINATE;
     const double most_steps = 4e6,
                  fastest = (squared ? 2 : 1) * fw_quantity_law_wave_of(law).fastest_Hz;
     const double n = ceil(PER_PERIOD * end_s * fmax(omega_per_s / (2 * FW_PI), fastest));
-    if (!(n < most_steps) || !(damping < 1)) return -1;
+    *to = (swung){0};
+    if (!(n < most_steps) || !(damping < 1)) return false;
     const double h = end_s / n, w = omega_per_s, turn = w * sqrt(1 - damping * damping);
     const double decay = exp(-damping * w * h), c = decay * cos(turn * h),
                  s = decay * sin(turn * h) / turn;
-    double q = 0, v = 0, most = 0, value[3];
+    double q = 0, v = 0, value[3];
     fw_quantity_law_value(law, 0, 0.5 * h, value);
     const double start = behind ? value[0] : 0;
     double f = squared ? value[0] * value[0] : value[0] - start;
@@ -235,9 +241,17 @@ double fw_quantity_law_swing(const fw_quantity_law *law, fw_quantity_law_acts as
         q = next - late + x * c + (y + damping * w * x) * s;
         v = slope + y * c - (w * w * x + damping * w * y) * s;
         f = next;
-        most = fmax(most, fabs(behind ? q - f : q));
+        to->most = fmax(to->most, fabs(q)), to->behind = fmax(to->behind, fabs(q - f));
     }
-    return most;
+    to->last[0] = q, to->last[1] = v / w, to->last[2] = f;
+    return true;
+}
+
+double fw_quantity_law_swing(const fw_quantity_law *law, fw_quantity_law_acts as, double end_s,
+                             double omega_per_s, double damping) {
+    swung to;
+    if (!swing_to(law, as, end_s, omega_per_s, damping, &to)) return -1;
+    return as == FW_LAW_OF_COORDINATE ? to.behind : to.most;
 }
 
 double fw_quantity_law_pumps(const fw_quantity_law *law, bool squared, double end_s, double most,
@@ -274,138 +288,6 @@ double fw_quantity_law_root_mean_square(const fw_quantity_law *law, double end_s
 }
 
 /* ---- several loads together ---- */
-
-typedef struct swinging { /* of one oscillator; at the step's begin and end */
-    double omega, damping, turn, decay, c, s, q[2], v[2], f[2];
-} swinging;
-
-/* what each oscillator stands under, and what each row has less, at a time of the piece about piece_s */
-static void loads_at(const fw_quantity_law_load *load, int n, double t_s, double piece_s,
-                     const fw_quantity_law_oscillator *from, int count, swinging *o, int end,
-                     const fw_quantity_law_seen *seen, double *rest) {
-    double value[3] = {1, 0, 0};
-    for (int i = 0; i < seen->n; i++)
-        rest[i] = 0;
-    for (int k = 0; k < count; k++)
-        o[k].f[end] = 0;
-    for (int j = 0; j < n; j++) {
-        if (load[j].law) fw_quantity_law_value(load[j].law, t_s, piece_s, value);
-        const double now = load[j].law ? value[0] : 1,
-                     acts = load[j].squared ? now * now : now - load[j].from;
-        for (int k = 0; k < count; k++)
-            o[k].f[end] += from[k].size[j] * acts;
-        for (int i = 0; acts != 0 && i < seen->n; i++)
-            rest[i] += seen->less[i * n + j] * acts;
-    }
-}
-
-/* the farthest of the cubic through two values and rates, h apart */
-static double farthest(double a, double rate_a, double b, double rate_b, double h) {
-    const double most = fmax(fabs(a), fabs(b));
-    if (!(rate_a * rate_b < 0)) return most;
-    const double x = rate_a / (rate_a - rate_b), y = 1 - x;
-    return fmax(most, fabs(y * y * (1 + 2 * x) * a + x * x * (1 + 2 * y) * b +
-                           h * x * y * (y * rate_a - x * rate_b)));
-}
-
-static void step_on(swinging *o, double h) {
-    const double w = o->omega, d = o->damping * w, slope = (o->f[1] - o->f[0]) / h;
-    const double late = 2 * o->damping * slope / w, x = o->q[0] - o->f[0] + late,
-                 y = o->v[0] - slope;
-    o->q[1] = o->f[1] - late + x * o->c + (y + d * x) * o->s;
-    o->v[1] = slope + y * o->c - (w * w * x + d * y) * o->s;
-}
-
-/* ends: those of the step alone count */
-static void look_at(const swinging *o, int count, double h, bool ends, const double *before,
-                    const double *now, fw_quantity_law_seen *seen) {
-    for (int i = 0; i < seen->n; i++) {
-        const double rate = (now[i] - before[i]) / h;
-        double a = -before[i], b = -now[i], rate_a = -rate, rate_b = -rate;
-        for (int k = 0; k < count; k++) {
-            const double by = seen->by[i * count + k];
-            a += by * o[k].q[0], b += by * o[k].q[1];
-            rate_a += by * o[k].v[0], rate_b += by * o[k].v[1];
-        }
-        seen->most[i] =
-            fmax(seen->most[i], ends ? fmax(fabs(a), fabs(b)) : farthest(a, rate_a, b, rate_b, h));
-    }
-}
-
-/* `steps` even ones within a piece; what acts at their begin is known */
-static void swing_on(const fw_quantity_law_load *load, int n, double from_s, double to_s,
-                     double steps, double piece_s, bool ends,
-                     const fw_quantity_law_oscillator *from, int count, swinging *o,
-                     fw_quantity_law_seen *seen) {
-    const double h = (to_s - from_s) / steps;
-    double *before = seen->rest, *now = seen->rest + seen->n;
-    for (int k = 0; k < count; k++) {
-        o[k].decay = exp(-o[k].damping * o[k].omega * h);
-        o[k].c = o[k].decay * cos(o[k].turn * h);
-        o[k].s = o[k].decay * sin(o[k].turn * h) / o[k].turn;
-    }
-    for (double at = 1; at <= steps; at++) {
-        const double t = at == steps ? to_s : from_s + at * h;
-        loads_at(load, n, t, piece_s, from, count, o, 1, seen, now);
-        for (int k = 0; k < count; k++)
-            step_on(&o[k], h);
-        look_at(o, count, h, ends, before, now, seen);
-        for (int k = 0; k < count; k++)
-            o[k].q[0] = o[k].q[1], o[k].v[0] = o[k].v[1], o[k].f[0] = o[k].f[1];
-        for (int i = 0; i < seen->n; i++)
-            before[i] = now[i];
-    }
-}
-
-double fw_quantity_law_swings_of(const fw_quantity_law_load *load, int n,
-                                 const fw_quantity_law_pieces *pieces,
-                                 const fw_quantity_law_oscillator *from, int count,
-                                 fw_quantity_law_seen *seen) {
-    const double most_steps = 4e6;
-    swinging o[FW_QUANTITY_OSCILLATORS];
-    double steps = 0, at = 0, fastest = 0;
-    for (int k = 0; k < count; k++) {
-        const double w = from[k].omega_per_s, d = from[k].damping;
-        if (!(d < 1) || !(w > 0)) return -1;
-        o[k] = (swinging){.omega = w, .damping = d, .turn = w * sqrt(1 - d * d)};
-        o[k].v[0] = from[k].start_per_s;
-        fastest = fmax(fastest, w);
-    }
-    for (int i = 0; i < seen->n; i++)
-        seen->most[i] = 0;
-    const double period = 2 * FW_PI / fastest;
-    for (int p = 0; p < pieces->n; at = pieces->end_s[p++]) {
-        const double to = pieces->end_s[p], middle = 0.5 * (at + to);
-        const bool straight = isinf(pieces->step_s[p]),
-                   jumps = straight && count == 1 && to - at > 3 * period;
-        const double few = straight ? 0.5 * PER_PERIOD : PER_PERIOD,
-                     needs = ceil((to - at) / fmin(period / few, pieces->step_s[p]));
-        steps += jumps ? 2 * few + 1 : needs;
-        if (!(steps < most_steps)) return -1;
-        loads_at(load, n, at, middle, from, count, o, 0, seen, seen->rest);
-        if (!jumps) {
-            swing_on(load, n, at, to, needs, middle, false, from, count, o, seen);
-            continue;
-        }
-        swing_on(load, n, at, at + period, few, middle, false, from, count, o, seen);
-        swing_on(load, n, at + period, to - period, 1, middle, true, from, count, o, seen);
-        swing_on(load, n, to - period, to, few, middle, false, from, count, o, seen);
-    }
-    return steps;
-}
-
-/* by parts once: what a law varies by sets ringing at most */
-double fw_quantity_law_bound_of(const fw_quantity_law_load *load, const double *by, int n,
-                                double end_s) {
-    double sum = 0;
-    for (int i = 0; i < n; i++) {
-        const fw_quantity_law_size size = fw_quantity_law_measure(load[i].law, end_s);
-        const double acts = load[i].squared ? size.most * (size.most + 2 * size.variation)
-                                            : size.most + fabs(load[i].from) + size.variation;
-        if (by[i] != 0) sum += fabs(by[i]) * acts;
-    }
-    return sum;
-}
 
 /* does a law change in several places, between which it rests? */
 static bool rests_between(const fw_quantity_law *law, double end_s) {
@@ -493,34 +375,199 @@ bool fw_quantity_law_goes_to_and_fro(const fw_quantity_law *law, double end_s) {
     return !(variation - 2 * (most - least) + fabs(value[0] - first) <= once * (most - least));
 }
 
-/* of all frequencies of [low, high]; -1: it would take too long, or samples could miss something of the law */
-static double swings(const fw_quantity_law *law, double end_s, double low, double high) {
-    const double apart = 0.5, most_steps = 4e6;
+/* ---- what it does to an oscillator, whenever that is ---- */
+
+double fw_quantity_law_done_s(const fw_quantity_law *law, double end_s) {
+    const double done = law && law->kind->done ? law->kind->done(law) : end_s;
+    return done > end_s && isfinite(done) && fw_quantity_law_largest(law, end_s) > 0 ? done : end_s;
+}
+
+enum { COURSE = 512, HALF_WAVE = 128 }; /* pieces; cells of a half wave */
+
+typedef struct course { /* of a law that rests when all of it has come: straight cells */
+    const fw_quantity_law *law;
+    double at[COURSE + 1]; /* (n) where pieces end; the law stays what it is behind the last */
+    int n;
+    double cells;             /* of all pieces */
+    double slow_s;            /* integral of (last - t) |df|: |d most/d omega| at most */
+    double off, area, varies; /* from the law: at most; its integral; its variation */
+} course;
+
+static double cells_of(const fw_quantity_law *law, double from, double to) {
+    return fmax(1, ceil(2 * HALF_WAVE * fw_quantity_law_wave_of(law).fastest_Hz * (to - from) *
+                        (1 - 1e-9)));
+}
+
+/* false: samples could miss something of it, or it never rests, or there are too many pieces */
+static bool course_of(const fw_quantity_law *law, double done_s, course *c) {
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
-    if (!(wave.fastest_Hz > 0) && !fw_quantity_law_is_straight(law)) return -1;
+    double value[3], before = 0, from = 0;
+    *c = (course){.law = law};
+    if (!law->kind->done || !(wave.rad_per_s > 0 || fw_quantity_law_is_straight(law))) return false;
+    const double all = done_s * (1 + 1e-9);
+    c->n = fw_quantity_law_breaks_of(law, all, c->at, COURSE);
+    if (c->n > COURSE) return false;
+    fw_sort_doubles(c->at, (size_t)c->n);
+    if (c->n == 0) c->at[c->n++] = 0; /* there from the start on */
+    for (int i = 0; i < c->n; from = c->at[i++]) {
+        const double to = c->at[i], n = cells_of(law, from, to), h = (to - from) / n,
+                     bow = pow(wave.rad_per_s * h, 2) / 8;
+        if (!(h > 0)) continue;
+        fw_quantity_law_value(law, from, 0.5 * (from + to), value);
+        c->slow_s += fabs(value[0] - before) * (c->at[c->n - 1] - from);
+        for (double k = 1; k <= n; k++) {
+            before = value[0];
+            fw_quantity_law_value(law, k < n ? from + k * h : to, 0.5 * (from + to), value);
+            c->slow_s += fabs(value[0] - before) * (c->at[c->n - 1] - (from + (k - 0.5) * h));
+        }
+        before = value[0];
+        c->cells += n;
+        c->off = fmax(c->off, bow), c->area += n * h * bow, c->varies += 2 * n * bow;
+    }
+    return true;
+}
+
+/* the most of |f + slope t + x cos wt + y sin wt| within h: at its ends, or at the first or last of its turns either way */
+static double cell_most(double f, double slope, double h, double w, double x, double y) {
+    const double size = hypot(x, y), sine = slope / (size * w), end = f + slope * h;
+    double most = fmax(fabs(f + x), fabs(end + x * cos(w * h) + y * sin(w * h)));
+    if (!(size > 0) || !(fabs(sine) < 1)) return most;
+    const double phase = atan2(y, x), turn = asin(sine), top = size * sqrt(1 - sine * sine);
+    for (int way = 0; way < 2; way++) {
+        const double at = phase + (way ? FW_PI - turn : turn),
+                     first = at - 2 * FW_PI * floor(at / (2 * FW_PI)),
+                     last = first + 2 * FW_PI * floor((w * h - first) / (2 * FW_PI));
+        if (first > w * h) continue;
+        most = fmax(most, fabs(f + slope * first / w + (way ? -top : top)));
+        most = fmax(most, fabs(f + slope * last / w + (way ? -top : top)));
+    }
+    return most;
+}
+
+/* at one frequency, of the law, whatever its cells are off by */
+static fw_quantity_law_response answer_at(const course *c, double w) {
+    const double little = 0.4; /* rad: within it a chord is off by (w h)^2/8 of what rings */
+    double q = 0, v = 0, f = 0, from = 0, value[3];
+    fw_quantity_law_response r = {0};
+    for (int i = 0; i < c->n; from = c->at[i++]) {
+        const double to = c->at[i], piece = 0.5 * (from + to), n = cells_of(c->law, from, to),
+                     h = (to - from) / n, cosine = cos(w * h), sine = sin(w * h);
+        if (!(h > 0)) continue;
+        fw_quantity_law_value(c->law, from, piece, value);
+        f = value[0];
+        for (double k = 1; k <= n; k++) {
+            fw_quantity_law_value(c->law, k < n ? from + k * h : to, piece, value);
+            const double slope = (value[0] - f) / h, x = q - f, y = (v - slope) / w;
+            const double next = value[0] + x * cosine + y * sine;
+            if (n > 1 && w * h < little) {
+                const double bow = hypot(x, y) * w * w * h * h / 8;
+                r.most = fmax(r.most, fmax(fabs(q), fabs(next)) + bow);
+                r.behind = fmax(r.behind, fmax(fabs(x), fabs(next - value[0])) + bow);
+            } else {
+                r.most = fmax(r.most, cell_most(f, slope, h, w, x, y));
+                r.behind = fmax(r.behind, cell_most(0, 0, h, w, x, y));
+            }
+            v = slope + w * (y * cosine - x * sine), q = next, f = value[0];
+        }
+    }
+    /* what it stays at: a step jumps there */
+    fw_quantity_law_value(c->law, from, from * (1 + 1e-9), value);
+    const double rings = hypot(q - value[0], v / w),
+                 off = c->off + fmin(w * c->area, c->off + c->varies);
+    r.most = fmax(r.most, fabs(value[0]) + rings) + off;
+    r.behind = fmax(r.behind, rings) + off;
+    return r;
+}
+
+typedef struct by_parts { /* what is sure of any frequency */
+    double most, varies, jumps, slope;
+} by_parts;
+
+static fw_quantity_law_response parts_at(const by_parts *p, double w) {
+    const double rings = p->jumps + p->slope / w, all = rings < p->varies ? rings : p->varies;
+    return (fw_quantity_law_response){p->most + all, p->most + all, all};
+}
+
+static void widen(fw_quantity_law_response *to, fw_quantity_law_response by, double lower) {
+    to->most = fmax(to->most, by.most), to->behind = fmax(to->behind, by.behind);
+    to->far = fmax(to->far, by.most * lower * lower);
+}
+
+/* between two frequencies half a cell of them away what rings is off by slow_s times that */
+static fw_quantity_law_response over_band(const course *c, const by_parts *p, double low,
+                                          double high) {
+    const double within = 0.02, most_cells = 1e5;
+    const fw_quantity_law_response middle = answer_at(c, 0.5 * (low + high));
+    const double size = fmin(middle.most, fmax(middle.behind, 0.1 * middle.most)),
+                 wanted =
+                     ceil((high - low) * c->slow_s / (2 * within * fmax(size, 1e-6 * p->most))),
+                 n = fmax(1, fmin(wanted, floor(most_cells / c->cells))),
+                 half = 0.5 * (high - low) / n;
+    fw_quantity_law_response r = {0};
+    for (double k = 0; k < n; k++) {
+        const double from = low + 2 * half * k;
+        fw_quantity_law_response is = answer_at(c, from + half);
+        const fw_quantity_law_response sure = parts_at(p, from);
+        is.most = fmin(is.most + c->slow_s * half, sure.most);
+        is.behind = fmin(is.behind + c->slow_s * half, sure.behind);
+        widen(&r, is, low / from);
+    }
+    return r;
+}
+
+/* samples of all frequencies of [low, high]; false: it would take too long, or they could miss something of the law */
+static bool sampled_band(const fw_quantity_law *law, double end_s, double low, double high,
+                         fw_quantity_law_response *r) {
+    const double apart = 0.5, most_steps = 4e6, margin = 1.03;
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    if (!(wave.fastest_Hz > 0) && !fw_quantity_law_is_straight(law)) return false;
     const double n = 1 + ceil((high - low) * end_s / apart);
     if (!(n * PER_PERIOD * end_s * fmax(high / (2 * FW_PI), wave.fastest_Hz) < most_steps))
-        return -1;
-    double most = 0;
-    for (double k = 0; k < n; k++)
-        most =
-            fmax(most, fw_quantity_law_swing(law, FW_LAW_OF_LOAD, end_s,
-                                             n > 1 ? low + (high - low) * k / (n - 1) : high, 0));
-    return most;
+        return false;
+    for (double k = 0; k < n; k++) {
+        const double w = n > 1 ? low + (high - low) * k / (n - 1) : high;
+        swung to;
+        swing_to(law, FW_LAW_OF_LOAD, end_s, w, 0, &to);
+        const double stays = wave.repeats ? 0 : to.last[2],
+                     rings = hypot(to.last[0] - stays, to.last[1]);
+        to.most = margin * fmax(to.most, fabs(stays) + rings);
+        to.behind = margin * fmax(to.behind, rings);
+        widen(r, (fw_quantity_law_response){to.most, 0, to.behind}, low / w);
+    }
+    return true;
+}
+
+fw_quantity_law_response fw_quantity_law_responds(const fw_quantity_law *law, double end_s,
+                                                  double low_per_s, double high_per_s) {
+    const double unbounded = (double)INFINITY;
+    const double done = fw_quantity_law_done_s(law, end_s), end = done * (1 + 1e-9);
+    const fw_quantity_law_size size = fw_quantity_law_measure(law, end);
+    const bool stops = law && fw_quantity_law_wave_of(law).repeats;
+    by_parts p = {.most = size.most, .varies = size.variation};
+    fw_quantity_law_response r = {0};
+    double met, value[3];
+    course c;
+    if (fw_quantity_law_is_constant(law)) return (fw_quantity_law_response){2, 2, 1};
+    if (!isfinite(size.most)) return (fw_quantity_law_response){unbounded, unbounded, unbounded};
+    if (!(fw_quantity_law_largest(law, end_s) > 0)) return r; /* it begins behind the scene */
+    p.jumps = jolts(law, false, end, unbounded, &met);
+    fw_quantity_law_value(law, end, end, value); /* where it stays, or stops */
+    p.slope = jolts(law, false, end, 1, &met) - p.jumps + fabs(value[1]);
+    if (isnan(p.slope)) p.slope = unbounded;
+    if (course_of(law, done, &c)) return over_band(&c, &p, low_per_s, high_per_s);
+    const fw_quantity_law_response parts = parts_at(&p, low_per_s);
+    if (parts.most > 2 * size.most && sampled_band(law, done, low_per_s, high_per_s, &r)) {
+        r.most = fmin(r.most, parts.most), r.far = fmin(r.far, parts.most);
+        return r;
+    }
+    r = parts;
+    if (stops) r.behind = r.most;
+    return r;
 }
 
 double fw_quantity_law_answer(const fw_quantity_law *law, double end_s, double low_per_s,
                               double high_per_s) {
-    const double margin = 1.03;
-    const fw_quantity_law_size size = fw_quantity_law_measure(law, end_s);
-    double most;
-    if (fw_quantity_law_is_constant(law)) return 2;
-    if (!isfinite(size.most)) return (double)INFINITY;
-    const double rings = jolts(law, false, end_s, low_per_s, &most);
-    const double parts = size.most + (rings < size.variation ? rings : size.variation);
-    if (parts <= 2 * size.most) return parts;
-    const double sampled = swings(law, end_s, low_per_s, high_per_s);
-    return sampled < 0 ? parts : fmin(parts, margin * sampled);
+    return fw_quantity_law_responds(law, end_s, low_per_s, high_per_s).most;
 }
 
 /* ---- what it is like ---- */

@@ -364,6 +364,142 @@ fw_status fw_quantity_law_pieces_of(fw_arena *arena, const fw_quantity_law_load 
     return FW_OK;
 }
 
+/* ---- oscillators under several loads ---- */
+
+enum { STEPS_A_PERIOD = 24 };
+
+typedef struct swinging { /* of one oscillator; at the step's begin and end */
+    double omega, damping, turn, decay, c, s, q[2], v[2], f[2];
+} swinging;
+
+/* what each oscillator stands under, and what each row has less, at a time of the piece about piece_s */
+static void loads_at(const fw_quantity_law_load *load, int n, double t_s, double piece_s,
+                     const fw_quantity_law_oscillator *from, int count, swinging *o, int end,
+                     const fw_quantity_law_seen *seen, double *rest) {
+    double value[3] = {1, 0, 0};
+    for (int i = 0; i < seen->n; i++)
+        rest[i] = 0;
+    for (int k = 0; k < count; k++)
+        o[k].f[end] = 0;
+    for (int j = 0; j < n; j++) {
+        if (load[j].law) fw_quantity_law_value(load[j].law, t_s, piece_s, value);
+        const double now = load[j].law ? value[0] : 1,
+                     acts = load[j].squared ? now * now : now - load[j].from;
+        for (int k = 0; k < count; k++)
+            o[k].f[end] += from[k].size[j] * acts;
+        for (int i = 0; acts != 0 && i < seen->n; i++)
+            rest[i] += seen->less[i * n + j] * acts;
+    }
+}
+
+/* the farthest of the cubic through two values and rates, h apart */
+static double farthest(double a, double rate_a, double b, double rate_b, double h) {
+    const double most = fmax(fabs(a), fabs(b));
+    if (!(rate_a * rate_b < 0)) return most;
+    const double x = rate_a / (rate_a - rate_b), y = 1 - x;
+    return fmax(most, fabs(y * y * (1 + 2 * x) * a + x * x * (1 + 2 * y) * b +
+                           h * x * y * (y * rate_a - x * rate_b)));
+}
+
+static void step_on(swinging *o, double h) {
+    const double w = o->omega, d = o->damping * w, slope = (o->f[1] - o->f[0]) / h;
+    const double late = 2 * o->damping * slope / w, x = o->q[0] - o->f[0] + late,
+                 y = o->v[0] - slope;
+    o->q[1] = o->f[1] - late + x * o->c + (y + d * x) * o->s;
+    o->v[1] = slope + y * o->c - (w * w * x + d * y) * o->s;
+}
+
+/* ends: those of the step alone count */
+static void look_at(const swinging *o, int count, double h, bool ends, const double *before,
+                    const double *now, fw_quantity_law_seen *seen) {
+    for (int i = 0; i < seen->n; i++) {
+        const double rate = (now[i] - before[i]) / h;
+        double a = -before[i], b = -now[i], rate_a = -rate, rate_b = -rate;
+        for (int k = 0; k < count; k++) {
+            const double by = seen->by[i * count + k];
+            a += by * o[k].q[0], b += by * o[k].q[1];
+            rate_a += by * o[k].v[0], rate_b += by * o[k].v[1];
+        }
+        seen->most[i] =
+            fmax(seen->most[i], ends ? fmax(fabs(a), fabs(b)) : farthest(a, rate_a, b, rate_b, h));
+    }
+}
+
+/* `steps` even ones within a piece; what acts at their begin is known */
+static void swing_on(const fw_quantity_law_load *load, int n, double from_s, double to_s,
+                     double steps, double piece_s, bool ends,
+                     const fw_quantity_law_oscillator *from, int count, swinging *o,
+                     fw_quantity_law_seen *seen) {
+    const double h = (to_s - from_s) / steps;
+    double *before = seen->rest, *now = seen->rest + seen->n;
+    for (int k = 0; k < count; k++) {
+        o[k].decay = exp(-o[k].damping * o[k].omega * h);
+        o[k].c = o[k].decay * cos(o[k].turn * h);
+        o[k].s = o[k].decay * sin(o[k].turn * h) / o[k].turn;
+    }
+    for (double at = 1; at <= steps; at++) {
+        const double t = at == steps ? to_s : from_s + at * h;
+        loads_at(load, n, t, piece_s, from, count, o, 1, seen, now);
+        for (int k = 0; k < count; k++)
+            step_on(&o[k], h);
+        look_at(o, count, h, ends, before, now, seen);
+        for (int k = 0; k < count; k++)
+            o[k].q[0] = o[k].q[1], o[k].v[0] = o[k].v[1], o[k].f[0] = o[k].f[1];
+        for (int i = 0; i < seen->n; i++)
+            before[i] = now[i];
+    }
+}
+
+double fw_quantity_law_swings_of(const fw_quantity_law_load *load, int n,
+                                 const fw_quantity_law_pieces *pieces,
+                                 const fw_quantity_law_oscillator *from, int count,
+                                 fw_quantity_law_seen *seen) {
+    const double most_steps = 4e6;
+    swinging o[FW_QUANTITY_OSCILLATORS];
+    double steps = 0, at = 0, fastest = 0;
+    for (int k = 0; k < count; k++) {
+        const double w = from[k].omega_per_s, d = from[k].damping;
+        if (!(d < 1) || !(w > 0)) return -1;
+        o[k] = (swinging){.omega = w, .damping = d, .turn = w * sqrt(1 - d * d)};
+        o[k].v[0] = from[k].start_per_s;
+        fastest = fmax(fastest, w);
+    }
+    for (int i = 0; i < seen->n; i++)
+        seen->most[i] = 0;
+    const double period = 2 * FW_PI / fastest;
+    for (int p = 0; p < pieces->n; at = pieces->end_s[p++]) {
+        const double to = pieces->end_s[p], middle = 0.5 * (at + to);
+        const bool straight = isinf(pieces->step_s[p]),
+                   jumps = straight && count == 1 && to - at > 3 * period;
+        const double few = straight ? 0.5 * STEPS_A_PERIOD : STEPS_A_PERIOD,
+                     needs = ceil((to - at) / fmin(period / few, pieces->step_s[p]));
+        steps += jumps ? 2 * few + 1 : needs;
+        if (!(steps < most_steps)) return -1;
+        loads_at(load, n, at, middle, from, count, o, 0, seen, seen->rest);
+        if (!jumps) {
+            swing_on(load, n, at, to, needs, middle, false, from, count, o, seen);
+            continue;
+        }
+        swing_on(load, n, at, at + period, few, middle, false, from, count, o, seen);
+        swing_on(load, n, at + period, to - period, 1, middle, true, from, count, o, seen);
+        swing_on(load, n, to - period, to, few, middle, false, from, count, o, seen);
+    }
+    return steps;
+}
+
+/* by parts once: what a law varies by sets ringing at most */
+double fw_quantity_law_bound_of(const fw_quantity_law_load *load, const double *by, int n,
+                                double end_s) {
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+        const fw_quantity_law_size size = fw_quantity_law_measure(load[i].law, end_s);
+        const double acts = load[i].squared ? size.most * (size.most + 2 * size.variation)
+                                            : size.most + fabs(load[i].from) + size.variation;
+        if (by[i] != 0) sum += fabs(by[i]) * acts;
+    }
+    return sum;
+}
+
 /* ---- laws beside each other ----
    Instants at which laws stand in different ratios to each other, each where they are largest: their breaks, just before and just
    behind, where each is largest, the end, and between any two of these. In: laws (NULL: 1), value (most + 1) x n for |values|

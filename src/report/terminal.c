@@ -293,7 +293,8 @@ static void out_of_plane(fw_text *out, const fw_verdict *v) {
         fw_text_printf(out, "%s%s %s)", FW_NAMED("body", o->mode[0].body),
                        o->mode[0].tilts ? "tilts" : "goes up and down");
         if (isfinite(o->ratio)) number(out, "; its stiffness is ", o->ratio, " of that in it");
-        number(out, "; its weight lowers it by ", 1e9 * o->weight_m, " nm\n");
+        number(out, "; its weight lowers it by ", 1e9 * o->weight_m, " nm");
+        number(out, ", at most ", 1e9 * o->weight_most_m, " nm\n");
         for (int k = 0; k < o->nscene; k++)
             across(out, &o->scene[k], &v->variant[i].variant->below);
     }

@@ -149,7 +149,7 @@ size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
         (FW_REASONS + 1) * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
         (size_t)d->nrevolute + (size_t)missing_most(d) +
-        15; /* what no mask draws; strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, what nobody knows of it, between corners, riders, rims; stiction; drawn bent */
+        17; /* what no mask draws; rings on, scenes together; strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, what nobody knows of it, between corners, riders, rims; stiction; drawn bent */
     for (int i = 0; i < d->nscene; i++)
         most += (size_t)d->scene[i].ncontact;
     return most;

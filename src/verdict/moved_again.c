@@ -107,6 +107,35 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
     return FW_OK;
 }
 
+/* FW-D698: of the hinge that may use the most; FW-D700 */
+fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
+                                   fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    const fw_verdict_hinge_verdict *worst = NULL;
+    char to_end[32], behind[32], times[32];
+    for (int k = 0; k < v->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &v->hinge[k];
+        if (h->rung > 1 && h->utilisation < 1 && (!worst || h->rung > worst->rung)) worst = h;
+    }
+    FW_TRY(fw_verdict_tell_in_turn(arena, monitor, v));
+    for (int i = 0; worst && i < d->nscene; i++) {
+        if (strcmp(d->scene[i].name, worst->scene) != 0) continue;
+        fw_percent_text(to_end, sizeof to_end, worst->fatigue_utilisation);
+        fw_percent_text(behind, sizeof behind, worst->rung);
+        return fw_verdict_scene_reason(
+            v, &d->scene[i], 698, FW_INCONCLUSIVE, 0.95 / worst->rung,
+            fw_arena_printf(
+                arena,
+                "hinge %s rings on where %s%s ends, and nothing is known to damp it: %s "
+                "repetitions use %s %% of its fatigue limit by what is counted, and up "
+                "to %s %% if it rings for a hundred million radians more; give its "
+                "material a loss-factor, or the scene what damps it",
+                fw_text_name(worst->id), FW_NAMED("scene", worst->scene),
+                fw_number_text(times, sizeof times, d->limits.cycles, 3), to_end, behind));
+    }
+    return FW_OK;
+}
+
 /* ---- what loads leave of the stiffness, and what may be missing of a pull ----
    Bands hold what a stiffness is off by in proportion, and a displacement goes by what loads leave of it: by the inverse of
    that share, and without end at a fold. So where a scene's loads leave less than `soft` of it, the scene is moved twice

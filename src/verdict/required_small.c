@@ -5,6 +5,7 @@
 #include "base/sort.h"
 #include "effects/effects.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
@@ -546,5 +547,52 @@ fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
                   "was found";
     }
     if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
+    return FW_OK;
+}
+
+/* ---- which mode a probe is of, in the plane and across it ---- */
+
+const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
+                                                  const fw_device_probe *probe,
+                                                  const fw_statics_modes *modes, int *in_plane) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    fw_mechanism_frequencies in = {NULL, 0, sizeof(fw_statics_mode)},
+                             out = {NULL, 0, sizeof(fw_verdict_plate_mode)};
+    bool across;
+    if (modes && modes->count > 0) in.f_Hz = &modes->mode[0].f_Hz, in.count = modes->count;
+    if (o && o->nmode > 0) out.f_Hz = &o->mode[0].f_Hz, out.count = o->nmode;
+    int at = fw_mechanism_plates_nth(probe->mode, probe->plane, in, out, &across);
+    *in_plane = at + 1;
+    return at >= 0 && across ? &o->mode[at] : NULL;
+}
+
+/* ---- scenes that are repeated in turn ---- */
+
+fw_status fw_verdict_tell_in_turn(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
+                                  fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    double most = 1, used;
+    int worst = FW_NONE;
+    char alone[32], all[32];
+    for (int k = 0; d->limits.cycles > 0 && k < v->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &v->hinge[k];
+        if (!v->mechanism->hinge[k].limits.life.known || !(h->utilisation_high < 1)) continue;
+        FW_TRY(fw_verdict_in_turn(arena, v, k, monitor, &used));
+        used *= d->safety_factor * h->utilisation_high / h->utilisation;
+        if (used > most) most = used, worst = k;
+    }
+    for (int i = 0; worst != FW_NONE && i < d->nscene; i++)
+        if (strcmp(d->scene[i].name, v->hinge[worst].scene) == 0)
+            return fw_verdict_scene_reason(
+                v, &d->scene[i], 700, FW_INCONCLUSIVE, 0.95 / most,
+                fw_arena_printf(
+                    arena,
+                    "hinge %s is bent by several scenes, each as often as cycles says: by the "
+                    "worst of them alone it uses up to %s %% of its fatigue limit, and up to %s "
+                    "%% where they take turns, since from the farthest of one to that of another "
+                    "is a cycle; describe what no one device does in turn in files of its own",
+                    fw_text_name(v->hinge[worst].id),
+                    (fw_percent_text(alone, sizeof alone, v->hinge[worst].utilisation_high), alone),
+                    (fw_percent_text(all, sizeof all, most), all)));
     return FW_OK;
 }

@@ -479,3 +479,105 @@ fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *
     FW_TRY(make_room(arena, r.n, &r));
     return ring(arena, &r, end_s, to);
 }
+
+/* ---- what rings on where a scene ends ----
+   A device does not stop ringing there. Where its loads stay what they are at the end it swings about the equilibrium under
+   them, and every mode k by
+
+     a_k = hypot(p_k, p_k'/omega_k),   p_k = u_k . M (q - q_rest)/m_k,
+
+   which falls by its logarithmic decrement 2 pi zeta/sqrt(1 - zeta^2) from one swing to the next. In: the last instant, modes
+   about that equilibrium. Out: of every hinge what it rests at and what modes ring by, over the most that it was bent by in the
+   scene. The swings of the mode that bends it most carry those of the others. Range: small motions about q_rest; no more than
+   all of the peak. No equilibrium: all of it, by the least that damps any mode. Cost: modes of the scene. Test:
+   test_judging.py, test_what_rings_on_behind_a_scene_is_counted */
+
+enum { MODES_AFTER = 8 }; /* of one hinge, those that bend it most */
+
+static double decrement_of(const fw_statics_mode *mode) {
+    const double z = fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: nothing is known, 0 */
+    return 2 * FW_PI * z / sqrt(1 - z * z);
+}
+
+/* how far a mode swings about where it rests, in units of its shape */
+static double swing_at_end(const fw_mechanism *m, const fw_statics_modes *modes, int k,
+                           const double *q, const double *v) {
+    const fw_statics_mode *mode = &modes->mode[k];
+    double at = 0, speed = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *u = mode->shape + 3 * b, *rest = modes->q + 3 * b, mass = m->body[b].mass_kg,
+                     inertia = m->body[b].inertia_kg_m2;
+        at += mass * (u[0] * (q[3 * b] - rest[0]) + u[1] * (q[3 * b + 1] - rest[1])) +
+              inertia * u[2] * (q[3 * b + 2] - rest[2]);
+        speed += mass * (u[0] * v[3 * b] + u[1] * v[3 * b + 1]) + inertia * u[2] * v[3 * b + 2];
+    }
+    return hypot(at, speed / mode->omega_rad_per_s) / mode->modal_mass_kg_m2;
+}
+
+static void keep_ring(fw_verdict_after *to, fw_verdict_ring ring) {
+    int at = to->n < MODES_AFTER ? to->n++ : MODES_AFTER;
+    for (; at > 0 && to->ring[at - 1].share < ring.share; at--)
+        if (at < MODES_AFTER) to->ring[at] = to->ring[at - 1];
+    if (at < MODES_AFTER) to->ring[at] = ring;
+}
+
+static void rings_of(const fw_mechanism *m, const fw_statics_modes *modes, int h, double most,
+                     const double *q0, const double *swing, fw_verdict_after *to) {
+    const double hardly = 1e-3;
+    to->rest = fmin(bent_between(m, &m->hinge[h], q0, modes->q) / most, 1);
+    for (int k = 0; k < modes->count; k++) {
+        if (!(swing[k] > 0)) continue;
+        const double share =
+            fw_verdict_bends_most(bent_by(m, &m->hinge[h], modes->q, modes->mode[k].shape)) *
+            swing[k] / most;
+        if (share > hardly)
+            keep_ring(to, (fw_verdict_ring){fmin(share, 1), decrement_of(&modes->mode[k]),
+                                            modes->mode[k].omega_rad_per_s});
+    }
+}
+
+static fw_status modes_at_end(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                              bool at_equilibrium, const fw_statics_modes **modes) {
+    const fw_statics_mode_options o = {.accuracy = 0.03, .at_equilibrium = at_equilibrium};
+    fw_diags own = fw_diags_new(arena);
+    *modes = NULL;
+    const fw_status status = fw_statics_small_motions(arena, m, s, &o, &own, modes);
+    if (status != FW_OK) *modes = NULL;
+    return status == FW_CANCELLED || status == FW_NOMEM ? status : FW_OK;
+}
+
+fw_status fw_verdict_rings_on(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                              const fw_dynamics_motion *x, fw_verdict_after **after) {
+    const size_t nh = (size_t)m->nhinge, size = 3 * (size_t)m->nbody;
+    const double hardly = 1e-3;
+    const fw_statics_modes *modes, *unloaded = NULL;
+    double *most, *swing, least = (double)INFINITY;
+    bool lives = false;
+    *after = NULL;
+    if (!m->device || !(m->device->limits.cycles > 0)) return FW_OK;
+    for (size_t h = 0; h < nh; h++)
+        lives = lives || m->hinge[h].limits.life.known;
+    if (!lives || !x || x->ended || x->nsample < 2 || (x->loads && x->loads->quasi_static))
+        return FW_OK;
+    FW_NEED(*after = fw_arena_array(arena, fw_verdict_after, nh));
+    FW_NEED(most = fw_arena_array(arena, double, nh + (size_t)m->nbody));
+    FW_TRY(modes_at_end(arena, m, s, true, &modes));
+    if (!modes) FW_TRY(modes_at_end(arena, m, s, false, &unloaded));
+    for (int k = 0; unloaded && k < unloaded->count; k++)
+        if (unloaded->mode[k].omega_rad_per_s > 0)
+            least = fmin(least, decrement_of(&unloaded->mode[k]));
+    for (size_t h = 0; !modes && h < nh; h++)
+        keep_ring(&(*after)[h], (fw_verdict_ring){1, isfinite(least) ? least : 0, 1});
+    if (!modes) return FW_OK;
+    fw_dynamics_motion_rows(x, 0, x->nsample);
+    see_most(m, x, modes->unit_length_m, most);
+    FW_NEED(swing = fw_arena_array(arena, double, (size_t)modes->count));
+    const size_t last = (size_t)(x->nsample - 1) * size;
+    for (int k = 0; k < modes->count; k++)
+        if (modes->mode[k].stiffness_per_s2 > 0 && modes->mode[k].shape)
+            swing[k] = swing_at_end(m, modes, k, x->q + last, x->v + last);
+    const double bends = largest_of(most, m->nhinge);
+    for (int h = 0; h < m->nhinge; h++)
+        if (most[h] > hardly * bends) rings_of(m, modes, h, most[h], x->q, swing, &(*after)[h]);
+    return FW_OK;
+}

@@ -297,6 +297,20 @@ typedef struct fw_verdict_hinge_peak {
     double lost_s;
 } fw_verdict_hinge_peak;
 
+/* ringing.c: what a hinge does where a scene has ended, over the most that it was bent by in it */
+typedef struct fw_verdict_ring {
+    double share, decrement; /* logarithmic, a swing; 0: nothing is known to damp it */
+    double omega_per_s;
+} fw_verdict_ring;
+typedef struct fw_verdict_after {
+    double rest;
+    fw_verdict_ring ring[8]; /* (n) the largest first */
+    int n;
+} fw_verdict_after;
+/* (nhinge); NULL: nothing rings, or no life is known */
+fw_status fw_verdict_rings_on(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                              const fw_dynamics_motion *motion, fw_verdict_after **after);
+
 typedef struct fw_verdict_strain_monitor { /* of one run */
     const fw_mechanism *mechanism;
     fw_arena *arena;
@@ -306,6 +320,7 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
     struct fw_verdict_clearance_watch *clearance; /* verdict_parts.h */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;
                                            NULL: nobody counts cycles */
+    fw_verdict_after *after;            /* (nhinge) NULL: nothing rings on, or nobody counts */
     fw_verdict_bending bending;
     struct fw_verdict_touch
         *touch; /* of the scene's contacts (verdict_stiction.c); NULL: nobody looks */
@@ -352,7 +367,9 @@ typedef struct fw_verdict_fatigue {
     double utilisation; /* factor on all stresses at which the repetitions would just be lasted, to
                            the power -1; no safety factor */
     double damage;      /* Miner's sum at the stresses as they are */
-    double cycles;      /* counted in one repetition */
+    double cycles;      /* counted in one repetition, to the scene's end */
+    double at_least;    /* utilisation with what rings on as small as it may be */
+    double at_most;     /* and where what nothing is known to damp rings on for so long */
 } fw_verdict_fatigue;
 
 /* Miner's sum of n cycles of stress (Pa), `times` over, all stresses times `factor` */
@@ -361,10 +378,28 @@ double fw_verdict_miner(const fw_flexure_strain_life *law, const fw_maths_cycle 
 /* x with fw_verdict_miner(..., 1/x) = 1; 0: nothing is stressed */
 double fw_verdict_fatigue_utilisation(const fw_flexure_strain_life *law,
                                       const fw_maths_cycle *cycle, size_t n, double times);
-/* the worst face of both roots. root: turning points of their strain, ended here; Pa_per_strain:
-   what makes stresses of them */
+/* Cycles that are left to come of ring k, as blocks: amplitudes share exp(-j decrement) about `rest`, times peak_Pa, down to a
+   twentieth; the first ring carries the others. to: at most FW_RING_BLOCKS. Of what nothing is known to damp a hundred million
+   radians */
+enum { FW_RING_BLOCKS = 151 };
+size_t fw_verdict_rung_out(const fw_verdict_after *after, int k, double peak_Pa,
+                           fw_maths_cycle *to);
+
+/* The worst face of both roots. root: turning points of their strain, ended here; where the peak strain is more than theirs
+   all of the history is taken to be so much more. after: what rings on; NULL: nothing */
 fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *law,
-                                fw_maths_turning root[FW_FACES], double Pa_per_strain, double times,
+                                fw_maths_turning root[FW_FACES], double peak_strain,
+                                double youngs_Pa, double times, const fw_verdict_after *after,
                                 fw_verdict_fatigue *out);
+
+/* hinge k, by all scenes in turn; monitor: (nscene) of those whose motion has none of its own */
+struct fw_verdict_variant_verdict;
+fw_status fw_verdict_in_turn(fw_arena *arena, const struct fw_verdict_variant_verdict *v, int k,
+                             const fw_verdict_strain_monitor *monitor, double *used);
+/* required_small.c, moved_again.c: reasons where that, or what rings on, leaves a hinge open */
+fw_status fw_verdict_tell_in_turn(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
+                                  struct fw_verdict_variant_verdict *v);
+fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
+                                   struct fw_verdict_variant_verdict *v);
 
 #endif

@@ -60,7 +60,7 @@ static void fatigue(const judged *by, const fw_verdict_fatigue *f, fw_verdict_hi
     out->limit_angle_rad /= more;
     out->strain_limit /= more;
     out->utilisation *= more;
-    out->utilisation_low *= more;
+    out->utilisation_low *= more * f->at_least / f->utilisation;
     out->utilisation_high *= more;
     out->numeric *= more;
 }
@@ -69,22 +69,19 @@ static bool repeats(const judged *by) {
     return by->repetitions > 0 && by->hinge->limits.life.known;
 }
 
-/* strain that the peak has beyond that of the roots' faces (between the roots) is taken to belong to
-   all of the history */
-static fw_status count_fatigue(fw_arena *arena, const judged *by, fw_maths_turning *root,
+/* what nothing is known to damp may use more behind the scene */
+static fw_status count_fatigue(fw_arena *arena, const judged *by,
+                               const fw_verdict_strain_monitor *monitor, int k,
                                fw_verdict_hinge_verdict *out) {
-    if (!repeats(by) || !root) return FW_OK;
-    double most = 0;
-    for (int side = 0; side < FW_FACES; side++) {
-        most = fmax(most, fabs(root[side].latest));
-        for (size_t i = 0; i < root[side].count; i++)
-            most = fmax(most, fabs(root[side].value[i]));
-    }
-    double scale = most > 0 ? fmax(1.0, out->peak_strain / most) : 1.0;
     fw_verdict_fatigue f;
-    FW_TRY(fw_verdict_fatigue_of(arena, &by->hinge->limits.life, root, scale * by->youngs_Pa,
-                                 by->repetitions, &f));
+    if (!repeats(by) || !monitor->root) return FW_OK;
+    FW_TRY(fw_verdict_fatigue_of(arena, &by->hinge->limits.life, monitor->root[k], out->peak_strain,
+                                 by->youngs_Pa, by->repetitions,
+                                 monitor->after ? &monitor->after[k] : NULL, &f));
     fatigue(by, &f, out);
+    const double most = by->safety_factor * f.at_most;
+    if (f.at_most > f.utilisation && most > out->utilisation && out->utilisation > 0)
+        out->utilisation_high *= most / out->utilisation, out->rung = most;
     return FW_OK;
 }
 
@@ -155,7 +152,7 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
                                          .bodies = {kept * bent, bent},
                                          .numbers = {share * numeric, share * numeric}};
     chance(by, out);
-    FW_TRY(count_fatigue(arena, by, monitor->root ? monitor->root[k] : NULL, out));
+    FW_TRY(count_fatigue(arena, by, monitor, k, out));
     out->decision = decide(out->utilisation_low, out->utilisation_high);
     if (lost && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
     collide(by->drawn, out);
@@ -177,8 +174,9 @@ static void workspace_fatigue(const judged *by, fw_verdict_hinge_verdict *out) {
     if (!repeats(by)) return;
     const fw_maths_cycle one = {2 * out->peak_strain * by->youngs_Pa, 0, 1};
     const fw_flexure_strain_life *law = &by->hinge->limits.life;
-    const fw_verdict_fatigue f = {fw_verdict_fatigue_utilisation(law, &one, 1, by->repetitions),
-                                  fw_verdict_miner(law, &one, 1, by->repetitions, 1), 1};
+    const double used = fw_verdict_fatigue_utilisation(law, &one, 1, by->repetitions),
+                 damage = fw_verdict_miner(law, &one, 1, by->repetitions, 1);
+    const fw_verdict_fatigue f = {used, damage, 1, used, used};
     fatigue(by, &f, out);
 }
 
@@ -337,6 +335,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (options->work && v->motion[i]) *options->work += work_of(m, scene, v->motion[i]);
         FW_TRY(fw_verdict_bending_end(arena, layout, &monitor[i], &other[i], v));
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
+        FW_TRY(fw_verdict_rings_on(arena, m, scene, v->motion[i], &monitor[i].after));
+        other[i].after = monitor[i].after;
         if (v->motion[i])
             FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->loads, v->motion[i]->level));
         FW_TRY(fw_verdict_bending_judge(arena, (int)i, v->motion[i], v));
@@ -576,6 +576,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     if (!brief) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
     FW_TRY(judge_hinges(arena, device, layout, monitor, diags, v));
     if (!brief) FW_TRY(fw_verdict_tell_still(arena, diags, v));
+    FW_TRY(fw_verdict_tell_repeated(arena, monitor, v));
     FW_TRY(in_series(arena, v));
     FW_TRY(fw_verdict_out_of_plane_strain(arena, v));
     first = v->nreason;

@@ -53,8 +53,8 @@ typedef struct fw_verdict_hinge_verdict {
     const fw_flexure_limit *limit; /* the criterion that governs; NULL: a number without a source */
     double limit_Pa; /* peak stress that it allows in this motion, before the safety factor */
     double failure_probability; /* at the peak, no safety factor; NaN: nothing known or asked */
-    /* NaN: no cycles asked; damage: Miner's sum, no safety factor; cycles: of one repetition */
-    double fatigue_utilisation, damage, cycles;
+    /* NaN: no cycles asked; damage: Miner's sum, no safety factor; cycles: of one repetition; rung: used if undamped, or 0 */
+    double fatigue_utilisation, damage, cycles, rung;
 } fw_verdict_hinge_verdict;
 
 /* how near what moves comes to what it may meet, in one scene or required box */
@@ -111,10 +111,10 @@ typedef struct fw_verdict_out_of_plane {
     const char *why;             /* it is not known, and all else is 0; NULL */
     fw_verdict_plate_mode *mode; /* (nmode) all of them, by frequency */
     int nmode;
-    double error; /* relative, of the flexures' stiffness */
-    double
-        weight_m; /* how far any part comes down under its weight on a table, g = 9.80665 m/s^2 */
-    const char *body; /* the one that the next two are of: it gives most at its centre of mass */
+    double error;      /* relative, of the flexures' stiffness */
+    double weight_m,   /* how far any part comes down lying on a table, g = 9.80665 m/s^2 */
+        weight_most_m; /* with bodies and flexures as soft as they may be */
+    const char *body;  /* the one that the next two are of: it gives most at its centre of mass */
     double across_N_per_m, ratio; /* across the plane; over the least in it, NaN: not known */
     const struct fw_verdict_hung
         *hung; /* (nbody) what hangs over beyond hinges and middle (strain.h) */

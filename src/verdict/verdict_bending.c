@@ -5,6 +5,7 @@
    lower by half of it. Theory: docs/theory/verdict.md. Test: test_body_arms.c */
 #include "base/text.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -526,4 +527,19 @@ double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v) {
                                   ? seen(v->motion[i])->bodies_J / seen(v->motion[i])->hinges_J
                                   : 0);
     return most;
+}
+
+/* ---- across the plane ---- */
+
+fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                                 fw_mechanism_plates *soft) {
+    const fw_device_material *of = &m->variant->material;
+    const double nu = of->poisson.unknown ? 0.3 : of->poisson.value;
+    double *give;
+    FW_NEED(give = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
+    for (int k = 0; k < 2 * m->nhinge; k++)
+        if (arm && arm[k].known)
+            fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
+                                        give + 9 * (k / 2));
+    return fw_mechanism_plates_new(arena, m, give, soft);
 }

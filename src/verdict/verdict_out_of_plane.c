@@ -39,19 +39,6 @@ bool fw_verdict_out_of_plane_asked(const fw_mechanism *m) {
 
 /* ---- modes ---- */
 
-fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
-                                 fw_mechanism_plates *soft) {
-    const fw_device_material *of = &m->variant->material;
-    const double nu = of->poisson.unknown ? 0.3 : of->poisson.value;
-    double *give;
-    FW_NEED(give = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
-    for (int k = 0; k < 2 * m->nhinge; k++)
-        if (arm && arm[k].known)
-            fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
-                                        give + 9 * (k / 2));
-    return fw_mechanism_plates_new(arena, m, give, soft);
-}
-
 static fw_status put_modes(fw_arena *arena, const both *is, fw_verdict_out_of_plane *out) {
     const fw_mechanism_plates *p = &is->rigid;
     out->nmode = p->n;
@@ -69,32 +56,19 @@ static fw_status put_modes(fw_arena *arena, const both *is, fw_verdict_out_of_pl
     return FW_OK;
 }
 
-const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
-                                                  const fw_device_probe *probe,
-                                                  const fw_statics_modes *modes, int *in_plane) {
-    const fw_verdict_out_of_plane *o = v->out_of_plane;
-    fw_mechanism_frequencies in = {NULL, 0, sizeof(fw_statics_mode)},
-                             out = {NULL, 0, sizeof(fw_verdict_plate_mode)};
-    bool across;
-    if (modes && modes->count > 0) in.f_Hz = &modes->mode[0].f_Hz, in.count = modes->count;
-    if (o && o->nmode > 0) out.f_Hz = &o->mode[0].f_Hz, out.count = o->nmode;
-    int at = fw_mechanism_plates_nth(probe->mode, probe->plane, in, out, &across);
-    *in_plane = at + 1;
-    return at >= 0 && across ? &o->mode[at] : NULL;
-}
-
 /* ---- one scene ---- */
 
-/* what a scene does at rest to x, and what its shocks set swinging either way to `ring`, where forces in the plane leave
-   the share `left` of stiffnesses; *dynamic: by how much more than at rest */
+/* What a scene does at rest to x, and what its shocks set swinging either way to `ring`, where forces in the plane leave
+   the share `left` of stiffnesses: how far modes go, or, of forces, what bears them over what does at rest; and to
+   ring + n their accelerations over the squares of the plates' frequencies. *dynamic: by how much more than at rest */
 static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_device_scene *s,
-                       double left, double curvature_per_m, fw_geometry_vec2 *middle,
+                       double left, double curvature_per_m, bool forces, fw_geometry_vec2 *middle,
                        double *dynamic) {
     size_t n = (size_t)p->n;
     *middle = (fw_geometry_vec2){0, 0};
     *dynamic = 1;
     memset(is->x, 0, n * sizeof(double));
-    memset(is->ring, 0, n * sizeof(double));
+    memset(is->ring, 0, 2 * n * sizeof(double));
     fw_mechanism_plates_weight(p, s->gz_m_per_s2, is->f);
     fw_mechanism_plates_answer(p, is->f, is->x);
     if (curvature_per_m != 0) {
@@ -113,18 +87,22 @@ static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_de
         for (size_t k = 0; k < n; k++) {
             const double high = sqrt(is->rigid.per_s2[k]), off = 0.5 * is->rigid.error;
             const double low = is->soft.why ? high : fmin(high, sqrt(is->soft.per_s2[k]));
-            const double by = fw_quantity_law_answer(
+            const fw_quantity_law_response r = fw_quantity_law_responds(
                 b->law, s->duration_s, low * (1 - off) * sqrt(left), high * (1 + off));
-            is->ring[k] += by * fabs(amplitude[k]);
+            const double by = forces ? r.most : r.far;
+            is->ring[k] += by * fabs(amplitude[k]),
+                is->ring[n + k] += r.behind * fabs(amplitude[k]);
             if (k > 0) continue;
-            const double most = fw_quantity_law_measure(b->law, s->duration_s).most;
+            const double end = fw_quantity_law_done_s(b->law, s->duration_s),
+                         most = fw_quantity_law_measure(b->law, end).most;
             if (most > 0) *dynamic = fmax(*dynamic, by / most);
         }
     }
 }
 
 /* What hangs over bends by the scene's weight, and by shocks as an oscillator of its own beside them and on the modes of
-   the plates, each of which shakes it: at most four times as far as slowly, where it is as slow itself. down, up: m */
+   the plates, each of which shakes it by its acceleration, which is w^2 (f - q) and little under a slow law: at most four
+   times as far as slowly, where it is as slow itself. down, up: m */
 static fw_status hang_over(fw_arena *arena, const both *is, const fw_mechanism_plates *p,
                            const fw_device_scene *s, double left, double *down, double *up) {
     const double omega = 1 / sqrt(is->hangs), at_most = 0.75;
@@ -137,8 +115,8 @@ static fw_status hang_over(fw_arena *arena, const both *is, const fw_mechanism_p
         rings += fabs(s->base[i].az_m_per_s2) * is->hangs *
                  fw_quantity_law_answer(s->base[i].law, s->duration_s, omega, 1.3 * omega);
     for (int k = 0; k < p->n; k++) {
-        if (!(is->ring[k] > 0)) continue;
-        one[k] = is->ring[k];
+        one[k] = is->ring[p->n + k];
+        if (!(one[k] > 0)) continue;
         const double z = fw_mechanism_plates_reached(p, one + p->n, one, 0, origin).highest_m;
         one[k] = 0;
         rings +=
@@ -148,12 +126,26 @@ static fw_status hang_over(fw_arena *arena, const both *is, const fw_mechanism_p
     return FW_OK;
 }
 
+/* "20 um (a hollow of 20 um in its carrier), 18.2 um of which are sure": what counts of a depth that has a band */
+static const char *what_is_below(fw_arena *arena, const fw_mechanism_below *below, bool at_most) {
+    char has[32], end[32];
+    const double counts = at_most ? below->high_m : below->low_m;
+    fw_number_text(has, sizeof has, 1e6 * below->m, 3);
+    fw_number_text(end, sizeof end, 1e6 * counts, 3);
+    const char *text =
+        strcmp(has, end) == 0 ? fw_arena_printf(arena, "%s um (%s)", has, below->words)
+        : at_most
+            ? fw_arena_printf(arena, "%s um (%s), %s um at most", has, below->words, end)
+            : fw_arena_printf(arena, "%s um (%s), of which %s um are sure", has, below->words, end);
+    return text ? text : "";
+}
+
 /* Sure is what is there at rest, less what flexures may be stiffer than computed; what a shock sets ringing may be
    less than its bound */
 static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_scene *s,
                              fw_verdict_variant_verdict *v, fw_verdict_across *to) {
     const fw_mechanism_below *below = &v->mechanism->variant->below;
-    char down[32], has[32];
+    char down[32];
     if (!below->known || below->open || !(-to->lowest_m > below->low_m)) return FW_OK;
     bool sure = -to->sure_m / (1 + is->rigid.error) > below->high_m;
     to->decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
@@ -162,20 +154,19 @@ static fw_status judge_touch(fw_arena *arena, const both *is, const fw_device_sc
             v, s, 580, to->decision, FW_VERDICT_KEEP_HALF,
             fw_arena_printf(arena,
                             "how far the device comes down in %s%s is not known, and below "
-                            "it are %s um (%s): nothing bounds the law of its shock; state "
+                            "it are %s: nothing bounds the law of its shock; state "
                             "it as a table, or by a law that has a largest value",
-                            FW_NAMED("scene", s->name),
-                            fw_number_text(has, sizeof has, 1e6 * below->m, 3), below->words));
+                            FW_NAMED("scene", s->name), what_is_below(arena, below, false)));
     return fw_verdict_scene_reason(
         v, s, 580, to->decision, 0.95 * below->low_m / -to->lowest_m,
         fw_arena_printf(
             arena,
-            "%s%s comes down by %s%s um in %s%s, and below it are %s um (%s): it %s its "
+            "%s%s comes down by %s%s um in %s%s, and below it are %s: it %s its "
             "carrier; a thicker layer, shorter or wider flexures, or less weight hold it up",
             FW_NAMED("body", to->body ? to->body : "(none)"), sure ? "" : "up to ",
             fw_number_text(down, sizeof down, -1e6 * (sure ? to->sure_m : to->lowest_m), 3),
-            FW_NAMED("scene", s->name), fw_number_text(has, sizeof has, 1e6 * below->m, 3),
-            below->words, sure ? "touches" : "may touch"));
+            FW_NAMED("scene", s->name), what_is_below(arena, below, sure),
+            sure ? "touches" : "may touch"));
 }
 
 static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scene *s,
@@ -185,13 +176,13 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
     fw_geometry_vec2 middle;
     const double left = fmax(1 - fw_verdict_across_softened(to), 1e-9);
     to->asked = true;
-    load_scene(is, &is->rigid, s, 1, curvature, &middle, &to->dynamic);
+    load_scene(is, &is->rigid, s, 1, curvature, false, &middle, &to->dynamic);
     fw_mechanism_plates_reach r =
         fw_mechanism_plates_reached(&is->rigid, is->x, NULL, curvature, middle);
     to->sure_m = r.lowest_m;
     const double top_m = r.highest_m; /* of rigid bodies, as sure_m is */
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
-    load_scene(is, p, s, left, curvature, &middle, &to->dynamic);
+    load_scene(is, p, s, left, curvature, false, &middle, &to->dynamic);
     r = fw_mechanism_plates_reached(p, is->x, is->ring, curvature, middle);
     double more = (1 + is->rigid.error) / left;
     double down = 0, up = 0;
@@ -251,7 +242,7 @@ static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdic
     FW_TRY(fw_verdict_soft_plates(arena, m, arm, &to->soft));
     FW_NEED(to->x = fw_arena_array(arena, double, n));
     FW_NEED(to->f = fw_arena_array(arena, double, 2 * n));
-    FW_NEED(to->ring = fw_arena_array(arena, double, n));
+    FW_NEED(to->ring = fw_arena_array(arena, double, 2 * n));
     return FW_OK;
 }
 
@@ -328,7 +319,8 @@ static double cycles_of(const both *is, const double (*wrench)[3], double end_s,
 }
 
 /* Share of what it lasts, at most: all that rings and all of the plane is an amplitude, fully reversed about what there is
-   at rest, in every cycle; 0: nothing is repeated, or no life is known */
+   at rest, in every cycle of the scene, and behind it falls by what the material's loss factor takes, pi times that a swing;
+   0: nothing is repeated, or no life is known */
 static fw_status lasted(fw_arena *arena, const both *is, const fw_verdict_variant_verdict *v, int k,
                         const fw_device_scene *s, const double (*wrench)[3], double in,
                         double across, double *share) {
@@ -343,10 +335,18 @@ static fw_status lasted(fw_arena *arena, const both *is, const fw_verdict_varian
     FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form, wrench, 1, rest));
     const double allowed = limit ? limit->allowable_Pa : m->variant->material.strength.value;
     const double amplitude_Pa = in * allowed / d->safety_factor + (across - rest[1]) * more * E;
-    const fw_maths_cycle one = {2 * amplitude_Pa, rest[1] * more * E,
-                                cycles_of(is, wrench, s->duration_s, v->hinge[k].cycles)};
+    const fw_quantity *loss = &m->variant->material.loss;
+    const double mean_Pa = rest[1] * more * E, eta = loss->unknown ? 0 : loss->value;
+    const fw_verdict_after after = {.rest = amplitude_Pa > 0 ? mean_Pa / amplitude_Pa : 0,
+                                    .ring = {{1, FW_PI * fmax(eta, 0), 1}},
+                                    .n = 1};
+    fw_maths_cycle *all = fw_arena_array(arena, fw_maths_cycle, 1 + FW_RING_BLOCKS);
+    FW_NEED(all);
+    all[0] = (fw_maths_cycle){2 * amplitude_Pa, mean_Pa,
+                              cycles_of(is, wrench, s->duration_s, v->hinge[k].cycles)};
+    const size_t n = 1 + fw_verdict_rung_out(&after, 0, amplitude_Pa, all + 1);
     *share = d->safety_factor *
-             fw_verdict_fatigue_utilisation(&h->limits.life, &one, 1, d->limits.cycles);
+             fw_verdict_fatigue_utilisation(&h->limits.life, all, n, d->limits.cycles);
     return FW_OK;
 }
 
@@ -360,12 +360,21 @@ static fw_status tell_lasted(fw_arena *arena, const fw_device_scene *s, double s
         v, s, 637, FW_INCONCLUSIVE, 0.95 / share,
         fw_arena_printf(arena,
                         "%s%s is not known to last %s repetitions of %s%s, which bends it across "
-                        "the plane, too: it uses up to %s %% of its fatigue limit there; a thicker "
-                        "layer, shorter or wider flexures, or a weaker shock relieve it",
+                        "the plane, too: it uses up to %s %% of its fatigue limit there, with what "
+                        "rings on where the scene ends; a thicker layer, shorter or wider "
+                        "flexures, or a weaker shock relieve it",
                         FW_NAMED("hinge", hinge),
                         fw_number_text(times, sizeof times, v->mechanism->device->limits.cycles, 3),
                         FW_NAMED("scene", s->name),
                         (fw_percent_text(used, sizeof used, share), used)));
+}
+
+/* strain that is borne once, not the one that the cycles of a scene leave */
+static double once_limit(const fw_mechanism *m, const fw_mechanism_hinge *h) {
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&h->limits);
+    const fw_device_material *of = &m->variant->material;
+    return (limit ? limit->allowable_Pa : of->strength.value) / m->device->safety_factor /
+           of->youngs.value;
 }
 
 static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_variant_verdict *v,
@@ -380,11 +389,11 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
     double lasts = 0;
     const char *tires = NULL;
     FW_NEED(wrench);
-    load_scene(is, &is->rigid, s, left, curvature, &middle, &dynamic);
+    load_scene(is, &is->rigid, s, left, curvature, true, &middle, &dynamic);
     to->strained = to->strained_sure = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *h = &m->hinge[k];
-        const double limit = v->hinge[k].strain_limit, in = in_the_plane(v, k, to->scene_index);
+        const double limit = once_limit(m, h), in = in_the_plane(v, k, to->scene_index);
         double strain[2], share;
         put_wrenches(is, k, curvature, wrench);
         FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form,
@@ -493,35 +502,48 @@ static fw_status put_stiffness(fw_arena *arena, const both *is, fw_verdict_out_o
 }
 
 /* how far it comes down where it lies flat on a table */
-static void put_weight(const both *is, fw_verdict_out_of_plane *out) {
+static double by_weight(const both *is, const fw_mechanism_plates *p) {
     const fw_geometry_vec2 origin = {0, 0};
-    fw_mechanism_plates_weight(&is->rigid, -FW_STANDARD_GRAVITY_m_per_s2, is->f);
-    fw_mechanism_plates_answer(&is->rigid, is->f, is->x);
-    out->weight_m = is->hangs * FW_STANDARD_GRAVITY_m_per_s2 -
-                    fw_mechanism_plates_reached(&is->rigid, is->x, NULL, 0, origin).lowest_m;
+    fw_mechanism_plates_weight(p, -FW_STANDARD_GRAVITY_m_per_s2, is->f);
+    fw_mechanism_plates_answer(p, is->f, is->x);
+    return is->hangs * FW_STANDARD_GRAVITY_m_per_s2 -
+           fw_mechanism_plates_reached(p, is->x, NULL, 0, origin).lowest_m;
+}
+
+static void put_weight(const both *is, fw_verdict_out_of_plane *out) {
+    out->weight_m = by_weight(is, &is->rigid);
+    out->weight_most_m =
+        (is->soft.why ? out->weight_m : fmax(out->weight_m, by_weight(is, &is->soft))) *
+        (1 + out->error);
 }
 
 /* A scene that says nothing of weight leaves open which way is down. Where the device would lie on its carrier by its weight
-   alone it is no answer that nobody asked: undecided until it is said. */
+   alone, or by that on top of what the scene does, it is no answer that nobody asked: undecided until it is said. */
 static fw_status judge_unsaid(fw_arena *arena, const fw_device_scene *s,
                               const fw_verdict_out_of_plane *out, fw_verdict_variant_verdict *v,
                               fw_verdict_across *to) {
     const fw_mechanism_below *below = &v->mechanism->variant->below;
-    const double down_m = out->weight_m * (1 + out->error) + fmax(0, -to->lowest_m);
-    char down[32], has[32];
+    const double scene_m = fmax(0, -to->lowest_m), down_m = out->weight_most_m + scene_m;
+    char down[32], own[32];
+    const char *rest = "by its weight";
     if (s->gravity || !below->known || below->open || !(down_m > below->low_m)) return FW_OK;
     if (to->decision == FW_REJECT || (to->asked && !isfinite(down_m))) return FW_OK;
+    /* it has been said of the scene alone */
+    if (scene_m > below->low_m && !(out->weight_most_m > below->low_m)) return FW_OK;
     to->decision = FW_INCONCLUSIVE;
+    if (scene_m > 0)
+        FW_NEED(rest = fw_arena_printf(
+                    arena, "by what shakes it there and its weight, %s um by that alone",
+                    fw_number_text(own, sizeof own, 1e6 * out->weight_most_m, 3)));
     return fw_verdict_scene_reason(
         v, s, 673, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
         fw_arena_printf(
             arena,
-            "where it lies flat the device comes down by up to %s um by its weight, and below it "
-            "are %s um (%s): it may lie on its carrier in %s%s, which does not say how it is "
-            "held; state <gravity gz=\"-9.81 m/s^2\"/> there, or gy where it stands on edge",
-            fw_number_text(down, sizeof down, 1e6 * down_m, 3),
-            fw_number_text(has, sizeof has, 1e6 * below->m, 3), below->words,
-            FW_NAMED("scene", s->name)));
+            "where it lies flat the device comes down by up to %s um %s, and below it are %s: it "
+            "may lie on its carrier in %s%s, which does not say how it is held; state <gravity "
+            "gz=\"-9.81 m/s^2\"/> there, or gy where it stands on edge",
+            fw_number_text(down, sizeof down, 1e6 * down_m, 3), rest,
+            what_is_below(arena, below, false), FW_NAMED("scene", s->name)));
 }
 
 fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, bool brief,

@@ -547,3 +547,45 @@ fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double giv
                  strip = gave ? left / (1 + along) : 1 + along, all = k == 2 ? left * bent : bent;
     return (fw_verdict_way){.stiffer = all - 1, .along = strip / all - 1, .gives = gave};
 }
+
+/* ---- fatigue: cycles that are counted (strain_monitor.c) ---- */
+
+/* D = times sum n_i/N(factor sigma_ar,i),  sigma_ar = sqrt((sigma_a + |sigma_m|) sigma_a)
+   in: cycles of stress, Pa; out: 1, and it fails at 1 by the data; linear, without order of loads:
+   sums from 0.3 to 3 at failure are usual. Cost: two pow a cycle
+   source: M. A. Miner, J. Appl. Mech. 12 (1945) A159; test_fatigue.c miner_of_one_amplitude */
+double fw_verdict_miner(const fw_flexure_strain_life *law, const fw_maths_cycle *cycle, size_t n,
+                        double times, double factor) {
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) {
+        double a = fw_flexure_equivalent_amplitude_Pa(0.5 * cycle[i].range, cycle[i].mean);
+        sum += cycle[i].count / fw_flexure_strain_life_cycles(law, factor * a);
+    }
+    return times * sum;
+}
+
+/* D rises with the factor, on logarithms nearly as a line: secant, kept inside its bracket. One
+   step where the law is Basquin's alone. Test: test_fatigue.c
+   utilisation_is_amplitude_over_allowable */
+double fw_verdict_fatigue_utilisation(const fw_flexure_strain_life *law,
+                                      const fw_maths_cycle *cycle, size_t n, double times) {
+    double x = 0, y = log(fw_verdict_miner(law, cycle, n, times, 1)), slope = -1 / law->exponent;
+    double low = -(double)INFINITY, high = (double)INFINITY; /* of ln factor */
+    if (!isfinite(y)) return y > 0 ? y : 0;
+    for (int i = 0; i < 100 && fabs(y) > 1e-12; i++) {
+        if (y < 0)
+            low = x;
+        else
+            high = x;
+        double next = x - y / slope;
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        if (!isfinite(next) || next == x) break;
+        double there = log(fw_verdict_miner(law, cycle, n, times, exp(next)));
+        if (!isfinite(there)) break;
+        double secant = (there - y) / (next - x);
+        if (secant > 0) slope = secant;
+        x = next;
+        y = there;
+    }
+    return exp(-x);
+}

@@ -34,7 +34,58 @@ def allowable(n):
     return elastic * (n / LIFE) ** B + plastic * (2 * n) ** C
 
 
+LEVER = """<device xmlns="urn:flexwright:device:1" name="lever">
+<material ref="copper-plated" fatigue-strength="0.1 GPa" fatigue-cycles="1e7" fatigue-exponent="-0.1"/>
+<limits safety-factor="1.3" cycles="1e7"/><flow ref="copper-on-porous-silicon"/>
+<flexure id="leaf" kind="leaf" length="400 um" width="12 um"/><mechanism>
+<body id="lo" x="0 mm" y="0 mm" plate-width="0.5 mm" plate-height="0.5 mm"/>
+<revolute id="A" axis="0 deg" a="ground" a-y="-0.7 mm" b="lo" b-y="-0.7 mm" hinge="leaf"%s/></mechanism>%s</device>"""
+STEP = '<scene name="nod" duration="%s"><force on="lo" fx="%s uN"/></scene>'
+
+
 class Limits(unittest.TestCase):
+    def lever(self, *scenes, hinge=""):
+        done = run("check", "-", "--json", "--corners", "none", "--advice", "none", input=LEVER % (hinge, "".join(scenes)))
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        return json.loads(done.stdout)
+
+    def test_what_rings_on_behind_a_scene_is_counted(self):
+        """A step that is repeated rings on where its scene ends, by what the copper's loss factor leaves of it: the same event, and
+        the same use of its life, however long the scene is. Where nothing damps it that is not known, unless it is so little that
+        a hundred million radians of it would not matter"""
+        used = {}
+        for lasts in ("0.5 ms", "5 ms", "50 ms", "500 ms"):
+            used[lasts] = self.lever(STEP % (lasts, 8))["hinges"][0]
+            self.assertEqual(used[lasts]["verdict"], "inconclusive")
+            self.assertLess(used[lasts]["utilisation_band"][0], used["0.5 ms"]["utilisation"])
+        for now in used.values():
+            self.assertAlmostEqual(now["fatigue_utilisation"], used["500 ms"]["fatigue_utilisation"], delta=0.005)
+        free = ' damping="0 N m s/rad"'
+        for push, said in ((4.5, "inconclusive"), (1.5, "accept")):
+            whole = self.lever(STEP % ("5 ms", push), hinge=free)
+            self.assertEqual(whole["verdict"], said)
+            self.assertEqual([r["code"] for r in whole["reasons"]], ["FW-D698"] if said != "accept" else [])
+        self.assertEqual(self.lever(STEP % ("5 ms", 4.5))["verdict"], "accept")
+
+    def test_scenes_that_are_repeated_in_turn(self):
+        """Slow pushes to one side and to the other, each lasted: who has both in turn goes from one side to the other, twice the range of
+        one that is about its own middle, sqrt(2) of its fully reversed amplitude. Two pushes to the same side only add up: a tenth
+        of the exponent of two times the cycles"""
+        slow = '<scene name="%s" duration="100 ms"><force on="lo" fx="%s uN" law="table" table="0 ms: 0; 50 ms: 1; 100 ms: 0"/></scene>'
+        one = self.lever(slow % ("a", 16))
+        used = one["hinges"][0]["utilisation_band"][1]
+        self.assertEqual(one["verdict"], "accept")
+        push = 16 * 0.9 / used
+        for other, said, times in ((-push, "inconclusive", 2 ** 0.5), (push, "accept", None), (-0.1 * push, "accept", None)):
+            whole = self.lever(slow % ("a", push), slow % ("b", other))
+            self.assertEqual(whole["verdict"], said, whole["reasons"])
+            self.assertEqual([r["code"] for r in whole["reasons"]], ["FW-D700"] if times else [])
+            if times:
+                told = float(whole["reasons"][0]["text"].split("and up to ")[1].split(" %")[0])
+                self.assertAlmostEqual(told / 90, times, delta=0.03)
+        both = self.lever(slow % ("a", push * 1.08), slow % ("b", push * 1.08))
+        self.assertEqual([r["code"] for r in both["reasons"]], ["FW-D700"])
+
     def test_a_sine_is_one_cycle(self):
         """to and fro once a scene: amplitude over the one that lasts that many cycles"""
         static = check(NODDER, "limits/@cycles=1", status=0)["governing"]

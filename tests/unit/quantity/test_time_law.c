@@ -306,6 +306,72 @@ static void answers(void **state) {
     assert_in_range((long)(1e4 * fw_quantity_law_answer(&slow, 2, w, w)), 10000, 10010);
 }
 
+/* by small steps of what is straight between them, at w, well behind the law's end */
+static double followed(const fw_quantity_law *law, double end_s, double w, double low, double *far, double *behind) {
+    const int steps = 40000;
+    const double h = end_s / steps, c = cos(w * h), s = sin(w * h);
+    double q = 0, v = 0, f = 0, most = 0, value[3];
+    fw_quantity_law_value(law, 0, 0.5 * h, value);
+    f = value[0];
+    for (int i = 1; i <= steps; i++) {
+        fw_quantity_law_value(law, i * h, (i - 0.5) * h, value);
+        const double slope = (value[0] - f) / h, x = q - f, y = (v - slope) / w;
+        q = value[0] + x * c + y * s, v = slope + w * (y * c - x * s), f = value[0];
+        most = fmax(most, fabs(q)), *behind = fmax(*behind, fabs(q - f));
+    }
+    *far = fmax(*far, most * low * low / (w * w));
+    return most;
+}
+
+/* A scene ends with its pulse, or within it: the device rings on as where the scene lasts. Never less than what is there at any
+   frequency of the band, and no more than 4 % above the most of it; of a short half sine 2 w rise/pi (1 - (w rise/pi)^2/2), at
+   the top of the band, though it goes farthest at the bottom */
+static void answers_behind_the_end(void **state) {
+    (void)state;
+    static const double t_s[] = {0, 0.3e-3, 0.5e-3, 0.8e-3, 1e-3}, height[] = {0, 0.7, -0.4, 1, 0.2};
+    for (double times = 0.01; times < 40; times *= 2.3) { /* how long, in periods of 1 ms */
+        double later[5];
+        for (int i = 0; i < 5; i++)
+            later[i] = times * t_s[i];
+        const double lasts = times * 1e-3;
+        const fw_quantity_law laws[] = {
+            {.kind = fw_quantity_law_find("half-sine"), .rise_s = lasts},
+            {.kind = fw_quantity_law_find("half-sine"), .rise_s = 0.7 * lasts, .start_s = 0.3 * lasts},
+            {.kind = fw_quantity_law_find("ramp"), .rise_s = lasts},
+            {.kind = fw_quantity_law_find("step"), .start_s = 0.2 * lasts, .end_s = lasts},
+            {.kind = fw_quantity_law_find("table"), .table_t_s = later, .table_value = height, .ntable = 5}};
+        for (size_t i = 0; i < sizeof laws / sizeof laws[0]; i++) {
+            const double low = 2 * pi * 900, high = 2 * pi * 1100;
+            double most = 0, far = 0, behind = 0;
+            for (int k = 0; k <= 40; k++)
+                most = fmax(most, followed(&laws[i], lasts + 1.5e-3, low + (high - low) * k / 40, low, &far, &behind));
+            const fw_quantity_law_response long_one = fw_quantity_law_responds(&laws[i], lasts + 5e-3, low, high),
+                                           ends = fw_quantity_law_responds(&laws[i], lasts, low, high),
+                                           cut = fw_quantity_law_responds(&laws[i], 0.6 * lasts, low, high);
+            /* jumps are met there within a step, by 4e-4 of the shortest */
+            assert_true(ends.most > 0.999 * most && ends.far > 0.999 * far && ends.behind > 0.999 * behind);
+            assert_true(ends.most < 1.04 * most && ends.far < 1.05 * far && ends.behind < behind + 0.1 * most);
+            assert_near(long_one.most, ends.most, 0.02 * ends.most);
+            assert_near(cut.most, ends.most, 1e-9);
+            assert_near(fw_quantity_law_answer(&laws[i], lasts, low, high), ends.most, 0);
+        }
+        const double x = 2 * lasts * 1100; /* w rise/pi */
+        if (x < 0.3) {
+            const fw_quantity_law_response r = fw_quantity_law_responds(&laws[0], lasts, 2 * pi * 900, 2 * pi * 1100);
+            assert_near(r.most / (2 * x / (1 - x * x) * cos(0.5 * pi * x)), 1, 0.03);
+            assert_true(r.far < 0.85 * r.most);
+        }
+    }
+    /* what begins behind the scene does nothing in it; what repeats stops where the scene ends, and rings on */
+    const fw_quantity_law late = {.kind = fw_quantity_law_find("half-sine"), .rise_s = 1e-3, .start_s = 2e-3},
+                          wave = {.kind = fw_quantity_law_find("sine"), .frequency_Hz = 100, .end_s = (double)INFINITY};
+    assert_near(fw_quantity_law_answer(&late, 1e-3, 6000, 7000), 0, 0);
+    assert_near(fw_quantity_law_done_s(&late, 1e-3), 1e-3, 0);
+    assert_near(fw_quantity_law_done_s(&late, 2.1e-3), 3e-3, 1e-15);
+    assert_near(fw_quantity_law_done_s(&wave, 1e-3), 1e-3, 0);
+    assert_true(fw_quantity_law_answer(&wave, 0.2e-3, 2 * pi * 900, 2 * pi * 1000) > 0.07);
+}
+
 /* at rate w: all of a step, 2/(w rise) of a ramp, of a half sine pi/(w rise) (2 + 2) in sum, and of (1 - cos)/2
    by samples what its second derivative adds up to, pi/(w T); a coordinate begins where it is */
 static void jolts(void **state) {
@@ -454,6 +520,7 @@ int main(void) {
         cmocka_unit_test(rings),
         cmocka_unit_test(shakes),
         cmocka_unit_test(answers),
+        cmocka_unit_test(answers_behind_the_end),
         cmocka_unit_test(swings),
         cmocka_unit_test(swings_of_several),
     };

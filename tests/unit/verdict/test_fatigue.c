@@ -87,7 +87,7 @@ static void a_history_of_two_roots(void **state) {
         fw_maths_turning_add(&root[1], arena, t, 1e-3 * s + 5e-4);
     }
     fw_verdict_fatigue f;
-    assert_int_equal(fw_verdict_fatigue_of(arena, &basquin, root, 115e9, 1e5, &f), FW_OK);
+    assert_int_equal(fw_verdict_fatigue_of(arena, &basquin, root, 0, 115e9, 1e5, NULL, &f), FW_OK);
     double worse = 115e6 * sqrt(1.5);
     assert_near(f.cycles, 10, 0);
     assert_relative(f.utilisation, worse / fw_flexure_strain_life_amplitude_Pa(&basquin, 1e6),
@@ -96,12 +96,34 @@ static void a_history_of_two_roots(void **state) {
     fw_arena_free(arena);
 }
 
+/* amplitudes that fall by d from swing to swing: Miner's sum is that of the first over 1 - exp(-m d), m = 10 of Basquin's law,
+   each block by its middle; one that carries another, twice as fast and damped alike, begins with both */
+static void rings_out(void **state) {
+    (void)state;
+    fw_maths_cycle c[FW_RING_BLOCKS];
+    const double m = -1 / basquin.exponent;
+    for (double d = 1e-6; d < 1; d *= 7) {
+        const fw_verdict_after after = {.rest = 0, .ring = {{0.5, d, 100}}, .n = 1};
+        const size_t n = fw_verdict_rung_out(&after, 0, 2e8, c);
+        const fw_maths_cycle first = {2e8 * exp(-0.5 * d), 0, 1};
+        const double whole = fw_verdict_miner(&basquin, &first, 1, 1, 1) / (1 - exp(-m * d));
+        assert_relative(fw_verdict_miner(&basquin, c, n, 1, 1), whole, 0.01);
+    }
+    const fw_verdict_after two = {.rest = 0.25, .ring = {{0.4, 1e-3, 100}, {0.1, 1e-3, 200}}, .n = 2};
+    assert_true(fw_verdict_rung_out(&two, 0, 1e8, c) > 100);
+    assert_relative(c[0].range, 1e8 * (0.8 * exp(-0.01) + 0.2 * exp(-0.02)), 1e-12);
+    assert_relative(c[0].mean, 0.25e8, 1e-12);
+    fw_verdict_rung_out(&two, 1, 1e8, c);
+    assert_relative(c[0].range, 0.2e8 * exp(-0.01), 1e-12);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(miner_of_one_amplitude),
         cmocka_unit_test(utilisation_is_amplitude_over_allowable),
         cmocka_unit_test(utilisation_of_random_cycles),
         cmocka_unit_test(a_history_of_two_roots),
+        cmocka_unit_test(rings_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

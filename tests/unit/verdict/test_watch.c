@@ -104,7 +104,7 @@ static double damage(fw_arena *arena, const fw_verdict_strain_monitor *m) {
     static const fw_flexure_strain_life life = {
         .known = true, .amplitude_Pa = 110e6, .cycles = 1e7, .exponent = -0.1, .youngs_Pa = 169e9};
     fw_verdict_fatigue out;
-    assert_int_equal(fw_verdict_fatigue_of(arena, &life, m->root[0], 169e9, 1, &out), FW_OK);
+    assert_int_equal(fw_verdict_fatigue_of(arena, &life, m->root[0], 0, 169e9, 1, NULL, &out), FW_OK);
     assert_true(out.damage > 0);
     return out.damage;
 }
