@@ -572,3 +572,19 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
         (*arm)[n + (size_t)j] = (*arm)[n + (size_t)load[j].first];
     return FW_OK;
 }
+
+fw_status fw_verdict_shared_arms(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                                 fw_verdict_arm **to) {
+    const size_t n = 2 * (size_t)m->nhinge;
+    fw_geometry_vec2 pin, root;
+    *to = NULL;
+    if (!arm) return FW_OK;
+    FW_NEED(*to = fw_arena_grow(arena, arm, n, n, sizeof *arm));
+    for (int b = 0; b < m->nbody; b++) {
+        int ends = 0, last = 0;
+        for (int k = 0; k < 2 * m->nhinge; k++)
+            if (fw_mechanism_hinge_end(m, b, k, &pin, &root)) ends++, last = k;
+        if (ends == 1) (*to)[last].known = false;
+    }
+    return FW_OK;
+}

@@ -43,7 +43,7 @@ static void in_the_tree(fw_verdict_tree *t) {
         t->f[on][2] += t->f[i][2] + r.x * t->f[i][1] - r.y * t->f[i][0];
     }
     for (int i = 0; i < t->n; i++) {
-        const fw_verdict_part *p = &t->at[i];
+        const fw_verdict_tree_part *p = &t->at[i];
         double *u = t->u[i];
         u[0] = u[1] = u[2] = 0;
         if (p->before == FW_NONE) continue;
@@ -58,7 +58,7 @@ static void in_the_tree(fw_verdict_tree *t) {
     }
 }
 
-static void across_gives(const fw_verdict_tree *t, const fw_verdict_part *p, double *bends,
+static void across_gives(const fw_verdict_tree *t, const fw_verdict_tree_part *p, double *bends,
                          double *twists) {
     const double h = t->depth_m, w = p->wide_m, cube = w * h * h * h;
     *bends = 12 * (p->long_m + p->root_m[0]) / (t->youngs_Pa * cube);
@@ -77,7 +77,7 @@ static void across_the_tree(fw_verdict_tree *t) {
         t->f[on][2] += t->f[i][2] + r.y * t->f[i][0];
     }
     for (int i = 0; i < t->n; i++) {
-        const fw_verdict_part *p = &t->at[i];
+        const fw_verdict_tree_part *p = &t->at[i];
         double *u = t->u[i];
         u[0] = u[1] = u[2] = 0;
         if (p->before == FW_NONE) continue;
@@ -150,7 +150,7 @@ static double softest_tip(fw_verdict_tree *t) {
         double sum = 0;
         if (t->at[k].bears > 0) continue; /* it is no end */
         for (int i = k; t->at[i].before != FW_NONE; i = t->at[i].before) {
-            const fw_verdict_part *p = &t->at[i];
+            const fw_verdict_tree_part *p = &t->at[i];
             const fw_geometry_vec2 r = vec_sub(t->at[k].at, p->at), n = vec_left(p->along);
             double bends, twists;
             across_gives(t, p, &bends, &twists);
@@ -207,7 +207,7 @@ static bool stays_open(fw_verdict_tree *t, double s, double gap_m) {
     for (int turn = 0; turn < TIMES; turn++) {
         double moved = 0;
         for (int i = 0; i < t->n; i++) {
-            const fw_verdict_part *p = &t->at[i];
+            const fw_verdict_tree_part *p = &t->at[i];
             const double edges = fmax(gap_m, t->depth_m) / p->wide_m;
             t->f[i][0] = p->before == FW_NONE
                              ? 0
@@ -235,7 +235,7 @@ static bool stays_open(fw_verdict_tree *t, double s, double gap_m) {
 static double bears(fw_verdict_tree *t, double gap_m) {
     double low = 1, high = 1;
     for (int i = 0; i < t->n; i++) {
-        const fw_verdict_part *p = &t->at[i];
+        const fw_verdict_tree_part *p = &t->at[i];
         t->f[i][0] = p->before == FW_NONE
                          ? 0
                          : p->mass_m2 * (1 + fmax(gap_m, t->depth_m) / p->wide_m) / gap_m;
@@ -471,19 +471,6 @@ fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v
 
 /* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
 
-static fw_status leave_open(fw_verdict_variant_verdict *v, const char *scene, int number,
-                            const char *what) {
-    FW_NEED(what);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = FW_VERDICT_KEEP_HALF,
-                                                  .not_by_width = true,
-                                                  .text = what};
-    return FW_OK;
-}
-
 static fw_status say_bent(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
                           int number, const char *what, int body, double by_m) {
     char text[32];
@@ -494,7 +481,7 @@ static fw_status say_bent(fw_arena *arena, fw_verdict_variant_verdict *v, const 
         "beyond its hinges: make it wider or shorter",
         what, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
         fw_number_text(text, sizeof text, 1e6 * by_m, 3));
-    return leave_open(v, scene, number, what);
+    return fw_verdict_hangs_open(v, scene, number, what);
 }
 
 static fw_status opens(fw_arena *arena, int scene, double by, int body,
@@ -522,48 +509,6 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body,
         FW_TRY(say_bent(arena, v, name, 639, fw_verdict_requirement_text(arena, r), body, by));
     }
     return FW_OK;
-}
-
-/* ---- and swings slower: 1/omega^2 of the rigid bodies and of what hangs over add up at most (Weyl) ---- */
-
-static int slowest_hung(const fw_verdict_variant_verdict *v, double *s2) {
-    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
-    int body = FW_NONE;
-    *s2 = 0;
-    for (int i = 0; hung && i < v->mechanism->nbody; i++)
-        if (hung[i].in_plane_mode_s2 > *s2) *s2 = hung[i].in_plane_mode_s2, body = i;
-    return body;
-}
-
-double fw_verdict_hangs_lower(const fw_verdict_variant_verdict *v, double f_Hz) {
-    double s2;
-    slowest_hung(v, &s2);
-    return f_Hz > 0 ? f_Hz - f_Hz / sqrt(1 + s2 * pow(FW_TURN * f_Hz, 2)) : 0;
-}
-
-bool fw_verdict_hangs_alone(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
-    const fw_verdict_out_of_plane *o = v->out_of_plane;
-    double s2;
-    if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_INCONCLUSIVE || r->why) return false;
-    if (!(r->low < r->min) || r->high > r->max || slowest_hung(v, &s2) == FW_NONE) return false;
-    for (int k = 0; k < o->nmode; k++)
-        if (o->mode[k].f_Hz == r->value) return false; /* across the plane */
-    const double left = 1 - s2 * pow(FW_TURN * r->low, 2);
-    return !(left > 0) || r->low / sqrt(left) >= r->min;
-}
-
-fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
-                               const fw_verdict_requirement *r, const char *text) {
-    double s2;
-    const int body = slowest_hung(v, &s2);
-    char own[32];
-    FW_NEED(text = fw_arena_printf(
-                arena,
-                "%s: %s%s, which is rigid in the value, may swing in the plane from %s Hz on where "
-                "it reaches beyond its hinges: make it wider or shorter",
-                text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
-                fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
-    return leave_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
 }
 
 fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {

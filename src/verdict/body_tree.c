@@ -183,7 +183,7 @@ static int level_of(const fw_verdict_tree *t, int at) {
 static void gather(fw_verdict_tree *t, int first, int *room) {
     int n = 0, most = 0;
     const int own = t->n++, level = level_of(t, first);
-    t->at[own] = (fw_verdict_part){.level = level, .before = FW_NONE};
+    t->at[own] = (fw_verdict_tree_part){.level = level, .before = FW_NONE};
     t->part[first] = own, room[n++] = first;
     for (int i = 0; i < n; i++)
         for (int d = 0; d < 8; d++) {
@@ -205,7 +205,7 @@ static void gather(fw_verdict_tree *t, int first, int *room) {
 
 static void weigh(fw_verdict_tree *t, int at, int own, bool wide) {
     const double area = t->cell * t->cell * (double)t->full[at], all = t->at[own].area_m2 + area;
-    fw_verdict_part *p = &t->at[own];
+    fw_verdict_tree_part *p = &t->at[own];
     const fw_geometry_vec2 here = {t->box.x0 + (at % t->nx + 0.5) * t->cell,
                                    t->box.y0 + (at / t->nx + 0.5) * t->cell};
     p->mass_m2 += area, t->reached_m2 += area;
@@ -228,7 +228,8 @@ static void take_rest(fw_verdict_tree *t) {
     }
 }
 
-/* how long and wide parts are, and how they run */
+/* How long and wide parts are, and how they run. What spreads around what holds it by half a right angle or more is in what
+   the roots of flexures give in a wide base (flexure/), and bends no more. */
 static fw_status measure_parts(fw_verdict_tree *t) {
     int *next = fw_arena_array(t->arena, int, (size_t)t->n);
     const double step = 2 * t->cell, most = 1.12 * step;
@@ -242,15 +243,16 @@ static fw_status measure_parts(fw_verdict_tree *t) {
             next[on] = i;
     }
     for (int i = 0; i < t->nlist; i++) {
-        fw_verdict_part *p = &t->at[t->part[t->list[i]]];
+        fw_verdict_tree_part *p = &t->at[t->part[t->list[i]]];
         const fw_geometry_vec2 here = {t->box.x0 + (t->list[i] % t->nx + 0.5) * t->cell,
                                        t->box.y0 + (t->list[i] / t->nx + 0.5) * t->cell};
         p->far_m = fmax(p->far_m, vec_distance(here, p->at));
     }
     for (int i = 0; i < t->n; i++) {
-        fw_verdict_part *p = &t->at[i];
+        fw_verdict_tree_part *p = &t->at[i];
         if (p->before == FW_NONE) continue;
-        const fw_verdict_part *b = &t->at[p->before], *c = next[i] == FW_NONE ? p : &t->at[next[i]];
+        const fw_verdict_tree_part *b = &t->at[p->before],
+                                   *c = next[i] == FW_NONE ? p : &t->at[next[i]];
         const bool held = b->before == FW_NONE;
         const double before = held ? 0 : vec_distance(p->at, b->at),
                      after = vec_distance(p->at, c->at),
@@ -258,6 +260,10 @@ static fw_status measure_parts(fw_verdict_tree *t) {
                      sum = (before > 0.5 * step ? before : 0) + (after > 0.5 * step ? after : 0);
         p->long_m = count > 0 ? fmin(fmax(sum / count, step), most) : most;
         p->wide_m = fmax(t->left * (p->area_m2 / p->long_m - t->cell / SUBROWS), 1e-3 * t->cell);
+        if ((held || b->spreads) && p->wide_m - b->wide_m >= p->long_m) {
+            p->spreads = true, p->long_m = 0;
+            continue;
+        }
         const fw_geometry_vec2 along = vec_sub(c->at, held ? p->at : b->at);
         if (vec_length(along) > 0.5 * step && fmax(before, after) < 1.5 * most)
             p->along = vec_unit(along);
@@ -270,7 +276,7 @@ static fw_status measure_parts(fw_verdict_tree *t) {
 
 static fw_status make_parts(fw_verdict_tree *t) {
     const size_t cells = (size_t)t->nlist;
-    FW_NEED(t->at = fw_arena_array(t->arena, fw_verdict_part, cells + 1));
+    FW_NEED(t->at = fw_arena_array(t->arena, fw_verdict_tree_part, cells + 1));
     int *room = fw_arena_array(t->arena, int, cells + 1);
     FW_NEED(room);
     t->n = 0, t->reached_m2 = 0;
@@ -339,17 +345,15 @@ static fw_status find_held(fw_arena *arena, const fw_mechanism *m, const fw_layo
 
 /* all: with what is one way for all hinges */
 static void begin_held(fw_verdict_tree *t, const held *h, bool all) {
+    const bool meets = !all && h->n > 0 && h->shared < INT_MAX;
     for (int k = 0; k < h->n; k++) {
         const fw_verdict_arm *arm = h->arm[k];
-        const fw_geometry_vec2 meet = h->arm[0]->way[h->shared < arm->nway ? h->shared : 0];
+        const double near_m = 2.1 * vec_distance(arm->way[0], arm->way[arm->nway > 1]);
         for (int i = 0; i < arm->nway; i++) {
             begin_at(t, arm->way[i]);
             if (i > 0) begin_along(t, arm->way[i - 1], arm->way[i]);
-            /* others end where they come to that place */
-            if (!all && h->shared < INT_MAX &&
-                vec_distance(arm->way[i], meet) <
-                    2.1 * vec_distance(arm->way[0], arm->way[arm->nway > 1]) + 1e-12)
-                break;
+            /* it ends where all go one way */
+            if (meets && vec_distance(arm->way[i], h->arm[0]->way[h->shared]) <= near_m) break;
         }
     }
     for (int k = 0; k < h->nroot; k++)

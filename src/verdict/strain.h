@@ -101,13 +101,14 @@ void fw_verdict_arm_cut_at_edge(const fw_verdict_pierced *body, fw_verdict_arm *
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c);
 /* body_tree.c: a body beyond the ways between its hinges and its middle, as a tree of beams: a part hangs on the one before */
-typedef struct fw_verdict_part {
+typedef struct fw_verdict_tree_part {
     fw_geometry_vec2 at, along;       /* its middle; {0, 0}: it has no direction */
     double area_m2, mass_m2;          /* mass_m2: with what is too thin to bear anything */
     double far_m;                     /* what of it is farthest from its middle */
     double long_m, wide_m, root_m[2]; /* root_m: longer by that across the plane and in it */
     int level, before, bears;         /* before: FW_NONE is held; bears: how many hang on it */
-} fw_verdict_part;
+    bool spreads;                     /* around what holds it: in what a flexure's root gives */
+} fw_verdict_tree_part;
 typedef struct fw_verdict_tree {
     fw_arena *arena;
     const fw_mechanism_line *line;
@@ -121,7 +122,7 @@ typedef struct fw_verdict_tree {
     float *full;
     unsigned char *kind;
     int *step, *came, *part, *list;
-    fw_verdict_part *at;              /* (n) those after it hang on it */
+    fw_verdict_tree_part *at;         /* (n) those after it hang on it */
     double (*f)[3], (*u)[3], (*v)[3]; /* (n) */
     int farthest;                     /* the part that goes farthest in the plane */
 } fw_verdict_tree;
@@ -145,6 +146,9 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
                               fw_verdict_hung *hung);
 fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_verdict_arm *arm, fw_verdict_hung **hung); /* (nbody) */
+/* arms of bodies on several hinges: all of a body on one hinge hangs over */
+fw_status fw_verdict_shared_arms(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_verdict_arm *arm, fw_verdict_arm **shared);
 /* those of v, or computed; and the tension that a liquid below may have, N/m, of what hangs over with the body that it hangs
    on, which bears bodies_N_per_m; infinite: it bears far more */
 struct fw_verdict_variant_verdict;
@@ -152,13 +156,15 @@ fw_status fw_verdict_hung_of(fw_arena *arena, const struct fw_verdict_variant_ve
                              const fw_verdict_hung **hung);
 double fw_verdict_hung_pulled(const fw_verdict_hung *hung, double gap_m, double down_m,
                               double error, double bodies_N_per_m);
-/* by how much what hangs over may lower a frequency in the plane; is that all that speaks against one? */
+/* body_loads.c: by how much what hangs over may lower a frequency in the plane; is that all that speaks against one? */
 struct fw_verdict_requirement;
 double fw_verdict_hangs_lower(const struct fw_verdict_variant_verdict *verdict, double f_Hz);
 bool fw_verdict_hangs_alone(const struct fw_verdict_variant_verdict *verdict,
                             const struct fw_verdict_requirement *requirement);
 fw_status fw_verdict_hangs_say(fw_arena *arena, struct fw_verdict_variant_verdict *verdict,
                                const struct fw_verdict_requirement *requirement, const char *text);
+fw_status fw_verdict_hangs_open(struct fw_verdict_variant_verdict *verdict, const char *scene,
+                                int number, const char *what);
 /* "0.3 to 0.5", "0.3 at least" */
 const char *fw_verdict_range_words(fw_arena *arena, const double number[2]);
 /* plates on flexures with what bodies may give at most (verdict_out_of_plane.c) */

@@ -226,23 +226,6 @@ static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags
 
 /* ---- all of it ---- */
 
-/* arms of bodies on several hinges */
-static fw_status shared_arms(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
-                             fw_verdict_arm **to) {
-    const size_t n = 2 * (size_t)m->nhinge;
-    fw_geometry_vec2 pin, root;
-    *to = NULL;
-    if (!arm) return FW_OK;
-    FW_NEED(*to = fw_arena_grow(arena, arm, n, n, sizeof *arm));
-    for (int b = 0; b < m->nbody; b++) {
-        int ends = 0, last = 0;
-        for (int k = 0; k < 2 * m->nhinge; k++)
-            if (fw_mechanism_hinge_end(m, b, k, &pin, &root)) ends++, last = k;
-        if (ends == 1) (*to)[last].known = false;
-    }
-    return FW_OK;
-}
-
 static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
                          both *to) {
     fw_verdict_arm *shared;
@@ -255,7 +238,7 @@ static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdic
     to->soft.why = to->tips.why = to->rigid.why;
     if (to->rigid.why) return FW_OK;
     size_t n = (size_t)to->rigid.n;
-    FW_TRY(shared_arms(arena, m, arm, &shared));
+    FW_TRY(fw_verdict_shared_arms(arena, m, arm, &shared));
     FW_TRY(fw_verdict_soft_plates(arena, m, shared, &to->soft));
     FW_TRY(fw_verdict_soft_plates(arena, m, arm, &to->tips));
     FW_NEED(to->x = fw_arena_array(arena, double, n));

@@ -308,9 +308,11 @@ static fw_status prepare(device *d, const fw_verdict_arm *arm) {
     const fw_mechanism *m = d->m;
     const double stiff = m->variant->material.youngs.value * m->variant->thickness_m;
     double *give;
+    fw_verdict_arm *shared;
     FW_TRY(fw_mechanism_plates_new(d->arena, m, NULL, &d->rigid));
     if (d->rigid.why) return FW_OK;
-    FW_TRY(fw_verdict_soft_plates(d->arena, m, arm, &d->soft));
+    FW_TRY(fw_verdict_shared_arms(d->arena, m, arm, &shared));
+    FW_TRY(fw_verdict_soft_plates(d->arena, m, shared, &d->soft));
     FW_TRY(fw_mechanism_plates_across(d->arena, &d->rigid, &d->across[0]));
     FW_TRY(fw_mechanism_plates_across(d->arena, soft_of(d), &d->across[1]));
     FW_NEED(give = fw_arena_array(d->arena, double, 9 * (size_t)m->nhinge));
