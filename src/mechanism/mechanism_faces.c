@@ -47,28 +47,43 @@ static int crossings(const fw_geometry_contour *c, double y, double *x, int most
     return n;
 }
 
-/* rows of the piece, cut into cells; their areas add up to the piece's own */
+/* what of a piece lies in the columns of a row of cells, of one line of it: area and its moments */
+static void add_line(const double *x, int n, double x0, double cell, double y, int columns,
+                     double (*in)[3]) {
+    for (int k = 0; k + 1 < n; k += 2)
+        for (int i = 0; i < columns; i++) {
+            const double from = fmax(x[k], x0 + i * cell), to = fmin(x[k + 1], x0 + (i + 1) * cell);
+            if (!(to > from)) continue;
+            in[i][0] += to - from;
+            in[i][1] += 0.5 * (to - from) * (to + from);
+            in[i][2] += (to - from) * y;
+        }
+}
+
+/* The piece in cells, each by its area and middle, from lines that are near enough to find slender bars; areas add up to the
+   piece's own */
 static fw_status put_piece(fw_mechanism_faces *to, const fw_mechanism *m, int piece, double gap_m,
                            double more) {
-    enum { MOST = 256 };
+    enum { MOST = 256, LINES = 128 };
     const fw_layout_piece *p = &m->layout->piece[piece];
     const fw_geometry_box box = fw_geometry_contour_box(&p->contour);
     double wide = box.x1 - box.x0, high = box.y1 - box.y0, cell = fmax(wide, high) / CELLS, x[MOST];
-    int rows = (int)ceil(high / cell - 1e-9);
+    int rows = (int)ceil(high / cell - 1e-9), columns = (int)ceil(wide / cell - 1e-9);
     size_t first = to->count;
     double sum = 0, exact = fw_geometry_contour_area(&p->contour);
     if (!(exact > 0)) return FW_OK;
+    const int lines = LINES / rows;
     for (int j = 0; j < rows; j++) {
-        double y = box.y0 + (j + 0.5) * high / rows;
-        int n = crossings(&p->contour, y, x, MOST);
-        for (int k = 0; k + 1 < n; k += 2) {
-            int cells = (int)ceil((x[k + 1] - x[k]) / cell - 1e-9);
-            double dx = (x[k + 1] - x[k]) / (cells > 0 ? cells : 1);
-            for (int i = 0; i < cells; i++) {
-                fw_geometry_vec2 at = {x[k] + (i + 0.5) * dx, y};
-                sum += dx * high / rows;
-                FW_TRY(put_below(to, m, p->body, piece, gap_m, more, at, dx * high / rows));
-            }
+        double in[CELLS + 1][3] = {{0}};
+        for (int l = 0; l < lines; l++) {
+            const double y = box.y0 + (j + (l + 0.5) / lines) * high / rows;
+            add_line(x, crossings(&p->contour, y, x, MOST), box.x0, wide / columns, y, columns, in);
+        }
+        for (int i = 0; i < columns; i++) {
+            const double area = in[i][0] * high / (rows * lines);
+            sum += area;
+            FW_TRY(put_below(to, m, p->body, piece, gap_m, more,
+                             (fw_geometry_vec2){in[i][1] / in[i][0], in[i][2] / in[i][0]}, area));
         }
     }
     for (size_t i = first; i < to->count && sum > 0; i++)

@@ -6,7 +6,7 @@
 #include "probe/probe.h"
 #include "process/process.h"
 #include "statics/statics.h"
-#include "workspace/survey.h"
+#include "workspace/reach.h"
 #include <math.h>
 #include <string.h>
 

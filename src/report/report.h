@@ -21,7 +21,7 @@
 #include "recipe/recipe.h"
 #include "statics/statics.h"
 #include "verdict/verdict.h"
-#include "workspace/survey.h"
+#include "workspace/reach.h"
 
 typedef struct fw_report_flow { /* one process flow of the device */
     const fw_verdict_variant_verdict *variant;

@@ -270,130 +270,23 @@ double fw_verdict_arm_rims_bear(const fw_mechanism *m, int hinge, const fw_verdi
            fw_verdict_arm_allowed_N_per_m(m, hinge, arm);
 }
 
-/* ---- what hangs over ----
-   Arms are bodies between their hinges and their middle. What reaches farther, by up to S along a direction d, is a
-   cantilever there, and bends across the plane by its own weight: with w(s) the material of a straight cut square to d and
-   M(s) the integral of (p.d - s) over all of the body beyond it,
+/* ---- what is said of surfaces that a scene or a liquid closes (verdict_stiction.c judges them) ---- */
 
-     droop per acceleration = 12 sigma/(E h^3) integral of M (S - s)/w ds,   sigma = mass/area,
-
-   from the farthest hinge or the middle on, whichever is farther, in 24 directions: the most of them. A body on one hinge is
-   turned besides by what its own weight bends between the hinge and the middle, which arms have as a point mass: by the
-   same integral of M/w towards the hinge, times the farthest lever from there. In the plane each cut is as stiff as its
-   pieces side by side, the sum of w^3, and gives by shear, too: with A(s) the area beyond,
-
-     droop per acceleration = sigma/(E h) integral of 12 M (S - s)/w^3 + 3.2 A/w ds.
-
-   In: outlines of the layout, SI. Range: bodies that are thin against what hangs over; of hooks and of several bars side by
-   side that are not alike an estimate. Error: of a bar up to 4 % too much. Cost: 24 x 16 cuts through the outline.
-   Source: a beam's. Test: test_body_arms.c overhang, test_out_of_plane.py */
-
-enum { WAYS_OUT = 24, STATIONS = 16 };
-static const double between_ways =
-    1.035; /* a bar half way between two directions: cos^-4 of 7.5 degrees */
-static const double between_in_plane = 1.072; /* its cuts are wider by 1/cos: cos^-8 */
-
-static double material_of_cut(const fw_verdict_pierced *body, fw_geometry_vec2 at,
-                              fw_geometry_vec2 along, double *cubes) {
-    double wide = 0, far_m = HUGE_VAL;
-    const int n = crossings(body, at, along, &far_m);
-    *cubes = 0;
-    for (int k = 0; k + 1 < n; k += 2) {
-        const double w = body->room[k + 1] - body->room[k];
-        wide += w, *cubes += w * w * w;
-    }
-    return wide;
+void fw_verdict_pull_number(const fw_mechanism_drying *drying, fw_verdict_pull *to) {
+    bool pulled = drying->how == FW_DRIED_PULLED;
+    double most = drying->tension_high * drying->cos_high,
+           least = drying->tension_low * drying->cos_low;
+    to->number[0] = pulled && most > 0 ? to->tension_N_per_m[0] / most : HUGE_VAL;
+    to->number[1] = pulled && least > 0 ? to->tension_N_per_m[1] / least : HUGE_VAL;
 }
 
-/* of what lies from `from` to `to` along `along`, and all beyond: bend[0] is the integral of M/w, bend[1] that of M (to - s)/w,
-   bend[2] that of 12 M (to - s)/w^3 + 3.2 A/w, bend[3] the largest 6 M/w^2 in the plane, w^3 the sum of its pieces' cubes;
-   beyond: where the outline ends */
-static void bent_beyond(const fw_verdict_pierced *body, fw_geometry_vec2 along, double from,
-                        double to, double beyond, double bend[4]) {
-    const double least = 1e-3 * (beyond - from), step = (beyond - from) / STATIONS;
-    const double least_cubes = pow(least, 3);
-    double area = 0, moment = 0;
-    bend[0] = bend[1] = bend[2] = bend[3] = 0;
-    for (int i = STATIONS - 1; i >= 0; i--) {
-        const double s = from + (i + 0.5) * step;
-        double cubes;
-        const double wide = material_of_cut(body, vec_scale(s, along), along, &cubes);
-        const double here = moment + 0.5 * area * step + 0.125 * wide * step * step;
-        const double cut = area + 0.5 * wide * step;
-        moment += area * step + 0.5 * wide * step * step;
-        area += wide * step;
-        if (s > to || !(wide > 0)) continue;
-        bend[2] +=
-            (12 * here * (to - s) / fmax(cubes, least_cubes) + 3.2 * cut / fmax(wide, least)) *
-            step;
-        bend[3] = fmax(bend[3], 6 * here / pow(fmax(cubes, least_cubes), 2.0 / 3));
-        bend[0] += here / fmax(wide, least) * step;
-        bend[1] += here * (to - s) / fmax(wide, least) * step;
-    }
+const char *fw_verdict_range_words(fw_arena *arena, const double number[2]) {
+    char low[32], high[32];
+    fw_number_text(low, sizeof low, number[0], 3);
+    fw_number_text(high, sizeof high, number[1], 3);
+    return isfinite(number[1]) ? fw_arena_printf(arena, "%s to %s", low, high)
+                               : fw_arena_printf(arena, "%s at least", low);
 }
-
-static double farthest_along(const fw_verdict_pierced *body, fw_geometry_vec2 along) {
-    double far = -HUGE_VAL;
-    for (int i = 0; i < body->n; i++)
-        far = fmax(far, fmax(vec_dot(body->line[i].a, along), vec_dot(body->line[i].b, along)));
-    return far;
-}
-
-/* integral of what one hinge is turned by, times the farthest lever */
-static double turned_at(const fw_verdict_pierced *body, fw_geometry_vec2 root,
-                        fw_geometry_vec2 middle) {
-    const fw_geometry_vec2 off = vec_sub(root, middle);
-    double lever = 0, bend[4];
-    if (!(vec_length(off) > 0)) return 0;
-    const fw_geometry_vec2 along = vec_unit(off);
-    for (int i = 0; i < body->n; i++)
-        lever = fmax(lever, vec_distance(body->line[i].a, root));
-    bent_beyond(body, along, vec_dot(middle, along), vec_dot(root, along),
-                farthest_along(body, along), bend);
-    return bend[0] * lever;
-}
-
-fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                              int body, const fw_mechanism_line *line, int nline,
-                              fw_verdict_hung *hung) {
-    fw_verdict_pierced outline = {.line = line, .n = nline};
-    fw_geometry_vec2 *held;
-    int nheld = 1;
-    double most = 0, plane = 0, strained = 0;
-    *hung = (fw_verdict_hung){0};
-    FW_NEED(held = fw_arena_array(arena, fw_geometry_vec2, 2 * (size_t)m->nhinge + 1));
-    FW_NEED(outline.room = fw_arena_array(arena, double, (size_t)outline.n + 1));
-    FW_TRY(fw_verdict_pierced_boxes(arena, &outline));
-    held[0] = layout->body[body].centroid;
-    for (int k = 0; k < 2 * m->nhinge; k++) {
-        fw_geometry_vec2 pin;
-        if (fw_mechanism_hinge_end(m, body, k, &pin, &held[nheld])) nheld++;
-    }
-    for (int i = 0; i < WAYS_OUT && outline.n > 0; i++) {
-        const double angle = i * FW_TURN / WAYS_OUT,
-                     to = farthest_along(&outline, (fw_geometry_vec2){cos(angle), sin(angle)});
-        const fw_geometry_vec2 along = {cos(angle), sin(angle)};
-        double from = -HUGE_VAL, bend[4];
-        for (int k = 0; k < nheld; k++)
-            from = fmax(from, vec_dot(held[k], along));
-        if (!(to - from > m->variant->thickness_m)) continue; /* thick: it does not bend */
-        bent_beyond(&outline, along, from, to, to, bend);
-        most = fmax(most, between_ways * bend[1]);
-        plane = fmax(plane, between_in_plane * bend[2]);
-        strained = fmax(strained, between_ways * bend[3]);
-    }
-    if (nheld == 2) most += turned_at(&outline, held[1], held[0]);
-    const double area = m->shape[body].area_m2, h = m->variant->thickness_m;
-    const double rigid = m->variant->material.youngs.value * h * h * h;
-    if (!(area > 0) || !(rigid > 0)) return FW_OK;
-    const double kg_per_m2 = m->body[body].mass_kg / area;
-    hung->across_s2 = 12 * kg_per_m2 * most / rigid;
-    hung->in_plane_s2 = kg_per_m2 * plane / (rigid / (h * h));
-    hung->Pa_per_m_s2 = kg_per_m2 / h * strained;
-    return FW_OK;
-}
-
-/* ---- what is said of surfaces that a scene closes (verdict_stiction.c judges them) ---- */
 
 static const char *uN(char *to, size_t size, double force_N) {
     return fw_number_text(to, size, 1e6 * force_N, 3);

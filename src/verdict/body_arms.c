@@ -23,7 +23,7 @@ static const double fw_cells_across = 1;
 static const double fw_least_cell = 2e-6;
 
 typedef struct grid {
-    fw_arena *arena;
+    fw_arena *arena, *kept; /* kept: of what arms keep */
     fw_mechanism_line *line;
     int nline;
     fw_geometry_box box;
@@ -492,10 +492,18 @@ static fw_status pierced_of(const grid *g, const end *ends, int nhinge, fw_verdi
     return fw_verdict_pierced_boxes(g->arena, out);
 }
 
+static fw_status keep_way(const grid *g, fw_verdict_arm *to) {
+    FW_NEED(to->way = fw_arena_array(g->kept, fw_geometry_vec2, (size_t)g->nway));
+    for (int i = 0; i < g->nway; i++)
+        to->way[i] = place(g, g->way[i]);
+    to->nway = g->nway;
+    return FW_OK;
+}
+
 /* ends: of hinges (nhinge), then of loads, n in all */
-static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, const end *ends,
-                         int nhinge, int n, double hole_m) {
-    grid g = {.arena = scratch};
+static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *layout, int body,
+                         const end *ends, int nhinge, int n, double hole_m) {
+    grid g = {.arena = scratch, .kept = kept};
     fw_verdict_pierced pierced = {.hole_m = hole_m};
     FW_TRY(take_lines(layout, body, &g));
     if (g.nline == 0) return FW_OK;
@@ -524,6 +532,7 @@ static fw_status arms_of(fw_arena *scratch, const fw_layout *layout, int body, c
             find_way(&g, &q, begin, middle);
             const bool there = begins_at(&g, &around, ends[i].root, begin);
             if (g.nway > 0 && (there || i < nhinge)) follow(&g, &around, &pierced, ends[i].pin, to);
+            if (to->known && i < nhinge) FW_TRY(keep_way(&g, to));
             to->lost = !to->known && i >= nhinge;
             if (!to->known || !there || to->narrow_m < fw_cells_across * cell) all = false;
         }
@@ -555,11 +564,27 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
             if (load[j].body == b && load[j].first == j)
                 ends[found++] = (end){*arm + n + j, load[j].at, load[j].at};
         fw_status status = ends ? FW_OK : FW_NOMEM;
-        if (nhinge > 0) status = arms_of(scratch, layout, b, ends, nhinge, found, hole_m);
+        if (nhinge > 0) status = arms_of(scratch, arena, layout, b, ends, nhinge, found, hole_m);
         fw_arena_free(scratch);
         FW_TRY(status);
     }
     for (int j = 0; j < nload; j++)
         (*arm)[n + (size_t)j] = (*arm)[n + (size_t)load[j].first];
+    return FW_OK;
+}
+
+fw_status fw_verdict_shared_arms(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                                 fw_verdict_arm **to) {
+    const size_t n = 2 * (size_t)m->nhinge;
+    fw_geometry_vec2 pin, root;
+    *to = NULL;
+    if (!arm) return FW_OK;
+    FW_NEED(*to = fw_arena_grow(arena, arm, n, n, sizeof *arm));
+    for (int b = 0; b < m->nbody; b++) {
+        int ends = 0, last = 0;
+        for (int k = 0; k < 2 * m->nhinge; k++)
+            if (fw_mechanism_hinge_end(m, b, k, &pin, &root)) ends++, last = k;
+        if (ends == 1) (*to)[last].known = false;
+    }
     return FW_OK;
 }

@@ -376,134 +376,37 @@ double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dyna
     return nearer;
 }
 
-/* ---- what hangs over bends in the plane ----
-   Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
-   displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
-   turns by for F = E h, r how far the body reaches beyond; twice that, since a sudden load does twice what it does at rest.
-   What shaking and weight do to what reaches farther: arm_rims.c. Test: test_out_of_plane.py InThePlane */
+/* ---- what hangs over swings slower (body_hung.c): 1/omega^2 of the rigid bodies and of what hangs over add up at most (Weyl) ---- */
 
-static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
-                                const fw_mechanism_load_end *end, double *beyond_m) {
-    const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
-                           off = vec_sub(end->at, middle);
-    fw_mechanism_line *line;
-    int n;
-    *beyond_m = 0;
-    if (!(vec_length(off) > 0)) return FW_OK;
-    const fw_geometry_vec2 along = vec_unit(off);
-    FW_TRY(fw_mechanism_body_lines(arena, m->layout, end->body, &line, &n));
-    for (int i = 0; i < n; i++)
-        *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
-    return FW_OK;
-}
-
-/* what all loads bend that act on the same side of a body's middle as this one */
-static double on_one_side(const fw_mechanism *m, const fw_mechanism_load_end *end, const double *by,
-                          int n, int k) {
-    const fw_geometry_vec2 middle = {m->drawn[end[k].body].x_m, m->drawn[end[k].body].y_m},
-                           off = vec_sub(end[k].at, middle);
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        if (end[i].body == end[k].body && vec_dot(off, vec_sub(end[i].at, middle)) >= 0)
-            sum += by[i];
-    return sum;
-}
-
-/* to (nbody): how far each bends at most in a scene */
-fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                    double *to) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
-    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
-    const fw_device_scene *s = &m->device->scene[scene];
-    const double sudden = 2, hardly_m = 1e-9;
-    double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
-    fw_mechanism_load_end *end;
-    int n;
-    for (int i = 0; i < m->nbody; i++)
-        to[i] = 0;
-    if (!b || !b->arm || !b->rest_N) return FW_OK;
-    for (int i = 0; i < s->nbase; i++)
-        shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
-                  fw_quantity_law_largest(s->base[i].law, s->duration_s);
-    for (int i = 0; i < m->nbody; i++)
-        to[i] = shaken > 0 ? v->out_of_plane->hung[i].in_plane_s2 * shaken : 0;
-    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
-    FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
-    FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
-        const double *g = arm->give;
-        if (end[k].scene != scene || !arm->known) continue;
-        const double load_N =
-            isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
-        const double unit = sudden * load_N / b->stiff_N, goes = fw_verdict_arm_goes(arm);
-        if (!(unit * goes > hardly_m)) continue;
-        FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
-        by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
-    }
-    for (int k = 0; k < n; k++)
-        most[end[k].body] = fmax(most[end[k].body], on_one_side(m, end, by, n, k));
-    for (int i = 0; i < m->nbody; i++)
-        to[i] += most[i];
-    return FW_OK;
-}
-
-/* ---- and bears what shakes it ---- */
-
-/* Where a mode swings that what hangs over may lower, its own ways are left (resonance.c). Here is what it bears as it is
-   shaken itself: its own mode lies between these times 1/sqrt(droop per acceleration), from a load at its end to one all along. */
-static double shaken_by(const fw_device_scene *s, const fw_verdict_hung *hung) {
-    const double lowest = 0.95, highest = 1.4, root = sqrt(hung->in_plane_s2);
-    double most = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
-    for (int i = 0; i < s->nbase && root > 0; i++) {
-        const double size = hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2);
-        if (size > 0)
-            most += size * fw_quantity_law_answer(s->base[i].law, s->duration_s, lowest / root,
-                                                  highest / root);
-    }
-    return most;
-}
-
-fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_device_scene *s = &m->device->scene[scene];
-    const double corners = 3;
-    const fw_flexure_limit *limit =
-        m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
-    double worst = 1;
+static int slowest_hung(const fw_verdict_variant_verdict *v, double *s2) {
+    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
     int body = FW_NONE;
-    for (int i = 0; limit && v->motion[scene] && i < m->nbody; i++) {
-        const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
-        const double share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
-                             (limit->allowable_Pa / m->device->safety_factor);
-        if (share > worst) worst = share, body = i;
-    }
-    if (body == FW_NONE) return FW_OK;
-    char high[32];
-    const char *text = fw_arena_printf(
-        arena,
-        "in %s%s %s%s is not known to bear its own weight as it is shaken, where it reaches beyond "
-        "its hinges and "
-        "its middle: at most %s %% of what is allowed, corners counted three times; make it wider "
-        "or shorter there",
-        FW_NAMED("scene", s->name), FW_NAMED("body", fw_text_name(m->body[body].id)),
-        isfinite(worst) ? fw_number_text(high, sizeof high, 100 * worst, 3) : "any number of");
-    FW_NEED(text);
-    return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
+    *s2 = 0;
+    for (int i = 0; hung && i < v->mechanism->nbody; i++)
+        if (hung[i].in_plane_mode_s2 > *s2) *s2 = hung[i].in_plane_mode_s2, body = i;
+    return body;
 }
 
-/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
+double fw_verdict_hangs_lower(const fw_verdict_variant_verdict *v, double f_Hz) {
+    double s2;
+    slowest_hung(v, &s2);
+    return f_Hz > 0 ? f_Hz - f_Hz / sqrt(1 + s2 * pow(FW_TURN * f_Hz, 2)) : 0;
+}
 
-static fw_status leave_open(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
-                            int number, const char *what, int body, double by, const char *unit) {
-    char text[32];
-    FW_NEED(what = fw_arena_printf(
-                arena,
-                "%s, and %s%s, which is rigid there, may bend in the plane by up to %s %s where "
-                "it reaches beyond its hinges: make it wider or shorter",
-                what, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
-                fw_number_text(text, sizeof text, by, 3), unit));
+bool fw_verdict_hangs_alone(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    double s2;
+    if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_INCONCLUSIVE || r->why) return false;
+    if (!(r->low < r->min) || r->high > r->max || slowest_hung(v, &s2) == FW_NONE) return false;
+    for (int k = 0; k < o->nmode; k++)
+        if (o->mode[k].f_Hz == r->value) return false; /* across the plane */
+    const double left = 1 - s2 * pow(FW_TURN * r->low, 2);
+    return !(left > 0) || r->low / sqrt(left) >= r->min;
+}
+
+fw_status fw_verdict_hangs_open(fw_verdict_variant_verdict *v, const char *scene, int number,
+                                const char *what) {
+    FW_NEED(what);
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
                                                   .flow = v->mechanism->variant->flow,
                                                   .number = number,
@@ -514,65 +417,16 @@ static fw_status leave_open(fw_arena *arena, fw_verdict_variant_verdict *v, cons
     return FW_OK;
 }
 
-static fw_status opens(fw_arena *arena, int scene, double by, int body,
-                       fw_verdict_variant_verdict *v) {
-    const char *name = v->mechanism->device->scene[scene].name, *what;
-    for (int k = 0; k < v->nclearance; k++) {
-        fw_verdict_clearance *c = &v->clearance[k];
-        if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
-        if (c->low_m - by > c->required_m) continue;
-        c->decision = FW_INCONCLUSIVE;
-        what = c->required_m > 0 ? "what is asked for between parts is only just kept"
-                                 : "parts only just do not meet";
-        FW_TRY(leave_open(arena, v, name, 638, what, body, 1e6 * by, "um"));
-    }
-    for (int k = 0; k < v->nrequirement; k++) {
-        fw_verdict_requirement *r = &v->requirement[k];
-        const bool moves = fw_words_hold("displacement gap distance opening", " ", r->kind);
-        if (r->scene_index != scene || r->decision != FW_ACCEPT || !moves) continue;
-        if (!(r->low - by < r->min) && !(r->high + by > r->max)) continue;
-        r->decision = FW_INCONCLUSIVE;
-        FW_NEED(what = fw_verdict_requirement_text(arena, r));
-        FW_TRY(leave_open(arena, v, name, 639, what, body, 1e6 * by, "um"));
-    }
-    return FW_OK;
-}
-
-/* 1/omega^2 of the rigid bodies and of what hangs over add up at most (Dunkerley) */
-static fw_status slower(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_verdict_hung *hung = v->out_of_plane->hung;
-    const char *what;
-    int body = 0;
-    for (int i = 1; i < v->mechanism->nbody; i++)
-        if (hung[i].in_plane_s2 > hung[body].in_plane_s2) body = i;
-    for (int k = 0; k < v->nrequirement && v->mechanism->nbody > 0; k++) {
-        fw_verdict_requirement *r = &v->requirement[k];
-        if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_ACCEPT) continue;
-        const double low = r->low / sqrt(1 + hung[body].in_plane_s2 * pow(FW_TURN * r->low, 2));
-        if (!(low < r->min)) continue;
-        r->decision = FW_INCONCLUSIVE;
-        FW_NEED(what = fw_verdict_requirement_text(arena, r));
-        FW_TRY(leave_open(arena, v, r->scene, 640, what, body, 100 * (1 - low / r->low), "%"));
-    }
-    return FW_OK;
-}
-
-fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    double *to = fw_arena_array(arena, double, (size_t)m->nbody);
-    FW_NEED(to);
-    if (!v->out_of_plane || !v->out_of_plane->hung) return FW_OK;
-    for (int i = 0; i < m->device->nscene; i++) {
-        FW_TRY(fw_verdict_shaken_bears(arena, v, i));
-        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, to));
-        int body = 0;
-        double by = 0, other = 0;
-        for (int b = 0; b < m->nbody; b++)
-            if (to[b] > by)
-                other = by, by = to[b], body = b;
-            else
-                other = fmax(other, to[b]);
-        if (by + other > 0) FW_TRY(opens(arena, i, by + other, body, v));
-    }
-    return slower(arena, v);
+fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
+                               const fw_verdict_requirement *r, const char *text) {
+    double s2;
+    const int body = slowest_hung(v, &s2);
+    char own[32];
+    FW_NEED(text = fw_arena_printf(
+                arena,
+                "%s: %s%s, which is rigid in the value, may swing in the plane from %s Hz on where "
+                "it reaches beyond its hinges: make it wider or shorter",
+                text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
+                fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
+    return fw_verdict_hangs_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
 }

@@ -365,9 +365,9 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
     shakings by;
     FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, &by, to));
     double hangs_s2 =
-        0; /* 1/omega^2 of rigid bodies and of what hangs over add up at most (Dunkerley) */
+        0; /* 1/omega^2 of rigid bodies and of what hangs over add up at most (Weyl) */
     for (int i = 0; v->out_of_plane && v->out_of_plane->hung && i < m->nbody; i++)
-        hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_s2);
+        hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_mode_s2);
     for (int k = 0; k < to->n; k++)
         to->mode[k].low /= sqrt(1 + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
     FW_TRY(add_answers(arena, m, &by, to, false, to->factor, &to->late));

@@ -43,6 +43,8 @@ typedef struct fw_verdict_arm {
        multiplied to be stress times thickness of what the cut leaves; and where they are largest */
     double rim_m2, rim_x_m, rim_y_m, rim_m, rim_rest_m, rim_rest_m2;
     fw_geometry_vec2 rim;
+    fw_geometry_vec2 *way; /* (nway) of a hinge: cells from its root to the middle */
+    int nway;
 } fw_verdict_arm;
 
 /* body_loads.c: how large load `at` of those (n) becomes: of one that follows from the motion what hinges put on the body
@@ -98,14 +100,73 @@ void fw_verdict_arm_cut_at_edge(const fw_verdict_pierced *body, fw_verdict_arm *
    above: of torsion 1/J <= 3/0.42 (1/(w h^3) + 1/(h w^3)) */
 void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, double poisson,
                                  double thickness_m, double *c);
-/* arm_rims.c: what a body, of these lines, does beyond its hinges and its middle under its own weight, per acceleration: it
-   bends across the plane and in it, m per m/s2, and is strained in the plane, as a bar without corners */
+/* body_tree.c: a body beyond the ways between its hinges and its middle, as a tree of beams: a part hangs on the one before */
+typedef struct fw_verdict_tree_part {
+    fw_geometry_vec2 at, along;       /* its middle; {0, 0}: it has no direction */
+    double area_m2, mass_m2;          /* mass_m2: with what is too thin to bear anything */
+    double far_m;                     /* what of it is farthest from its middle */
+    double long_m, wide_m, root_m[2]; /* root_m: longer by that across the plane and in it */
+    int level, before, bears;         /* before: FW_NONE is held; bears: how many hang on it */
+    bool spreads;                     /* around what holds it: in what a flexure's root gives */
+} fw_verdict_tree_part;
+typedef struct fw_verdict_tree {
+    fw_arena *arena;
+    const fw_mechanism_line *line;
+    bool *hole; /* (nline) lines of release holes */
+    struct fw_verdict_held *held;
+    fw_geometry_box box;
+    int nline, nx, ny, nlist, n, nhinge;
+    double cell, left; /* left: what release holes leave of a width */
+    double whole_m2, reached_m2;
+    double depth_m, youngs_Pa, shear_Pa;
+    float *full;
+    unsigned char *kind;
+    int *step, *came, *part, *list;
+    fw_verdict_tree_part *at;         /* (n) those after it hang on it */
+    double (*f)[3], (*u)[3], (*v)[3]; /* (n) */
+    int farthest;                     /* the part that goes farthest in the plane */
+} fw_verdict_tree;
+/* of a body; where nothing of it is drawn nline is 0 */
+fw_status fw_verdict_tree_new(fw_arena *arena, const fw_mechanism *mechanism,
+                              const fw_layout *layout, int body, const fw_verdict_arm *arm,
+                              fw_verdict_tree *tree);
+fw_status fw_verdict_tree_lay(fw_verdict_tree *tree, fw_geometry_box box, double cell_m);
+/* its parts. whole_ways: ways of hinges hold it up to the middle, where they are one way, too */
+fw_status fw_verdict_tree_grow(fw_verdict_tree *tree, bool whole_ways);
+/* body_hung.c: what a body does beyond the ways between its hinges and its middle under its own weight, per acceleration: how
+   far it goes across the plane and in it, m per m/s2; its slowest modes there, 1/omega^2; what it is strained by in the plane,
+   as a bar without corners; the s = 2 gamma cos(theta) of a liquid below that it bears, over the gap there; and what its softest
+   end gives across the plane */
 typedef struct fw_verdict_hung {
-    double across_s2, in_plane_s2, Pa_per_m_s2;
+    double across_s2, in_plane_s2, across_mode_s2, in_plane_mode_s2, Pa_per_m_s2, bears_N_per_m,
+        tip_m_per_N;
 } fw_verdict_hung;
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
-                              const fw_layout *layout, int body, const fw_mechanism_line *line,
-                              int nline, fw_verdict_hung *hung);
+                              const fw_layout *layout, int body, const fw_verdict_arm *arm,
+                              fw_verdict_hung *hung);
+fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_verdict_arm *arm, fw_verdict_hung **hung); /* (nbody) */
+/* arms of bodies on several hinges: all of a body on one hinge hangs over */
+fw_status fw_verdict_shared_arms(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_verdict_arm *arm, fw_verdict_arm **shared);
+/* those of v, or computed; and the tension that a liquid below may have, N/m, of what hangs over with the body that it hangs
+   on, which bears bodies_N_per_m; infinite: it bears far more */
+struct fw_verdict_variant_verdict;
+fw_status fw_verdict_hung_of(fw_arena *arena, const struct fw_verdict_variant_verdict *verdict,
+                             const fw_verdict_hung **hung);
+double fw_verdict_hung_pulled(const fw_verdict_hung *hung, double gap_m, double down_m,
+                              double error, double bodies_N_per_m);
+/* body_loads.c: by how much what hangs over may lower a frequency in the plane; is that all that speaks against one? */
+struct fw_verdict_requirement;
+double fw_verdict_hangs_lower(const struct fw_verdict_variant_verdict *verdict, double f_Hz);
+bool fw_verdict_hangs_alone(const struct fw_verdict_variant_verdict *verdict,
+                            const struct fw_verdict_requirement *requirement);
+fw_status fw_verdict_hangs_say(fw_arena *arena, struct fw_verdict_variant_verdict *verdict,
+                               const struct fw_verdict_requirement *requirement, const char *text);
+fw_status fw_verdict_hangs_open(struct fw_verdict_variant_verdict *verdict, const char *scene,
+                                int number, const char *what);
+/* "0.3 to 0.5", "0.3 at least" */
+const char *fw_verdict_range_words(fw_arena *arena, const double number[2]);
 /* plates on flexures with what bodies may give at most (verdict_out_of_plane.c) */
 struct fw_mechanism_plates;
 fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,

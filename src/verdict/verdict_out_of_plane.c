@@ -15,10 +15,12 @@ static const double fw_much =
     0.01; /* of the layer: electrodes that are lifted so far pull less by about as much */
 
 typedef struct fw_verdict_plates { /* rigid bodies; bodies that give as much as they may */
-    fw_mechanism_plates rigid, soft;
+    /* tips: by forces. soft: by weight and in modes, where all of a body on one hinge is in what hangs over */
+    fw_mechanism_plates rigid, soft, tips;
     double *x, *f, *ring;
     double
-        hangs; /* what bodies hang over and bend by their own weight, the most of any, m per m/s2 */
+        hangs, /* what bodies hang over and bend by their own weight, the most of any, m per m/s2 */
+        hangs_mode;        /* and 1/omega^2 of the slowest mode of that */
     fw_verdict_hung *hung; /* (nbody) */
 } both;
 
@@ -32,7 +34,7 @@ bool fw_verdict_out_of_plane_asked(const fw_mechanism *m) {
             return true;
     for (int i = 0; i < d->nrequirement; i++) {
         const fw_device_probe *p = &d->probe[d->requirement[i].probe];
-        if (p->row == FW_PROBE_IS_frequency && p->plane != FW_PLANE_IN) return true;
+        if (p->row == FW_PROBE_IS_frequency) return true; /* in the plane by what hangs over */
     }
     return false;
 }
@@ -47,8 +49,8 @@ static fw_status put_modes(fw_arena *arena, const both *is, fw_verdict_out_of_pl
         fw_verdict_plate_mode *mode = &out->mode[k];
         double f = p->f_Hz[k], soft = is->soft.why ? f : is->soft.f_Hz[k], error = 0.5 * p->error;
         mode->f_Hz = f;
-        /* Dunkerley: 1/omega^2 of both add up, and of what hangs over it is at most its droop per acceleration */
-        soft = fmin(f, soft) / sqrt(1 + is->hangs * pow(2 * FW_PI * fmin(f, soft), 2));
+        /* 1/omega^2 of both add up at most (Weyl) */
+        soft = fmin(f, soft) / sqrt(1 + is->hangs_mode * pow(2 * FW_PI * fmin(f, soft), 2));
         mode->low_Hz = soft * (1 - error), mode->high_Hz = f * (1 + error);
         int b = fw_mechanism_plates_mover(p, k, &mode->tilts);
         mode->body = fw_text_name(p->mechanism->body[b].id);
@@ -105,7 +107,8 @@ static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_de
    times as far as slowly, where it is as slow itself. down, up: m */
 static fw_status hang_over(fw_arena *arena, const both *is, const fw_mechanism_plates *p,
                            const fw_device_scene *s, double left, double *down, double *up) {
-    const double omega = 1 / sqrt(is->hangs), at_most = 0.75;
+    const double omega = 1 / sqrt(fmax(is->hangs, is->hangs_mode)), at_most = 0.75,
+                 fastest = fmax(1.3 / sqrt(is->hangs), 1 / sqrt(is->hangs_mode));
     const fw_geometry_vec2 origin = {0, 0};
     double rings = 0, *one;
     *down = is->hangs * fmax(0, -s->gz_m_per_s2), *up = is->hangs * fmax(0, s->gz_m_per_s2);
@@ -113,7 +116,7 @@ static fw_status hang_over(fw_arena *arena, const both *is, const fw_mechanism_p
     FW_NEED(one = fw_arena_array(arena, double, 2 * (size_t)p->n));
     for (int i = 0; i < s->nbase; i++) /* a cantilever of even width has 1.24 omega */
         rings += fabs(s->base[i].az_m_per_s2) * is->hangs *
-                 fw_quantity_law_answer(s->base[i].law, s->duration_s, omega, 1.3 * omega);
+                 fw_quantity_law_answer(s->base[i].law, s->duration_s, omega, fastest);
     for (int k = 0; k < p->n; k++) {
         one[k] = is->ring[p->n + k];
         if (!(one[k] > 0)) continue;
@@ -199,7 +202,7 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
 static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags *diags,
                               fw_verdict_variant_verdict *v, fw_verdict_across *to) {
     const fw_mechanism *m = v->mechanism;
-    const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
+    const fw_mechanism_plates *p = is->tips.why ? &is->rigid : &is->tips;
     const fw_geometry_vec2 origin = {0, 0};
     memset(is->f, 0, (size_t)p->n * sizeof *is->f);
     const fw_device_comb *first = fw_effects_levitation_lift(m, s, is->f);
@@ -225,21 +228,19 @@ static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags
 
 static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
                          both *to) {
-    FW_NEED(to->hung = fw_arena_array(arena, fw_verdict_hung, (size_t)m->nbody));
+    fw_verdict_arm *shared;
+    FW_TRY(fw_verdict_overhangs(arena, m, arm, &to->hung));
     for (int b = 0; b < m->nbody; b++) {
-        fw_mark mark = fw_arena_mark(arena);
-        fw_mechanism_line *line;
-        int nline;
-        FW_TRY(fw_mechanism_body_lines(arena, m->layout, b, &line, &nline));
-        FW_TRY(fw_verdict_overhang(arena, m, m->layout, b, line, nline, &to->hung[b]));
-        fw_arena_rewind(arena, mark);
         to->hangs = fmax(to->hangs, to->hung[b].across_s2);
+        to->hangs_mode = fmax(to->hangs_mode, to->hung[b].across_mode_s2);
     }
     FW_TRY(fw_mechanism_plates_new(arena, m, NULL, &to->rigid));
-    to->soft.why = to->rigid.why;
+    to->soft.why = to->tips.why = to->rigid.why;
     if (to->rigid.why) return FW_OK;
     size_t n = (size_t)to->rigid.n;
-    FW_TRY(fw_verdict_soft_plates(arena, m, arm, &to->soft));
+    FW_TRY(fw_verdict_shared_arms(arena, m, arm, &shared));
+    FW_TRY(fw_verdict_soft_plates(arena, m, shared, &to->soft));
+    FW_TRY(fw_verdict_soft_plates(arena, m, arm, &to->tips));
     FW_NEED(to->x = fw_arena_array(arena, double, n));
     FW_NEED(to->f = fw_arena_array(arena, double, 2 * n));
     FW_NEED(to->ring = fw_arena_array(arena, double, 2 * n));
@@ -453,7 +454,7 @@ static fw_status required_factor(fw_arena *arena, const both *is,
                 forces[k] = m->hinge[k / 2].pin < FW_SIX
                                 ? 1.1 * force_N[12 * c + 2 * m->hinge[k / 2].pin + k % 2]
                                 : 0;
-            FW_TRY(fw_mechanism_plates_buckling(arena, is->soft.why ? &is->rigid : &is->soft,
+            FW_TRY(fw_mechanism_plates_buckling(arena, is->tips.why ? &is->rigid : &is->tips,
                                                 &pressed, &tips, &hinge));
             *factor = fmin(*factor, tips);
             pressed.enough = fmin(pressed.enough, *factor); /* of the others: do they tip before? */
@@ -586,7 +587,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
         if (tips && is->rigid.n > 0 && fw_verdict_stands_still(v, i))
             to->tips = HUGE_VAL; /* what forces are left are round-off */
         else if (tips && is->rigid.n > 0)
-            FW_TRY(fw_verdict_across_tipping(arena, is->soft.why ? &is->rigid : &is->soft, s,
+            FW_TRY(fw_verdict_across_tipping(arena, is->tips.why ? &is->rigid : &is->tips, s,
                                              is->rigid.error, v, to));
         if (out->why) continue;
         if (fw_mechanism_plates_asked(s)) FW_TRY(judge_sag(arena, is, s, v, to));

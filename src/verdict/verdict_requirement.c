@@ -3,13 +3,12 @@
 
      x -+ (n + (l + s) |x - o|), of gaps with M for |x - o|
 
-   n: numbers (two runs, the search between instants, effects left out), l: what the next model of
-   the hinges changes of this probe at the motion's largest hinge angle, s: stiffness of a flexure
-   against solids, o: its value as drawn, M: how far the outlines of a gap have been moved against
-   each other. Where l is not known, that of the largest strain, or what the reference cases give,
-   stands for both. A band within the bounds accepts, one wholly beyond a bound rejects. A settling
-   time has the ends that it has with a band b narrower and wider by n + (l + s) b.
-   Theory: docs/theory/probes.md. Test: test_probe.py. */
+   n: numbers (two runs, the search between instants, effects left out), l: what the next model of the hinges changes of this
+   probe at the motion's largest hinge angle, s: stiffness of a flexure against solids, o: its value as drawn, M: how far the
+   outlines of a gap have been moved against each other. Where l is not known, that of the largest strain, or what the
+   reference cases give, stands for both. A band within the bounds accepts, one wholly beyond a bound rejects. A settling
+   time has the ends that it has with a band b narrower and wider by n + (l + s) b. What hangs over a body widens bands
+   besides (body_hung.c). Theory: docs/theory/probes.md. Test: test_probe.py. */
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -121,17 +120,15 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, 
 
 /* ---- from a value with its band to a decision ---- */
 
-/* Share that is used of what a min allows, both counted from one reference: what is asked for over what
-   there is, or what is lost over what may be lost; 1 at the bound. NaN: the bound is the reference, and
-   there is nothing to measure by */
+/* Share that is used of what a min allows, both counted from one reference: what is asked for over what there is, or what
+   is lost over what may be lost; 1 at the bound. NaN: the bound is the reference, and there is nothing to measure by */
 static double share_of(double bound, double value) {
     if (bound > 0) return fmin(value > 0 ? bound / value : fw_beyond, fw_beyond);
     if (bound < 0) return fmin(fmax(-value, 0) / -bound, fw_beyond);
     return (double)NAN;
 }
 
-/* The larger share of both bounds. Of a bound above 0 the reference is 0, else the value as drawn. A max
-   is a min of the opposite. */
+/* The larger share of both bounds. Of a bound above 0 the reference is 0, else the value as drawn. A max is a min turned. */
 static void use(fw_verdict_requirement *r) {
     double u[3] = {(double)NAN, (double)NAN, (double)NAN};
     const double x[3] = {r->value, r->high, r->low}, y[3] = {r->value, r->low, r->high};
@@ -152,6 +149,13 @@ static void decide(fw_verdict_requirement *r) {
         r->decision = FW_INCONCLUSIVE;
     else
         r->decision = FW_ACCEPT;
+}
+
+void fw_verdict_requirement_widen(double down, double up, fw_verdict_requirement *r) {
+    r->low -= down, r->high += up;
+    if (r->size || (r->measure && isnan(r->origin))) r->low = fmax(0, r->low);
+    if (!r->measure) r->lasting += down / fabs(r->value);
+    decide(r);
 }
 
 /* a size is not below 0 */
@@ -322,8 +326,7 @@ static void judge_ended(fw_device_measure measure, fw_verdict_requirement *r) {
     r->why = scene_ended;
 }
 
-/* Another motion of the scene, with what is left of the band once what flexures are off by is out of it, and what bodies
-   give where they do in `other` */
+/* Another motion of the scene, with what is left of the band without what flexures are off by, and what bodies give in `other` */
 static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_dynamics_motion *motion,
                          const fw_dynamics_motion *other, const fw_probe_monitor *monitor,
                          const fw_probe_result *p, const fw_probe_result *now, bool gives,
@@ -505,6 +508,8 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
             decide(r);
             if (r->decision != FW_INCONCLUSIVE || left > hardly_soft || v->corner || !v->arm) break;
         }
+        if (p->asked->row == FW_PROBE_IS_frequency)
+            fw_verdict_requirement_widen(fw_verdict_hangs_lower(v, r->low), 0, r);
         if (isinf(model) || others.lost)
             FW_NEED(r->open = fw_verdict_small_open(arena, m, modes, &others));
     }
@@ -524,6 +529,7 @@ static fw_status add_reason(fw_arena *arena, const fw_mechanism *m, const fw_ver
     double used = r->utilisation_high > 0 ? r->utilisation_high : 2;
     const char *text = fw_verdict_requirement_text(arena, r);
     FW_NEED(text);
+    if (fw_verdict_hangs_alone(v, r)) return fw_verdict_hangs_say(arena, v, r, text);
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = r->scene ? r->scene : fw_verdict_at_rest,
                                                   .flow = r->flow,
                                                   .number = r->why ? 331 : 330,
@@ -540,9 +546,8 @@ static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_req
     return r->measure && (!v->motion[r->scene_index] || r->why == fw_verdict_unstable_there);
 }
 
-/* By what a mode that lies elsewhere may do more or less (resonance.c): of how far it goes to and fro. A final value may
-   be at any place of that within which phases run apart. A settling time goes with the logarithm of what swings:
-   it has no bound */
+/* By what a mode that lies elsewhere may do more or less (resonance.c): of how far it goes to and fro. A final value may be at
+   any place of that within which phases run apart. A settling time goes with the logarithm of what swings: it has no bound */
 void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
                                    fw_verdict_requirement *r) {
     const bool final = measure == FW_MEASURE_FINAL;

@@ -18,8 +18,9 @@ typedef struct device {
     fw_mechanism_plates rigid, soft;
     double *across[2], *beside, *firm; /* compliances: rigid, soft; in the plane, soft, rigid */
     bool held;                         /* in the plane */
-    double down_m, up_m;   /* what weight and stress do at rest across the plane, at most */
-    double *alone_N_per_m; /* (nbody) in the plane: what each bears as a rigid one, or more */
+    double down_m, up_m;         /* what weight and stress do at rest across the plane, at most */
+    double *alone_N_per_m;       /* (nbody) in the plane: what each bears as a rigid one, or more */
+    const fw_verdict_hung *hung; /* (nbody) */
 } device;
 
 /* of walls: a tension of which nothing is known any closer, 20 times that of water */
@@ -55,6 +56,19 @@ static void strips_below(const device *d, double gap_m, fw_verdict_pull *to) {
             fw_mechanism_strip_pull_in(h->bend_Nm2, h->length_m, w, gap_m, more) / (1 + h->error);
         keep_lower(to, 0.5 * s, m->pin[m->hinge[k].pin].id, NULL);
     }
+}
+
+static fw_status hung_below(const device *d, double low_m, fw_verdict_pull *to) {
+    const double bodies = to->tension_N_per_m[0];
+    for (int b = 0; b < d->m->nbody; b++) {
+        const double both =
+            fw_verdict_hung_pulled(&d->hung[b], low_m, d->down_m, d->rigid.error, bodies);
+        const char *part;
+        if (!(both < to->tension_N_per_m[0])) continue;
+        FW_NEED(part = fw_arena_printf(d->arena, "what hangs over of %s", body_name(d->m, b)));
+        keep_lower(to, both, part, NULL);
+    }
+    return FW_OK;
 }
 
 /* one state of rest: low gaps with what bodies give at most, high ones with rigid ones */
@@ -102,6 +116,7 @@ static fw_status pull_below(device *d, fw_verdict_pull *to) {
         FW_TRY(pull_at_rest(d, curvature, face, n, to, &body));
         last = curvature;
     }
+    FW_TRY(hung_below(d, fmax(below->low_m, 1e-9), to));
     to->tension_N_per_m[1] = fmax(to->tension_N_per_m[1], to->tension_N_per_m[0]);
     to->lowered_m = d->down_m;
     if (body != FW_GROUND)
@@ -256,7 +271,7 @@ static double corner_energy(const device *d, const double *c, int body, double g
             most = fmax(most, give);
         }
     }
-    return 0.5 * gap_m * gap_m / most;
+    return 0.5 * gap_m * gap_m / (most + d->hung[body].tip_m_per_N);
 }
 
 /* Peel numbers: the least of all bodies. Low: what the softest corner stores where it alone touches, over the largest
@@ -293,9 +308,11 @@ static fw_status prepare(device *d, const fw_verdict_arm *arm) {
     const fw_mechanism *m = d->m;
     const double stiff = m->variant->material.youngs.value * m->variant->thickness_m;
     double *give;
+    fw_verdict_arm *shared;
     FW_TRY(fw_mechanism_plates_new(d->arena, m, NULL, &d->rigid));
     if (d->rigid.why) return FW_OK;
-    FW_TRY(fw_verdict_soft_plates(d->arena, m, arm, &d->soft));
+    FW_TRY(fw_verdict_shared_arms(d->arena, m, arm, &shared));
+    FW_TRY(fw_verdict_soft_plates(d->arena, m, shared, &d->soft));
     FW_TRY(fw_mechanism_plates_across(d->arena, &d->rigid, &d->across[0]));
     FW_TRY(fw_mechanism_plates_across(d->arena, soft_of(d), &d->across[1]));
     FW_NEED(give = fw_arena_array(d->arena, double, 9 * (size_t)m->nhinge));
@@ -437,22 +454,6 @@ static fw_status stuck(device *d, fw_verdict_stiction *to, fw_verdict_variant_ve
 
 /* ---- all of it ---- */
 
-static void put_number(const fw_mechanism_drying *drying, fw_verdict_pull *to) {
-    bool pulled = drying->how == FW_DRIED_PULLED;
-    double most = drying->tension_high * drying->cos_high,
-           least = drying->tension_low * drying->cos_low;
-    to->number[0] = pulled && most > 0 ? to->tension_N_per_m[0] / most : HUGE_VAL;
-    to->number[1] = pulled && least > 0 ? to->tension_N_per_m[1] / least : HUGE_VAL;
-}
-
-static const char *range_words(fw_arena *arena, const double number[2]) {
-    char low[32], high[32];
-    fw_number_text(low, sizeof low, number[0], 3);
-    fw_number_text(high, sizeof high, number[1], 3);
-    return isfinite(number[1]) ? fw_arena_printf(arena, "%s to %s", low, high)
-                               : fw_arena_printf(arena, "%s at least", low);
-}
-
 static const char *remedy(fw_arena *arena, const fw_verdict_pull *p) {
     char most[32], by[32];
     return fw_arena_printf(
@@ -479,8 +480,8 @@ static fw_status judge_below(fw_arena *arena, const fw_mechanism *m, fw_verdict_
     const fw_verdict_decision found = pulled_down(to, p->number, &m->variant->drying);
     if (found == FW_ACCEPT) return FW_OK;
     const bool sure = found == FW_REJECT;
-    const char *number = range_words(arena, p->number), *peeled = range_words(arena, to->peel),
-               *help = remedy(arena, p);
+    const char *number = fw_verdict_range_words(arena, p->number),
+               *peeled = fw_verdict_range_words(arena, to->peel), *help = remedy(arena, p);
     char gap[32], down[32];
     const char *lowered = "";
     if (p->lowered_m > touch_share * p->gap_m)
@@ -540,6 +541,7 @@ static fw_status judge_pulls(device *d, fw_verdict_stiction *to, fw_verdict_vari
     const fw_mechanism *m = d->m;
     to->tethered = m->layout && m->layout->ntether > 0;
     FW_TRY(prepare(d, v->arm));
+    FW_TRY(fw_verdict_hung_of(d->arena, v, &d->hung));
     to->why = d->rigid.why;
     FW_TRY(judge_unknown(d->arena, m, to, v));
     if (to->why) return FW_OK;
@@ -549,8 +551,8 @@ static fw_status judge_pulls(device *d, fw_verdict_stiction *to, fw_verdict_vari
     /* what stress presses is softer across the plane, and is pulled and held more easily by as much */
     const double left = 1 - fw_verdict_across_stressed(v);
     to->below.tension_N_per_m[0] *= left, to->peel[0] *= left;
-    put_number(d->drying, &to->below);
-    put_number(d->drying, &to->beside);
+    fw_verdict_pull_number(d->drying, &to->below);
+    fw_verdict_pull_number(d->drying, &to->beside);
     FW_TRY(judge_below(d->arena, m, to, v));
     return judge_beside(d->arena, m, to, v);
 }
@@ -588,8 +590,8 @@ fw_verdict_decision fw_verdict_drying_bears(const fw_verdict_variant_verdict *v,
     *number = 585;
     if (s->why || !v->variant->below.known) return FW_INCONCLUSIVE;
     fw_verdict_pull below = s->below, beside = s->beside;
-    put_number(drying, &below);
-    put_number(drying, &beside);
+    fw_verdict_pull_number(drying, &below);
+    fw_verdict_pull_number(drying, &beside);
     *number = 583;
     const fw_verdict_decision down = pulled_down(s, below.number, drying);
     if (down != FW_ACCEPT || !(beside.number[0] < 1)) return down;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "workspace/survey.h"
+#include "workspace/reach.h"
 #include "maths/dense.h"
 
 typedef struct open_box {

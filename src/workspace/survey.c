@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "workspace/survey.h"
+#include "workspace/reach.h"
 #include "workspace/loop.h"
 #include <math.h>
 

@@ -217,7 +217,7 @@ class OutOfPlane(unittest.TestCase):
 <revolute id="A" a="ground" b="bar" b-x="0 mm" b-y="-0.5 mm" hinge="leaf" axis="0 deg"/></mechanism>
 <probe id="tip" kind="displacement" on="bar" x="3 mm" y="0 mm" direction="90 deg"/>{asked}<scene name="s" duration="5 ms">{scene}</scene></device>''')
             said = json.loads(run("check", self.file, "--json", *QUICK).stdout)
-            return said["verdict"], [(r["code"], float(re.search(r"by up to ([\d.e+-]+) ", r["text"])[1])) for r in said["reasons"]]
+            return said["verdict"], sorted((r["code"], float(re.search(r"(?:by up to|in the plane from) ([\d.e+-]+) ", r["text"])[1])) for r in said["reasons"])
 
         ends = "".join(f'<force on="bar" x="{x} mm" fy="20 uN"/>' for x in (3, -3))
         tip = '<require probe="tip" measure="maximum" max="2 um" scene="s"/>'
@@ -226,6 +226,7 @@ class OutOfPlane(unittest.TestCase):
         verdict, reasons = judged(ends, f'{tip}<require frequency="2" plane="in" min="{own * 1.01} Hz"/>')
         self.assertEqual((verdict, [r[0] for r in reasons]), ("inconclusive", ["FW-D639", "FW-D640"]))
         self.assertTrue(1.9 * goes < 1e-6 * reasons[0][1] < 2.5 * goes, (goes, reasons))
+        self.assertTrue(0.85 * own < reasons[1][1] < own, (own, reasons))
         shaken = '<base-motion ay="3000 m/s^2" law="half-sine" rise="1 ms"/>'
         goes = density * wide * deep * 3000 * long ** 4 / (8 * modulus * section)  # 3.5 um
         verdict, reasons = judged(shaken, tip)
@@ -234,6 +235,48 @@ class OutOfPlane(unittest.TestCase):
         self.assertEqual(judged(shaken.replace("3000", "300"), f'{tip}<require frequency="2" plane="in" min="{own / 1.4} Hz"/>'), ("accept", []))
         # 200 uN bend it by 45 um, which with its sudden double reaches the frame
         self.assertEqual(judged(ends.replace("20 uN", "200 uN"), "")[1][0][0], "FW-D638")
+
+    def folded(self, body, scene, asked=""):
+        """a plate of 1 by 0.5 mm on four leaves of 12 um, with bars of 24 um and what they hold beside it"""
+        pins = "".join(f'<revolute id="{i}" axis="0 deg" a="ground" a-x="{x} mm" a-y="{y} mm" b="lo" b-x="{x} mm" b-y="{y} mm" hinge="leaf"/>'
+                       for i, x, y in (("A", -0.35, -0.6), ("B", 0.35, -0.6), ("C", -0.35, 0.6), ("D", 0.35, 0.6)))
+        way, pad = body
+        bars = "".join(f'<bar x="{a[0]} mm" y="{a[1]} mm" to-x="{b[0]} mm" to-y="{b[1]} mm" width="24 um" ends="round"/>' for a, b in zip(way, way[1:]))
+        self.file.write_text(f'''<device xmlns="urn:flexwright:device:1" name="folded">
+<material ref="silicon-100" thickness="50 um" youngs-modulus="160 GPa" poisson="0.22"/><limits safety-factor="2"/>
+<flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="12 um"/>
+<mechanism><body id="lo" x="0 mm" y="0 mm" plate-width="1 mm" plate-height="0.5 mm">{bars}{pad}</body>{pins}</mechanism>
+{asked}<scene name="s" duration="20 ms">{scene}</scene></device>''')
+        said = json.loads(run("check", self.file, "--json", *QUICK).stdout)
+        return said, [r["code"] for r in said["reasons"]]
+
+    def test_bars_that_fold_back(self):
+        """serpentines, folds and hooks hold their ends by all of their length, not by what a straight cut meets side by side: against plane solids and
+        solids of CalculiX from the masks, Hz in the plane and across it. In bands, and not needlessly far below"""
+        head = '<plate x="1.1 mm" y="0.85 mm" width="320 um" height="540 um"/>'
+        serpentine = ((0.49, 0), (2.6, 0), (2.6, 0.2), (1, 0.2), (1, 0.4), (2.6, 0.4), (2.6, 0.6), (1.2, 0.6))
+        longer = ((0.49, 0), (2.8, 0), (2.8, 0.12), (1, 0.12), (1, 0.24), (2.8, 0.24), (2.8, 0.36), (1, 0.36), (1, 0.48), (2.8, 0.48), (2.8, 0.6), (1.2, 0.6))
+        fold = (((0.49, 0), (2.6, 0), (2.6, 0.4), (1.2, 0.4)), '<plate x="1.05 mm" y="0.4 mm" width="320 um" height="500 um"/>')
+        hook = (((0.49, 0), (1.9, 0), (1.9, 1.4)), '<plate x="1.9 mm" y="1.55 mm" width="300 um" height="300 um"/>')
+        asked = '<require frequency="1" plane="in" min="1 Hz"/><require frequency="1" plane="across" min="1 Hz"/>'
+        for body, in_it, across in (((longer, head), 858, 1294), ((serpentine, head), 1214, 1689), (fold, 1818, 2749), (hook, 1948, None)):
+            said, _ = self.folded(body, '<force on="lo" fx="1 uN"/>', asked)
+            low = [r["band"][0] for r in said["requirements"]]
+            self.assertTrue(0.9 * in_it < low[0] < in_it, (low, in_it))
+            if across:
+                self.assertTrue(0.8 * across < low[1] < across, (low, across))
+            more, codes = self.folded(body, '<force on="lo" fx="1 uN"/>', asked.replace("1 Hz", f"{1.05 * in_it} Hz", 1))
+            self.assertEqual((more["verdict"], codes), ("inconclusive", ["FW-D640"]))
+        # 1000 m/s2 across: the end of the longer one comes down by 22.0 um over a hollow of 20
+        said, codes = self.folded((longer, head), '<gravity gz="-1000 m/s^2"/>')
+        self.assertEqual((said["verdict"], codes), ("inconclusive", ["FW-D580"]))
+        self.assertTrue(22e-6 < -said["out_of_plane"][0]["scenes"][0]["lowest_m"] < 1.5 * 22e-6)
+        # in the plane: 205 um of 150 between it and the frame at 15000 m/s2, and 7.5 um of what a probe may move at 1000
+        self.assertEqual(self.folded((serpentine, head), '<base-motion ay="-15000 m/s^2" law="ramp" rise="10 ms"/>')[1], ["FW-D638"])
+        said, codes = self.folded(fold, '<base-motion ay="1000 m/s^2" law="ramp" rise="10 ms"/>',
+                                  '<probe id="tip" kind="displacement" on="lo" x="1.05 mm" y="0.4 mm"/><require probe="tip" max="5 um"/>')
+        self.assertEqual((said["verdict"], codes), ("inconclusive", ["FW-D639"]))
+        self.assertTrue(7.5e-6 < said["requirements"][0]["band"][1] < 3 * 7.5e-6, said["requirements"])
 
     def test_what_a_flow_makes_tips(self):
         """a device that surely stays flat as drawn, and does not where the flow makes it thinner and softer: neither as made
@@ -305,7 +348,7 @@ class OutOfPlane(unittest.TestCase):
         whole, all_, one = self.across('<gravity gz="-9.80665 m/s^2"/>', flow=GLASS)
         self.assertEqual(whole["verdict"], "accept")
         # what hangs over its hinges bends besides by its weight, of plates that are short by next to nothing
-        self.assertTrue(1 - 1e-4 < -one["lowest_at_rest_m"] / all_["weight_sag_m"] < 1)
+        self.assertTrue(1 - 1e-3 < -one["lowest_at_rest_m"] / all_["weight_sag_m"] < 1)
         gap = all_["below"]["gap_m"]
         self.assertAlmostEqual(gap, 20e-6)
         per = one["lowest_at_rest_m"] / 9.80665

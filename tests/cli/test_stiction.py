@@ -89,7 +89,7 @@ class Stiction(unittest.TestCase):
         self.assertEqual(calm["below"]["a"], "plate")
 
     def test_meniscus_decides(self):
-        whole, soft = self.check(lab="")
+        whole, soft = self.check(lab="", thickness="38 um")
         self.assertEqual((whole["verdict"], soft["verdict"], self.numbers(whole)), ("inconclusive", "inconclusive", {583}))
         low, high = soft["below"]["number"]
         self.assertTrue(low < high < 1)
@@ -103,7 +103,7 @@ class Stiction(unittest.TestCase):
         self.assertEqual((whole["verdict"], self.numbers(whole)), ("reject", {583}))
         self.assertEqual(self.check(lab=STICKY, thickness=thin)[0]["verdict"], "inconclusive")
         # what surely comes free is no matter; nor is what is stiff enough
-        whole, free = self.check(lab=SLIPPERY)
+        whole, free = self.check(lab=SLIPPERY, thickness="38 um")
         self.assertTrue(free["peel"][0] > 1 and free["below"]["number"][1] < 1)
         self.assertEqual(whole["verdict"], "accept")
         whole, stiff = self.check(lab="", thickness="80 um", width="20 um")
@@ -258,7 +258,7 @@ class Stiction(unittest.TestCase):
         L, w, g, h = 600e-6, 8e-6, 10e-6, 50e-6  # silicon has 130 to 169 GPa
         alone = 2.7845 * w**3 / 12 * g * g / (2 * (1 + g / h) * L**4)
         whole, found = self.dried(BARS % (550, 8, 10, 18))
-        self.assertEqual((whole["verdict"], self.numbers(whole)), ("inconclusive", {584}))
+        self.assertEqual((whole["verdict"], 584 in self.numbers(whole)), ("inconclusive", True))
         self.assertLess(found["beside"]["bears_N_per_m"][0], 130e9 * alone / 2)
         self.assertGreater(found["beside"]["bears_N_per_m"][0], 0.7 * 130e9 * alone / 2)
         self.assertEqual((found["beside"]["a"], found["beside"]["b"]), ("a slender part of link p", "another part of it"))
@@ -273,6 +273,34 @@ class Stiction(unittest.TestCase):
         self.assertEqual((whole["verdict"], self.numbers(whole)), ("inconclusive", {584}))
         self.assertLess(found["beside"]["bears_N_per_m"][0], 6.3e-3)
         self.assertGreater(found["beside"]["bears_N_per_m"][0], 2e-3)  # on this leaf, which turns as well
+
+    def test_what_hangs_over_is_pulled_down(self):
+        """an arm beside a plate on four leaves bends to the carrier as a cantilever: s = 2.7845 E I g^2/((1 + m) w L^4), m = h/w. It was said
+        to bear 30, 17, 183 and 173 mN/m as it grew, with a plate that is rigid"""
+        pins = "".join(f'<revolute id="{i}" axis="0 deg" a="ground" a-x="{x} mm" a-y="{y} mm" b="lo" b-x="{x} mm" b-y="{y} mm" hinge="leaf"/>'
+                       for i, x, y in (("A", -0.35, -0.6), ("B", 0.35, -0.6), ("C", -0.35, 0.6), ("D", 0.35, 0.6)))
+
+        def bears(reach):
+            self.file.write_text(f'''<device xmlns="urn:flexwright:device:1" name="arm">
+<material ref="silicon-100" thickness="50 um" youngs-modulus="160 GPa" poisson="0.22"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>
+<flexure id="leaf" kind="leaf" length="400 um" width="12 um"/><mechanism><body id="lo" x="0 mm" y="0 mm" plate-width="1 mm" plate-height="0.5 mm">
+<bar x="0.49 mm" y="0 mm" to-x="{reach} mm" to-y="0 mm" width="40 um"/></body>{pins}</mechanism>
+<scene name="s" duration="20 ms"><force on="lo" fx="1 uN"/></scene></device>''')
+            said = json.loads(run("check", self.file, "--json", *QUICK).stdout)
+            self.assertEqual(said["verdict"], "accept")  # it is dried at the critical point
+            return said["stiction"][0]["below"]
+
+        was = math.inf
+        for reach in (1, 2, 2.5, 3, 3.5, 5):
+            found = bears(reach)
+            free, stiff = 1e-3 * (reach - 0.5), 160e9 * 40e-6 * 50e-6 ** 3 / 12
+            alone = 0.5 * 2.7845 * stiff * found["gap_m"] ** 2 / ((1 + 50 / 40) * 40e-6 * free ** 4)  # 1.0 mN/m of 4.5 mm
+            tension = found["bears_N_per_m"][0]
+            self.assertTrue(tension < min(was, alone), (reach, tension, alone))
+            if reach > 1.9:
+                self.assertGreater(tension, 0.4 * alone)
+                self.assertIn("what hangs over of lo", json.dumps(found))
+            was = tension
 
     def test_gaps_as_they_are_at_rest(self):
         """a gradient of stress that lowers a long arm into its hollow was not in the pull: 56.5 mN/m were said to be borne; beams that

@@ -1,0 +1,532 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What of a body hangs over (body_tree.c), and what it does: it bends by its own weight and as it is shaken, swings slower,
+   and is pulled down as it dries. A part of length l and width w, of a layer h thick, bears what hangs on it, where it is. It
+
+     turns in the plane by 12 M l/(E h w^3), and goes by N l/(E h w) and 3.2 V l/(E h w)
+     turns across it by 12 M l/(E w h^3) and T l 3/0.84 (1/(w h^3) + 1/(h w^3))/G, and goes by 1.2 V l/(G h w)
+
+   3/0.84 being the most of all rectangles. One that is less than half as wide as the part before it is longer by what roots
+   give: w/2 in the plane, w (1.07 + 0.215 ln(h/w)) across. Forces are summed up the tree, and places go as they are moved
+   down it, which is exact for beams:
+
+     how far a place goes at most by an acceleration, across the plane and by one of any direction in it;
+     1/omega^2 of the slowest mode (iteration of powers), which adds at most as much to that of every mode of the bodies as
+     rigid ones (Weyl), of modes across the plane and in it;
+     the stress in the plane, as of a bar without corners;
+     s = 2 gamma cos(theta) that pulls it down over a gap g: the largest with a stable solution of
+     u = C (A s (1 + m)/(g - u)), m = max(g, h)/w (docs/theory/stiction.md, 1). At least g^2/(4 D), D of an even pressure.
+
+   In: outlines of the layout, SI. Range: what is thin against what hangs on it. Error: against plane solids and solids of
+   serpentines, folds and hooks 1/omega^2 is 2 to 5 % above in the plane and 10 to 20 % across. Cost: 5e4 to 1e6 cells.
+   Source: a beam's; H. Weyl, Math. Ann. 71 (1912) 441. Theory: docs/theory/effects/out-of-plane.md (4a). Test:
+   test_body_arms.c what_hangs_over_bends, folded_bars; test_out_of_plane.py */
+#include "base/constants.h"
+#include "geometry/segment.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+enum { TREE_CELLS = 50000, TREE_MOST = 1500000 };
+/* what holds a body is placed to a cell of its ways, a hundredth of it: the fourth power of that */
+static const double placed = 1.04;
+
+/* ---- the tree of beams: f, forces at parts, to u, how far they go; f is then what parts bear ----
+   In the plane (x, y, moment) and (x, y, turn); across (force, moments as of a lever along x and y) and (z, slopes). */
+
+static void in_the_tree(fw_verdict_tree *t) {
+    for (int i = t->n - 1; i >= 0; i--) {
+        const int on = t->at[i].before;
+        if (on == FW_NONE) continue;
+        const fw_geometry_vec2 r = vec_sub(t->at[i].at, t->at[on].at);
+        t->f[on][0] += t->f[i][0], t->f[on][1] += t->f[i][1];
+        t->f[on][2] += t->f[i][2] + r.x * t->f[i][1] - r.y * t->f[i][0];
+    }
+    for (int i = 0; i < t->n; i++) {
+        const fw_verdict_tree_part *p = &t->at[i];
+        double *u = t->u[i];
+        u[0] = u[1] = u[2] = 0;
+        if (p->before == FW_NONE) continue;
+        const double *from = t->u[p->before], w = p->wide_m, stiff = t->youngs_Pa * t->depth_m * w,
+                     less = vec_length(p->along) > 0 ? 3.2 - 1 : 0;
+        const fw_geometry_vec2 r = vec_sub(p->at, t->at[p->before].at),
+                               by = {t->f[i][0], t->f[i][1]};
+        const double pulls = less * vec_dot(by, p->along);
+        u[0] = from[0] - from[2] * r.y + p->long_m * (3.2 * by.x - pulls * p->along.x) / stiff;
+        u[1] = from[1] + from[2] * r.x + p->long_m * (3.2 * by.y - pulls * p->along.y) / stiff;
+        u[2] = from[2] + 12 * (p->long_m + p->root_m[1]) * t->f[i][2] / (stiff * w * w);
+    }
+}
+
+static void across_gives(const fw_verdict_tree *t, const fw_verdict_tree_part *p, double *bends,
+                         double *twists) {
+    const double h = t->depth_m, w = p->wide_m, cube = w * h * h * h;
+    *bends = 12 * (p->long_m + p->root_m[0]) / (t->youngs_Pa * cube);
+    *twists =
+        3 / 0.84 * (p->long_m + p->root_m[0]) / t->shear_Pa * (1 / cube + 1 / (h * w * w * w));
+}
+
+static void across_the_tree(fw_verdict_tree *t) {
+    const double h = t->depth_m;
+    for (int i = t->n - 1; i >= 0; i--) {
+        const int on = t->at[i].before;
+        if (on == FW_NONE) continue;
+        const fw_geometry_vec2 r = vec_sub(t->at[i].at, t->at[on].at);
+        t->f[on][0] += t->f[i][0];
+        t->f[on][1] += t->f[i][1] + r.x * t->f[i][0];
+        t->f[on][2] += t->f[i][2] + r.y * t->f[i][0];
+    }
+    for (int i = 0; i < t->n; i++) {
+        const fw_verdict_tree_part *p = &t->at[i];
+        double *u = t->u[i];
+        u[0] = u[1] = u[2] = 0;
+        if (p->before == FW_NONE) continue;
+        const double *from = t->u[p->before], w = p->wide_m;
+        double bends, twists;
+        across_gives(t, p, &bends, &twists);
+        const bool runs = vec_length(p->along) > 0;
+        const fw_geometry_vec2 r = vec_sub(p->at, t->at[p->before].at), n = vec_left(p->along),
+                               m = {t->f[i][1], t->f[i][2]};
+        const double most = fmax(bends, twists), along = bends * vec_dot(m, p->along),
+                     beside_it = twists * vec_dot(m, n);
+        u[0] = from[0] + from[1] * r.x + from[2] * r.y +
+               1.2 * p->long_m * t->f[i][0] / (t->shear_Pa * h * w);
+        u[1] = from[1] + (runs ? along * p->along.x + beside_it * n.x : most * m.x);
+        u[2] = from[2] + (runs ? along * p->along.y + beside_it * n.y : most * m.y);
+    }
+}
+
+/* forces (k of them) of an acceleration of 1, each place's own in v, or of all alike along one */
+static void accelerate(fw_verdict_tree *t, bool across, int alike, double kg_per_m2) {
+    for (int i = 0; i < t->n; i++) {
+        t->f[i][0] = t->f[i][1] = t->f[i][2] = 0;
+        for (int k = 0; k < (across ? 1 : 2); k++)
+            t->f[i][k] =
+                kg_per_m2 * t->at[i].mass_m2 * (alike == FW_NONE ? t->v[i][k] : k == alike);
+    }
+    if (across)
+        across_the_tree(t);
+    else
+        in_the_tree(t);
+}
+
+/* 1/omega^2 of the slowest mode, with 2 % for what an iteration may lack */
+static double slowest(fw_verdict_tree *t, bool across, double kg_per_m2) {
+    enum { TIMES = 30 };
+    const int n = across ? 1 : 2;
+    double was = 1, now = 0;
+    for (int i = 0; i < t->n; i++) /* no mode is square to it: any numbers, of either sign */
+        for (int k = 0; k < n; k++)
+            t->v[i][k] = (((unsigned)i * 2654435761U + (unsigned)k * 40503U) >> 16 & 255) / 256.0 -
+                         (k > 0 && i % 3 > 0 ? 0.75 : 0.25);
+    for (int turn = 0; turn <= TIMES; turn++) {
+        if (turn > 0) accelerate(t, across, FW_NONE, kg_per_m2);
+        now = 0;
+        for (int i = 0; i < t->n; i++)
+            for (int k = 0; k < n; k++) {
+                if (turn > 0) t->v[i][k] = t->u[i][k];
+                now += t->at[i].mass_m2 * t->v[i][k] * t->v[i][k];
+            }
+        if (!(now > 0)) return 0;
+        was = sqrt(now);
+        for (int i = 0; i < t->n; i++)
+            for (int k = 0; k < n; k++)
+                t->v[i][k] /= was;
+    }
+    return 1.02 * placed * was;
+}
+
+static double farthest_across(const fw_verdict_tree *t) {
+    double most = 0;
+    for (int i = 0; i < t->n; i++)
+        most = fmax(most, fabs(t->u[i][0]) + t->at[i].far_m * hypot(t->u[i][1], t->u[i][2]));
+    return most;
+}
+
+/* m/N of the place that goes farthest across the plane, or of an end that is softer */
+static double softest_tip(fw_verdict_tree *t) {
+    double most = 0;
+    for (int k = 0; k < t->n; k++) {
+        double sum = 0;
+        if (t->at[k].bears > 0) continue; /* it is no end */
+        for (int i = k; t->at[i].before != FW_NONE; i = t->at[i].before) {
+            const fw_verdict_tree_part *p = &t->at[i];
+            const fw_geometry_vec2 r = vec_sub(t->at[k].at, p->at), n = vec_left(p->along);
+            double bends, twists;
+            across_gives(t, p, &bends, &twists);
+            const bool runs = vec_length(p->along) > 0;
+            sum += runs ? bends * pow(vec_dot(r, p->along), 2) + twists * pow(vec_dot(r, n), 2)
+                        : fmax(bends, twists) * vec_dot(r, r);
+        }
+        most = fmax(most, sum);
+    }
+    return most;
+}
+
+/* what a part bears by an acceleration, times the thickness */
+static double stressed(const fw_verdict_tree *t, int i) {
+    const double w = t->at[i].wide_m, *f = t->f[i];
+    return t->at[i].before == FW_NONE ? 0 : (6 * fabs(f[2]) / w + hypot(f[0], f[1])) / w;
+}
+
+/* by an acceleration in any direction of the plane: from those by one along x and along y */
+static fw_status put_in_plane(fw_verdict_tree *t, double kg_per_m2, fw_verdict_hung *hung) {
+    double far = 0, stress = 0, *by_x = fw_arena_array(t->arena, double, (size_t)t->n);
+    FW_NEED(by_x);
+    t->farthest = FW_NONE;
+    accelerate(t, false, 0, kg_per_m2);
+    for (int i = 0; i < t->n; i++) {
+        by_x[i] = stressed(t, i);
+        for (int k = 0; k < 3; k++)
+            t->v[i][k] = t->u[i][k];
+    }
+    accelerate(t, false, 1, kg_per_m2);
+    for (int i = 0; i < t->n; i++) {
+        const double *x = t->v[i], *y = t->u[i], det = x[0] * y[1] - x[1] * y[0],
+                     sum = x[0] * x[0] + x[1] * x[1] + y[0] * y[0] + y[1] * y[1],
+                     most = 0.5 * (sum + sqrt(fmax(sum * sum - 4 * det * det, 0)));
+        const double goes = sqrt(most) + t->at[i].far_m * hypot(x[2], y[2]);
+        if (goes > far) far = goes, t->farthest = i;
+        stress = fmax(stress, hypot(by_x[i], stressed(t, i)));
+    }
+    hung->in_plane_s2 = placed * far;
+    hung->Pa_per_m_s2 = stress / t->depth_m;
+    hung->in_plane_mode_s2 = slowest(t, false, kg_per_m2);
+    return FW_OK;
+}
+
+/* ---- what a liquid below pulls ---- */
+
+/* s as a share of what an even pressure, which closes `even` of the gap by s = 1, may be at least: does it stay open? */
+static bool stays_open(fw_verdict_tree *t, double s, double gap_m) {
+    enum { TIMES = 200 };
+    const double settled = 1e-3;
+    double most = 0;
+    for (int i = 0; i < t->n; i++)
+        t->v[i][0] = t->v[i][1]; /* of the gap; from where a lesser one left it */
+    for (int turn = 0; turn < TIMES; turn++) {
+        double moved = 0;
+        for (int i = 0; i < t->n; i++) {
+            const fw_verdict_tree_part *p = &t->at[i];
+            const double edges = fmax(gap_m, t->depth_m) / p->wide_m;
+            t->f[i][0] = p->before == FW_NONE
+                             ? 0
+                             : s * p->mass_m2 * (1 + edges) / (gap_m * (1 - t->v[i][0]));
+            t->f[i][1] = t->f[i][2] = 0;
+        }
+        across_the_tree(t);
+        most = farthest_across(t) / gap_m;
+        if (!(most < 1)) return false;
+        for (int i = 0; i < t->n; i++) {
+            const double now = fabs(t->u[i][0]) / gap_m;
+            moved = fmax(moved, fabs(now - t->v[i][0]));
+            t->v[i][0] = now;
+        }
+        if (!(moved < settled * most)) continue;
+        for (int i = 0; i < t->n; i++)
+            t->v[i][1] = t->v[i][0];
+        return true;
+    }
+    return false;
+}
+
+/* s = 2 gamma cos(theta) that it bears over a gap, N/m: between a quarter, which it surely does, and all of what closes the
+   gap as an even pressure, to 2 % */
+static double bears(fw_verdict_tree *t, double gap_m) {
+    double low = 1, high = 1;
+    for (int i = 0; i < t->n; i++) {
+        const fw_verdict_tree_part *p = &t->at[i];
+        t->f[i][0] = p->before == FW_NONE
+                         ? 0
+                         : p->mass_m2 * (1 + fmax(gap_m, t->depth_m) / p->wide_m) / gap_m;
+        t->f[i][1] = t->f[i][2] = t->v[i][1] = 0;
+    }
+    across_the_tree(t);
+    const double even = farthest_across(t) / gap_m, enough_N_per_m = 10;
+    if (!(even > 0)) return HUGE_VAL;
+    low = 0.25 / even, high = 1 / even;
+    if (low > enough_N_per_m) return low;
+    while (high > 1.02 * low) {
+        const double s = sqrt(low * high);
+        if (stays_open(t, s, gap_m))
+            low = s;
+        else
+            high = s;
+    }
+    return low;
+}
+
+/* ---- bodies ---- */
+
+/* what goes farthest is three cells wide all the way to what holds it, but for a tenth of that, and all hangs together */
+static bool is_fine(const fw_verdict_tree *t, const fw_verdict_hung *hung) {
+    const double across = 3, little = 1e-3, stiff_s2 = 2e-13; /* 360 kHz */
+    int narrow = 0, all = 0;
+    if (t->reached_m2 < (1 - little) * t->whole_m2) return false;
+    if (hung->in_plane_s2 < stiff_s2 && hung->across_s2 < stiff_s2) return true;
+    for (int i = t->farthest; i != FW_NONE; i = t->at[i].before, all++)
+        narrow += t->at[i].before != FW_NONE && t->at[i].wide_m < across * t->cell;
+    return narrow <= 1 + all / 10;
+}
+
+static fw_status bend_tree(fw_verdict_tree *t, double kg_per_m2, double gap_m,
+                           fw_verdict_hung *hung) {
+    FW_TRY(fw_verdict_tree_grow(t, false));
+    accelerate(t, true, 0, kg_per_m2);
+    hung->across_s2 = placed * farthest_across(t);
+    hung->tip_m_per_N = softest_tip(t);
+    hung->across_mode_s2 = slowest(t, true, kg_per_m2);
+    hung->bears_N_per_m = gap_m > 0 ? bears(t, gap_m) : HUGE_VAL;
+    /* in the plane one hinge's arm has all of the body that is between */
+    if (t->nhinge == 1) FW_TRY(fw_verdict_tree_grow(t, true));
+    return put_in_plane(t, kg_per_m2, hung);
+}
+
+static fw_status hang(fw_verdict_tree *t, const fw_mechanism *m, double mass_kg,
+                      fw_verdict_hung *hung) {
+    const fw_mechanism_below *below = &m->variant->below;
+    const bool pulled = m->variant->drying.how != FW_DRIED_UNKNOWN && below->known && !below->open;
+    fw_geometry_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < t->nline; i++) {
+        const fw_geometry_vec2 p = t->line[i].a;
+        box = fw_box_join(box, (fw_geometry_box){p.x, p.y, p.x, p.y});
+    }
+    const double x = box.x1 - box.x0, y = box.y1 - box.y0, least_m = 1e-6;
+    double cell = fmax(fmax(sqrt(x * y / TREE_CELLS), fmax(x, y) / 1000), least_m);
+    const fw_mark mark = fw_arena_mark(t->arena);
+    for (;; cell /= 2) {
+        fw_arena_rewind(t->arena, mark);
+        FW_TRY(fw_verdict_tree_lay(t, box, cell));
+        FW_TRY(bend_tree(t, mass_kg / t->whole_m2, pulled ? fmax(below->low_m, 1e-9) : 0, hung));
+        if (is_fine(t, hung) || cell < 2 * least_m || 4 * x * y / (cell * cell) > TREE_MOST) break;
+    }
+    return FW_OK;
+}
+
+fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                              int body, const fw_verdict_arm *arm, fw_verdict_hung *hung) {
+    const fw_device_material *of = &m->variant->material;
+    const double nu = of->poisson.unknown ? 0.3 : of->poisson.value,
+                 crystal = 1.6; /* of silicon's shear moduli, along and across its axes */
+    *hung = (fw_verdict_hung){.bears_N_per_m = HUGE_VAL};
+    fw_verdict_tree t = {.depth_m = m->variant->thickness_m,
+                         .youngs_Pa = of->youngs.value,
+                         .shear_Pa = of->youngs.value / (2 * (1 + nu)) /
+                                     (fw_device_material_is_crystal(of) ? crystal : 1)};
+    if (!(m->shape[body].area_m2 > 0) || !(t.youngs_Pa > 0) || !(t.depth_m > 0)) return FW_OK;
+    fw_arena *own = fw_arena_part(arena, 0);
+    FW_NEED(own);
+    fw_status status = fw_verdict_tree_new(own, m, layout, body, arm, &t);
+    if (status == FW_OK && t.nline > 0) status = hang(&t, m, m->body[body].mass_kg, hung);
+    fw_arena_free(own);
+    return status;
+}
+
+fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                               fw_verdict_hung **hung) {
+    FW_NEED(*hung = fw_arena_array(arena, fw_verdict_hung, (size_t)m->nbody));
+    for (int b = 0; b < m->nbody; b++)
+        FW_TRY(fw_verdict_overhang(arena, m, m->layout, b, arm, &(*hung)[b]));
+    return FW_OK;
+}
+
+fw_status fw_verdict_hung_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                             const fw_verdict_hung **hung) {
+    fw_verdict_hung *own = NULL;
+    *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
+    if (!*hung) FW_TRY(fw_verdict_overhangs(arena, v->mechanism, v->arm, &own));
+    if (own) *hung = own;
+    return FW_OK;
+}
+
+/* What hangs over is pulled down by itself, over the gap that is left at rest, and goes with what bodies do as plates: shares
+   of the tension add up at most (Dunkerley). What bears more than ten times as much is left out. */
+double fw_verdict_hung_pulled(const fw_verdict_hung *hung, double gap_m, double down_m,
+                              double error, double bodies_N_per_m) {
+    const double times = 10,
+                 left = 1 - (down_m + hung->across_s2 * FW_STANDARD_GRAVITY_m_per_s2) / gap_m,
+                 own = 0.5 * hung->bears_N_per_m * pow(fmax(left, 1e-3), 2) / (1 + error);
+    return own < times * bodies_N_per_m ? 1 / (1 / own + 1 / bodies_N_per_m) : HUGE_VAL;
+}
+
+/* ---- what hangs over bends in the plane ----
+   Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
+   displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
+   turns by for F = E h, r how far the body reaches beyond; twice that, since a sudden load does twice what it does at rest.
+   What shaking and weight do to what reaches farther: body_tree.c. Test: test_out_of_plane.py */
+
+static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
+                                const fw_mechanism_load_end *end, double *beyond_m) {
+    const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
+                           off = vec_sub(end->at, middle);
+    fw_mechanism_line *line;
+    int n;
+    *beyond_m = 0;
+    if (!(vec_length(off) > 0)) return FW_OK;
+    const fw_geometry_vec2 along = vec_unit(off);
+    FW_TRY(fw_mechanism_body_lines(arena, m->layout, end->body, &line, &n));
+    for (int i = 0; i < n; i++)
+        *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
+    return FW_OK;
+}
+
+/* what all loads bend that act on the same side of a body's middle as this one */
+static double on_one_side(const fw_mechanism *m, const fw_mechanism_load_end *end, const double *by,
+                          int n, int k) {
+    const fw_geometry_vec2 middle = {m->drawn[end[k].body].x_m, m->drawn[end[k].body].y_m},
+                           off = vec_sub(end[k].at, middle);
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        if (end[i].body == end[k].body && vec_dot(off, vec_sub(end[i].at, middle)) >= 0)
+            sum += by[i];
+    return sum;
+}
+
+/* to (nbody): how far each bends at most in a scene */
+fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                    double *to) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
+    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double sudden = 2, hardly_m = 1e-9;
+    double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
+    fw_mechanism_load_end *end;
+    int n;
+    for (int i = 0; i < m->nbody; i++)
+        to[i] = 0;
+    if (!b || !b->arm || !b->rest_N) return FW_OK;
+    for (int i = 0; i < s->nbase; i++)
+        shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
+                  fw_quantity_law_largest(s->base[i].law, s->duration_s);
+    for (int i = 0; i < m->nbody; i++)
+        to[i] = shaken > 0 ? v->out_of_plane->hung[i].in_plane_s2 * shaken : 0;
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
+    FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
+    FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
+    for (int k = 0; k < n; k++) {
+        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
+        const double *g = arm->give;
+        if (end[k].scene != scene || !arm->known) continue;
+        const double load_N =
+            isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
+        const double unit = sudden * load_N / b->stiff_N, goes = fw_verdict_arm_goes(arm);
+        if (!(unit * goes > hardly_m)) continue;
+        FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
+        by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
+    }
+    for (int k = 0; k < n; k++)
+        most[end[k].body] = fmax(most[end[k].body], on_one_side(m, end, by, n, k));
+    for (int i = 0; i < m->nbody; i++)
+        to[i] += most[i];
+    return FW_OK;
+}
+
+/* ---- and bears what shakes it ---- */
+
+/* Where a mode swings that what hangs over may lower, its own ways are left (resonance.c). Here is what it bears as it is
+   shaken itself: its own mode is computed, and lies between these times 1/sqrt(droop per acceleration), from a load at its end to
+   one all along, where it is a bar. */
+static double shaken_by(const fw_device_scene *s, const fw_verdict_hung *hung) {
+    const double lowest = 0.95, highest = 1.4, root = sqrt(hung->in_plane_s2),
+                 own = sqrt(hung->in_plane_mode_s2);
+    double most = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
+    for (int i = 0; i < s->nbase && root > 0; i++) {
+        const double size = hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2);
+        if (size > 0)
+            most += size * fw_quantity_law_answer(s->base[i].law, s->duration_s,
+                                                  lowest / fmax(root, own),
+                                                  fmax(highest / root, 1 / own));
+    }
+    return most;
+}
+
+fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double corners = 3;
+    const fw_flexure_limit *limit =
+        m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
+    double worst = 1;
+    int body = FW_NONE;
+    for (int i = 0; limit && v->motion[scene] && i < m->nbody; i++) {
+        const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
+        const double share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
+                             (limit->allowable_Pa / m->device->safety_factor);
+        if (share > worst) worst = share, body = i;
+    }
+    if (body == FW_NONE) return FW_OK;
+    char high[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s%s %s%s is not known to bear its own weight as it is shaken, where it reaches beyond "
+        "its hinges and "
+        "its middle: at most %s %% of what is allowed, corners counted three times; make it wider "
+        "or shorter there",
+        FW_NAMED("scene", s->name), FW_NAMED("body", fw_text_name(m->body[body].id)),
+        isfinite(worst) ? fw_number_text(high, sizeof high, 100 * worst, 3) : "any number of");
+    FW_NEED(text);
+    return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
+}
+
+/* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
+
+static fw_status say_bent(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
+                          int number, const char *what, int body, double by_m) {
+    char text[32];
+    FW_NEED(what);
+    what = fw_arena_printf(
+        arena,
+        "%s, and %s%s, which is rigid there, may bend in the plane by up to %s um where it reaches "
+        "beyond its hinges: make it wider or shorter",
+        what, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
+        fw_number_text(text, sizeof text, 1e6 * by_m, 3));
+    return fw_verdict_hangs_open(v, scene, number, what);
+}
+
+static fw_status opens(fw_arena *arena, int scene, double by, int body,
+                       fw_verdict_variant_verdict *v) {
+    const char *name = v->mechanism->device->scene[scene].name;
+    const double hardly = 1e-4; /* of a value: its band is as it was */
+    for (int k = 0; k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
+        if (c->low_m - by > c->required_m) continue;
+        c->decision = FW_INCONCLUSIVE;
+        FW_TRY(say_bent(arena, v, name, 638,
+                        c->required_m > 0 ? "what is asked for between parts is only just kept"
+                                          : "parts only just do not meet",
+                        body, by));
+    }
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        const bool moves = fw_words_hold("displacement gap distance opening", " ", r->kind);
+        const fw_verdict_decision was = r->decision;
+        if (r->scene_index != scene || !moves || r->why || was == FW_REJECT) continue;
+        if (!(by > hardly * fabs(r->value))) continue;
+        fw_verdict_requirement_widen(by, by, r);
+        if (was != FW_ACCEPT || r->decision == FW_ACCEPT) continue;
+        FW_TRY(say_bent(arena, v, name, 639, fw_verdict_requirement_text(arena, r), body, by));
+    }
+    return FW_OK;
+}
+
+fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    double *to = fw_arena_array(arena, double, (size_t)m->nbody);
+    FW_NEED(to);
+    if (!v->out_of_plane || !v->out_of_plane->hung) return FW_OK;
+    for (int i = 0; i < m->device->nscene; i++) {
+        FW_TRY(fw_verdict_shaken_bears(arena, v, i));
+        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, to));
+        int body = 0;
+        double by = 0, other = 0;
+        for (int b = 0; b < m->nbody; b++)
+            if (to[b] > by)
+                other = by, by = to[b], body = b;
+            else
+                other = fmax(other, to[b]);
+        if (by + other > 0) FW_TRY(opens(arena, i, by + other, body, v));
+    }
+    return FW_OK;
+}

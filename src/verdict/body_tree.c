@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What of a body hangs over, as a tree of beams. Cells of the body are reached in steps through its material alone, from the
+   ways between its hinges and its middle (body_arms.c), as far as these are not one way for all hinges, which is as slender
+   as it is and no part of several arms. What is reached within two steps and hangs together is a part, and hangs on the part
+   before it. So bars that lie side by side are parts of their own, a serpentine is as long as it is, and a ring is cut where
+   its halves meet, which makes nothing stiffer. A part is a beam; its width is its area over its length.
+
+   In: outlines of the layout, SI. Range: a gap below a fifth of a cell parts nothing. Error: widths are known to a
+   sixteenth of a cell, which they are less. Cost: of a cell some 100 operations. What such beams do: body_hung.c.
+   Theory: docs/theory/effects/out-of-plane.md (4a). Test: test_body_arms.c what_hangs_over_bends, folded_bars */
+#include "base/sort.h"
+#include "geometry/segment.h"
+#include "verdict/strain.h"
+#include "verdict/verdict_parts.h"
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+
+enum { SUBROWS = 16, MARGIN = 3 };
+/* of a cell: nothing; what bears; at an edge, and as wide as it is filled; a gap between two that is too narrow for it */
+typedef enum tree_cell { EMPTY, BEARS, AT_EDGE, IN_GAP } tree_cell;
+
+/* ---- cells ---- */
+
+/* Release holes: loops no larger than they are. Each leaves what is between them of the width over twice its own length:
+   E is 0.795 of the solid's for holes of 0.3 of the pitch, where 1/(1 + 3 share of the holes) of thin ones is 0.825. */
+static fw_status find_holes(const fw_device *d, fw_verdict_tree *t) {
+    const double pitch = d ? d->release_pitch_m : 0,
+                 hole_m = pitch > 0 && d->release_hole_m > 0 ? d->release_hole_m : 0.3 * pitch,
+                 share = pitch > 0 ? fmin(hole_m / pitch, 0.9) : 0;
+    FW_NEED(t->hole = fw_arena_array(t->arena, bool, (size_t)t->nline));
+    t->left = 1;
+    for (int first = 0, last; pitch > 0 && first < t->nline; first = last) {
+        fw_geometry_vec2 low = t->line[first].a, high = low;
+        for (last = first; last < t->nline; last++) {
+            const fw_geometry_vec2 p = t->line[last].a;
+            if (last > first && vec_distance(p, t->line[last - 1].b) > FW_COINCIDENT_M) break;
+            low = (fw_geometry_vec2){fmin(low.x, p.x), fmin(low.y, p.y)};
+            high = (fw_geometry_vec2){fmax(high.x, p.x), fmax(high.y, p.y)};
+        }
+        if (!(fmax(high.x - low.x, high.y - low.y) < 1.2 * hole_m)) continue;
+        for (int i = first; i < last; i++)
+            t->hole[i] = true;
+        t->left = 1 / (1 + fmin(1, 2 * share) * share / (1 - share));
+    }
+    return FW_OK;
+}
+
+typedef struct crossed {
+    double x; /* in cells */
+    int piece;
+} crossed;
+
+static int by_piece(const void *a, const void *b) {
+    const crossed *p = a, *q = b;
+    return p->piece != q->piece ? (p->piece > q->piece) - (p->piece < q->piece)
+                                : fw_order_doubles(p->x, q->x);
+}
+
+/* where lines cross the middles of subrows: n[k] of row k on, to x; x NULL: they are counted */
+static void cross_subrows(const fw_verdict_tree *t, int *n, crossed *x) {
+    const int rows = t->ny * SUBROWS;
+    const double fine = t->cell / SUBROWS;
+    for (int i = 0; i < t->nline; i++) {
+        const fw_geometry_vec2 a = t->line[i].a, b = t->line[i].b;
+        const int first = (int)((fmin(a.y, b.y) - t->box.y0) / fine),
+                  last = (int)((fmax(a.y, b.y) - t->box.y0) / fine) + 1;
+        for (int k = first > 0 ? first - 1 : 0; !t->hole[i] && k <= last && k < rows; k++) {
+            const double y = t->box.y0 + (k + 0.5) * fine;
+            if ((a.y <= y) == (b.y <= y)) continue;
+            if (x) {
+                const double at = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+                x[n[k]] = (crossed){(at - t->box.x0) / t->cell, t->line[i].piece};
+            }
+            n[k]++;
+        }
+    }
+}
+
+/* how much of every cell is material: along rows exactly, across by subrows */
+static fw_status fill_cells(fw_verdict_tree *t) {
+    const int rows = t->ny * SUBROWS;
+    int *n = fw_arena_array(t->arena, int, (size_t)rows), all = 0;
+    FW_NEED(n);
+    cross_subrows(t, n, NULL);
+    for (int k = 0; k < rows; k++)
+        all += n[k], n[k] = all - n[k];
+    crossed *x = fw_arena_raw(t->arena, ((size_t)all + 1) * sizeof *x);
+    FW_NEED(x);
+    cross_subrows(t, n, x); /* n[k]: where the next row begins */
+    for (int k = 0; k < rows; k++) {
+        const int first = k > 0 ? n[k - 1] : 0;
+        float *row = t->full + (size_t)(k / SUBROWS) * (size_t)t->nx;
+        qsort(x + first, (size_t)(n[k] - first), sizeof *x, by_piece);
+        for (int i = first; i + 1 < n[k]; i += 2)
+            for (int j = (int)x[i].x; j < x[i + 1].x; j++)
+                row[j] += (float)((fmin(x[i + 1].x, j + 1) - fmax(x[i].x, j)) / SUBROWS);
+    }
+    return FW_OK;
+}
+
+/* it is fuller on either side */
+static bool parts_two(const float *full, int step) {
+    const float more = full[0] + 0.1F;
+    return fmaxf(full[-step], full[-2 * step]) > more && fmaxf(full[step], full[2 * step]) > more;
+}
+
+fw_status fw_verdict_tree_lay(fw_verdict_tree *t, fw_geometry_box box, double cell) {
+    t->cell = cell, t->whole_m2 = 0, t->nlist = 0;
+    t->box = (fw_geometry_box){box.x0 - MARGIN * cell, box.y0 - MARGIN * cell, box.x1, box.y1};
+    t->nx = 2 * MARGIN + 1 + (int)((box.x1 - box.x0) / cell);
+    t->ny = 2 * MARGIN + 1 + (int)((box.y1 - box.y0) / cell);
+    const size_t n = (size_t)t->nx * (size_t)t->ny;
+    FW_NEED(t->full = fw_arena_array(t->arena, float, n));
+    FW_NEED(t->kind = fw_arena_array(t->arena, unsigned char, n));
+    FW_NEED(t->step = fw_arena_array(t->arena, int, n));
+    FW_NEED(t->came = fw_arena_array(t->arena, int, n));
+    FW_NEED(t->part = fw_arena_array(t->arena, int, n));
+    FW_NEED(t->list = fw_arena_array(t->arena, int, n));
+    FW_TRY(fill_cells(t));
+    for (int j = 0; j < t->ny; j++)
+        for (int i = 0; i < t->nx; i++) {
+            const int at = j * t->nx + i;
+            const float full = t->full[at] = fminf(t->full[at], 1);
+            t->whole_m2 += cell * cell * (double)full;
+            if (i < 2 || j < 2 || i >= t->nx - 2 || j >= t->ny - 2 || full < 0.01F) continue;
+            const bool gap =
+                full < 0.9F && (parts_two(t->full + at, 1) || parts_two(t->full + at, t->nx));
+            t->kind[at] = gap ? IN_GAP : full < 0.5F ? AT_EDGE : BEARS;
+        }
+    return FW_OK;
+}
+
+/* ---- steps and parts ---- */
+
+static const int aside_x[8] = {1, -1, 0, 0, 1, 1, -1, -1}, aside_y[8] = {0, 0, 1, -1, 1, -1, 1, -1};
+
+static int beside(const fw_verdict_tree *t, int at, int k) {
+    return at + aside_x[k] + aside_y[k] * t->nx;
+}
+
+/* no corner is cut */
+static bool hangs_together(const fw_verdict_tree *t, int at, int k) {
+    return k < 4 ||
+           (t->kind[at + aside_x[k]] == BEARS && t->kind[at + aside_y[k] * t->nx] == BEARS);
+}
+
+static void begin_at(fw_verdict_tree *t, fw_geometry_vec2 p) {
+    const int x = (int)((p.x - t->box.x0) / t->cell), y = (int)((p.y - t->box.y0) / t->cell);
+    int best = FW_NONE;
+    double least = HUGE_VAL;
+    for (int j = y - 2; j <= y + 2; j++)
+        for (int i = x - 2; i <= x + 2; i++) {
+            if (i < 2 || j < 2 || i >= t->nx - 2 || j >= t->ny - 2) continue;
+            const double off = pow(i - x, 2) + pow(j - y, 2);
+            if (t->kind[j * t->nx + i] == BEARS && off < least) least = off, best = j * t->nx + i;
+        }
+    if (best == FW_NONE || t->step[best] == 0) return;
+    t->step[best] = 0, t->came[best] = FW_NONE;
+    t->list[t->nlist++] = best;
+}
+
+/* from the cells that hold: to those beside, and to all around, by turns */
+static void spread_out(fw_verdict_tree *t) {
+    for (int k = 1, from = 0; from < t->nlist; k++)
+        for (const int end = t->nlist; from < end; from++)
+            for (int d = 0; d < (k % 2 ? 4 : 8); d++) {
+                const int at = t->list[from], to = beside(t, at, d);
+                if (t->kind[to] != BEARS || t->step[to] < INT_MAX || !hangs_together(t, at, d))
+                    continue;
+                t->step[to] = k, t->came[to] = at;
+                t->list[t->nlist++] = to;
+            }
+}
+
+/* what is nearer to what holds it than a fifth of the layer's thickness is held, whatever width it begins with */
+static int level_of(const fw_verdict_tree *t, int at) {
+    const int beyond = t->step[at] - (int)(0.2 * t->depth_m / t->cell);
+    return beyond > 0 ? (beyond + 1) / 2 : 0;
+}
+
+/* the cells of a new part, from one of them on; room: of cells */
+static void gather(fw_verdict_tree *t, int first, int *room) {
+    int n = 0, most = 0;
+    const int own = t->n++, level = level_of(t, first);
+    t->at[own] = (fw_verdict_tree_part){.level = level, .before = FW_NONE};
+    t->part[first] = own, room[n++] = first;
+    for (int i = 0; i < n; i++)
+        for (int d = 0; d < 8; d++) {
+            const int to = beside(t, room[i], d);
+            if (t->kind[to] != BEARS || t->part[to] != FW_NONE || t->step[to] == INT_MAX ||
+                level_of(t, to) != level || !hangs_together(t, room[i], d))
+                continue;
+            t->part[to] = own, room[n++] = to;
+        }
+    for (int i = 0; i < n && level > 0; i++) { /* on what most of it came from */
+        const int from = t->came[room[i]], on = t->part[from];
+        if (on == own || on == t->at[own].before) continue;
+        int came = 0;
+        for (int k = 0; k < n; k++)
+            came += t->part[t->came[room[k]]] == on;
+        if (came > most) most = came, t->at[own].before = on;
+    }
+}
+
+static void weigh(fw_verdict_tree *t, int at, int own, bool wide) {
+    const double area = t->cell * t->cell * (double)t->full[at], all = t->at[own].area_m2 + area;
+    fw_verdict_tree_part *p = &t->at[own];
+    const fw_geometry_vec2 here = {t->box.x0 + (at % t->nx + 0.5) * t->cell,
+                                   t->box.y0 + (at / t->nx + 0.5) * t->cell};
+    p->mass_m2 += area, t->reached_m2 += area;
+    if (!wide || !(area > 0)) return;
+    p->at = vec_along(p->at, area / all, vec_sub(here, p->at));
+    p->area_m2 = all;
+}
+
+/* what bears nothing hangs on what is nearest to it; cells at an edge are of its width */
+static void take_rest(fw_verdict_tree *t) {
+    for (int i = 0; i < t->nlist; i++) {
+        const int at = t->list[i];
+        for (int d = 0; d < 8; d++) {
+            const int to = beside(t, at, d);
+            if (t->kind[to] == EMPTY || t->part[to] != FW_NONE || t->kind[to] == BEARS) continue;
+            t->part[to] = t->part[at];
+            weigh(t, to, t->part[to], t->kind[at] == BEARS && t->kind[to] == AT_EDGE);
+            t->list[t->nlist++] = to;
+        }
+    }
+}
+
+/* How long and wide parts are, and how they run. What spreads around what holds it by half a right angle or more is in what
+   the roots of flexures give in a wide base (flexure/), and bends no more. */
+static fw_status measure_parts(fw_verdict_tree *t) {
+    int *next = fw_arena_array(t->arena, int, (size_t)t->n);
+    const double step = 2 * t->cell, most = 1.12 * step;
+    FW_NEED(next);
+    for (int i = 0; i < t->n; i++)
+        next[i] = FW_NONE;
+    for (int i = 0; i < t->n; i++) {
+        const int on = t->at[i].before;
+        if (on != FW_NONE) t->at[on].bears++;
+        if (on != FW_NONE && (next[on] == FW_NONE || t->at[i].area_m2 > t->at[next[on]].area_m2))
+            next[on] = i;
+    }
+    for (int i = 0; i < t->nlist; i++) {
+        fw_verdict_tree_part *p = &t->at[t->part[t->list[i]]];
+        const fw_geometry_vec2 here = {t->box.x0 + (t->list[i] % t->nx + 0.5) * t->cell,
+                                       t->box.y0 + (t->list[i] / t->nx + 0.5) * t->cell};
+        p->far_m = fmax(p->far_m, vec_distance(here, p->at));
+    }
+    for (int i = 0; i < t->n; i++) {
+        fw_verdict_tree_part *p = &t->at[i];
+        if (p->before == FW_NONE) continue;
+        const fw_verdict_tree_part *b = &t->at[p->before],
+                                   *c = next[i] == FW_NONE ? p : &t->at[next[i]];
+        const bool held = b->before == FW_NONE;
+        const double before = held ? 0 : vec_distance(p->at, b->at),
+                     after = vec_distance(p->at, c->at),
+                     count = (before > 0.5 * step) + (after > 0.5 * step),
+                     sum = (before > 0.5 * step ? before : 0) + (after > 0.5 * step ? after : 0);
+        p->long_m = count > 0 ? fmin(fmax(sum / count, step), most) : most;
+        p->wide_m = fmax(t->left * (p->area_m2 / p->long_m - t->cell / SUBROWS), 1e-3 * t->cell);
+        if ((held || b->spreads) && p->wide_m - b->wide_m >= p->long_m) {
+            p->spreads = true, p->long_m = 0;
+            continue;
+        }
+        const fw_geometry_vec2 along = vec_sub(c->at, held ? p->at : b->at);
+        if (vec_length(along) > 0.5 * step && fmax(before, after) < 1.5 * most)
+            p->along = vec_unit(along);
+        if (held || !(b->wide_m > 2 * p->wide_m)) continue;
+        p->root_m[0] = p->wide_m * fmax(0.5, 1.07 + 0.215 * log(t->depth_m / p->wide_m));
+        p->root_m[1] = 0.5 * p->wide_m;
+    }
+    return FW_OK;
+}
+
+static fw_status make_parts(fw_verdict_tree *t) {
+    const size_t cells = (size_t)t->nlist;
+    FW_NEED(t->at = fw_arena_array(t->arena, fw_verdict_tree_part, cells + 1));
+    int *room = fw_arena_array(t->arena, int, cells + 1);
+    FW_NEED(room);
+    t->n = 0, t->reached_m2 = 0;
+    for (int i = 0; i < t->nlist; i++)
+        if (t->part[t->list[i]] == FW_NONE) gather(t, t->list[i], room);
+    for (int i = 0; i < t->nlist; i++)
+        weigh(t, t->list[i], t->part[t->list[i]], true);
+    take_rest(t);
+    FW_TRY(measure_parts(t));
+    FW_NEED(t->f = fw_arena_alloc(t->arena, (size_t)t->n, sizeof *t->f));
+    FW_NEED(t->u = fw_arena_alloc(t->arena, (size_t)t->n, sizeof *t->u));
+    FW_NEED(t->v = fw_arena_alloc(t->arena, (size_t)t->n, sizeof *t->v));
+    return FW_OK;
+}
+
+/* ---- what holds a body ---- */
+
+/* of the ways of a body's hinges to its middle (n): from where on, back from its end, the first one goes with all others */
+static int goes_with_all(const fw_verdict_arm *const *arm, int n) {
+    const fw_verdict_arm *first = arm[0];
+    int at = first->nway - 1;
+    for (; at > 0; at--) {
+        const fw_geometry_vec2 p = first->way[at - 1];
+        const double near_m = 2.1 * vec_distance(first->way[at], p);
+        bool all = true;
+        for (int k = 1; k < n && all; k++) {
+            all = false;
+            for (int i = 0; i < arm[k]->nway && !all; i++)
+                all = vec_distance(arm[k]->way[i], p) < near_m;
+        }
+        if (!all) break;
+    }
+    return at;
+}
+
+static void begin_along(fw_verdict_tree *t, fw_geometry_vec2 a, fw_geometry_vec2 b) {
+    const int n = 1 + (int)(2 * vec_distance(a, b) / t->cell);
+    for (int k = 0; k <= n; k++)
+        begin_at(t, vec_along(a, (double)k / n, vec_sub(b, a)));
+}
+
+typedef struct
+    fw_verdict_held { /* by hinges: arms (n) that are known, roots (nroot) of those that are not */
+    const fw_verdict_arm **arm;
+    fw_geometry_vec2 *root, middle;
+    int n, nroot, shared; /* of the first arm: from where on it goes with all others */
+} held;
+
+static fw_status find_held(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                           int body, const fw_verdict_arm *arm, held *to) {
+    fw_geometry_vec2 pin, root;
+    const size_t most = 2 * (size_t)m->nhinge + 1;
+    *to = (held){.middle = layout->body[body].centroid};
+    FW_NEED(to->arm = fw_arena_array(arena, const fw_verdict_arm *, most));
+    FW_NEED(to->root = fw_arena_array(arena, fw_geometry_vec2, most));
+    for (int k = 0; k < 2 * m->nhinge; k++) {
+        if (!fw_mechanism_hinge_end(m, body, k, &pin, &root)) continue;
+        if (arm && arm[k].known && arm[k].nway > 0)
+            to->arm[to->n++] = &arm[k];
+        else
+            to->root[to->nroot++] = root;
+    }
+    if (to->n > 0) to->shared = to->nroot == 0 ? goes_with_all(to->arm, to->n) : INT_MAX;
+    return FW_OK;
+}
+
+/* all: with what is one way for all hinges */
+static void begin_held(fw_verdict_tree *t, const held *h, bool all) {
+    const bool meets = !all && h->n > 0 && h->shared < INT_MAX;
+    for (int k = 0; k < h->n; k++) {
+        const fw_verdict_arm *arm = h->arm[k];
+        const double near_m = 2.1 * vec_distance(arm->way[0], arm->way[arm->nway > 1]);
+        for (int i = 0; i < arm->nway; i++) {
+            begin_at(t, arm->way[i]);
+            if (i > 0) begin_along(t, arm->way[i - 1], arm->way[i]);
+            /* it ends where all go one way */
+            if (meets && vec_distance(arm->way[i], h->arm[0]->way[h->shared]) <= near_m) break;
+        }
+    }
+    for (int k = 0; k < h->nroot; k++)
+        begin_along(t, h->root[k], h->middle);
+    if (h->n + h->nroot == 0) begin_at(t, h->middle);
+}
+
+fw_status fw_verdict_tree_grow(fw_verdict_tree *t, bool whole_ways) {
+    const int n = t->nx * t->ny;
+    for (int i = 0; i < n; i++)
+        t->step[i] = INT_MAX, t->part[i] = FW_NONE;
+    t->nlist = 0;
+    begin_held(t, t->held, whole_ways);
+    spread_out(t);
+    return make_parts(t);
+}
+
+fw_status fw_verdict_tree_new(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                              int body, const fw_verdict_arm *arm, fw_verdict_tree *t) {
+    fw_mechanism_line *line;
+    t->arena = arena;
+    FW_TRY(fw_mechanism_body_lines(arena, layout, body, &line, &t->nline));
+    t->line = line;
+    if (t->nline == 0) return FW_OK;
+    FW_TRY(find_holes(m->device, t));
+    FW_NEED(t->held = fw_arena_one(arena, held));
+    FW_TRY(find_held(arena, m, layout, body, arm, t->held));
+    t->nhinge = t->held->n + t->held->nroot;
+    return FW_OK;
+}
