@@ -535,13 +535,13 @@ static const fw_cli_option_row table[] = {
      fw_cli_take_run},
     {"entry", 0, "WORDS",
      "one step as it was run: \"C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; "
-     "thickness=9.1\", further second, tool, bath, note and what the step measures",
+     "thickness=9.1\", further second, tool (which machine of several), bath (which "
+     "filling: it serves so many wafers), note and what the step measures",
      FW_OPT_LOG, fw_cli_take_entry},
     {"entries", 0, "FILE",
      "many entries at once, a line for each with the words of --entry and wafer=ID; "
-     "instrument=NAME; "
-     "set power=251 W; coupon=...; # begins a remark. All of them are added, or none; - is "
-     "standard input",
+     "instrument=NAME; set power=251 W; coupon=...; # begins a remark. All of them are added, or "
+     "none; - is standard input",
      FW_OPT_LOG, fw_cli_take_entries},
     {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, fw_cli_take_lot},
     {"wafers", 0, "LIST",
@@ -559,8 +559,8 @@ static const fw_cli_option_row table[] = {
      "what was really set, of the settings of the step: \"power=251 W\"; repeatable", FW_OPT_LOG,
      fw_cli_take_setting},
     {"coupon", 0, "WORDS",
-     "a coupon as calibrate takes it: \"arde-slots, drawn=10 um, value=45.6 45.4 45.7 45.5 45.6 "
-     "um, u=0.1 um, at=90 min\"; repeatable",
+     "a coupon as calibrate takes it, at the step where it was read: \"arde-slots, drawn=10 um, "
+     "value=45.6 45.4 45.7 45.5 45.6 um, u=0.1 um, at=90 min\"; repeatable",
      FW_OPT_LOG, fw_cli_take_coupon},
     {"instrument", 0, "NAME", "with which it was measured", FW_OPT_LOG, fw_cli_take_instrument},
     {"report", 0, "FILE",

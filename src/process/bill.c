@@ -141,12 +141,14 @@ static fw_status read_bath(fw_process_pack *pack, const fw_xml_record *e, fw_pro
     b->volume = fw_process_pack_quantity(pack, e, "volume");
     b->one_part = fw_process_pack_quantity(pack, e, "one-part");
     b->serves = fw_process_pack_quantity(pack, e, "serves");
+    b->keeps = fw_process_pack_quantity(pack, e, "keeps");
     if ((fw_process_pack_get(e, "volume") != NULL) == (fw_process_pack_get(e, "one-part") != NULL))
         fw_diag_error(pack->diags, 370, e->element->place,
                       "<bath> needs the volume of a filling, or one-part, the volume of one part");
     want(pack, e, "one-part", b->one_part, volume, "a volume; write it in mL or L");
     want(pack, e, "volume", b->volume, volume, "a volume; write it in mL or L");
     want(pack, e, "serves", b->serves, number, "a number of wafers");
+    want(pack, e, "keeps", b->keeps, (fw_quantity_dimension)FW_DIM_TIME, "a time; write it in h");
     FW_NEED(b->part =
                 fw_arena_array(pack->arena, fw_process_part, (size_t)fw_xml_children(e, "part")));
     for (const fw_xml_record *c = e->first_child; c; c = c->next)

@@ -21,7 +21,8 @@ typedef struct fw_process_measurement { /* one row of the table; SI */
     fw_place place;
     double condition[FW_CONDITIONS],
         condition_uncertainty[FW_CONDITIONS]; /* etched at; 0: not said */
-    bool once; /* another row reads the very same, and stands for it */
+    bool once;      /* another row reads the very same, and stands for it */
+    const char *of; /* id of what was read, by the step that it was read at; NULL: by the flow */
 } fw_process_measurement;
 
 typedef struct fw_process_calibrated {
@@ -95,8 +96,26 @@ const fw_quantity *fw_process_step_corrects(const fw_process_step *step, fw_proc
                                             const char *rate);
 /* standard uncertainty of a number as it is written, in its own unit: uniform within one of its last digit */
 double fw_process_written_uncertainty(const char *number);
+/* how thick what masks the etch was put there, where the coupon says what was lost of it; NULL: it does not, or no such thing */
+const fw_quantity *fw_process_coupon_mask(const fw_process_flow *flow,
+                                          const fw_process_measurement *row);
 /* is such a row looked at, without a value? */
 bool fw_process_coupon_is_looked_at(const fw_process_measurement *row);
+
+/* ---- at which step of the flow a coupon is read: measurable.c ---- */
+
+/* What is there to be read of a coupon from the step on that makes it, which its own entry is after, until the one that covers
+   it, changes it or takes it away */
+typedef struct fw_process_coupon_stage {
+    const fw_process_step *from, *until; /* from NULL: read on any wafer; until NULL: to the end */
+    const char *gives; /* id of the edge that it is; NULL: the coupon has none of several */
+} fw_process_coupon_stage;
+/* of a reading that is logged for the step. false: nothing is there to be read then, and *where says when there is: "the
+   printed edge (litho.edge) from S11 to S13, ..." */
+fw_status fw_process_coupon_stage_at(fw_arena *arena, const fw_process_flow *flow,
+                                     const fw_process_measurement *row, const fw_process_step *step,
+                                     bool *there, fw_process_coupon_stage *stage,
+                                     const char **where);
 
 /* says what is given and cannot be used: a condition that nothing corrects the rate for, a column that the coupon does not
    take (FW-D679). typed: all of it was written for its row, as in a table; else conditions are those of the run, too */
@@ -120,8 +139,8 @@ typedef struct fw_process_reading {
 } fw_process_reading;
 
 typedef struct fw_process_readings {
-    fw_process_reading *item; /* (n) */
-    int n;
+    fw_process_reading *item;        /* (n) */
+    int n, left_out;                 /* that do not count: a warning says of each why */
     const char *lot, *file, *sha256; /* lot may be NULL */
 } fw_process_readings;
 

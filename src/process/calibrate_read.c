@@ -332,13 +332,14 @@ fw_status fw_process_measurements_read(fw_arena *arena, const char *file, const 
 
 /* ---- the pack ---- */
 
-/* value and uncertainty in the unit of the flow's own quantity */
+/* value and uncertainty in the unit of the flow's own quantity; what is 0 but for rounding is 0 */
 static bool in_unit(const fw_quantity *q, double value, double u, double *shown, double *u_shown) {
     fw_quantity_unit unit;
     if (!fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) return false;
     *shown = fw_quantity_unit_from_si(&unit, value);
     unit.offset = 0.0;
     *u_shown = fw_quantity_unit_from_si(&unit, u);
+    if (fabs(*shown) < 1e-9 * *u_shown) *shown = 0.0;
     return true;
 }
 

@@ -33,6 +33,11 @@ static bool alike(const fw_process_reading *a, const fw_process_reading *b) {
     return strcmp(a->row.coupon, b->row.coupon) == 0 && strcmp(a->row.feature, b->row.feature) == 0;
 }
 
+/* of the same, too: edges of resist and of metal do not scatter alike */
+static bool scatter_alike(const fw_process_reading *a, const fw_process_reading *b) {
+    return alike(a, b) && fw_text_same(a->row.of, b->row.of);
+}
+
 /* Two standard uncertainties stand for 95.45 % of a normal distribution wherever the plan uses them. A deviation that is
    known from n degrees of freedom only is widened by t(97.725 %, n)/2, so that they do so here.
    Source: JCGM 100:2008, G.3. Test: test_wafers.c, coverage. */
@@ -47,7 +52,7 @@ static double chance_of(const fw_process_readings *all, const fw_process_reading
     double squares = 0.0;
     *freedom = 0;
     for (int i = 0; i < all->n; i++)
-        if (alike(&all->item[i], of) && all->item[i].nsite > 1) {
+        if (scatter_alike(&all->item[i], of) && all->item[i].nsite > 1) {
             squares += all->item[i].squares;
             *freedom += all->item[i].nsite - 1;
         }
@@ -249,17 +254,32 @@ static double covariance_of(const lot *l, const char *a, const char *b, double g
 
 /* ---- in words ---- */
 
-static void put_percent(fw_text *out, double part, double whole) {
+/* Relatively, of what lies on one side of 0; where an edge lies, or a slope, may be 0 itself, and differs by so much of its
+   unit. Test: test_wafers.c, edges_about_nothing */
+static void put_spread(const lot *l, const char *id, double part, double whole, fw_text *out) {
+    const fw_quantity *of = fw_process_flow_quantity(l->flow, id);
+    fw_quantity below = of ? *of : (fw_quantity){0};
+    fw_quantity_unit unit;
+    fw_diags quiet = fw_diags_new(l->arena);
+    below.value = -1e-9 * part, below.unknown = false;
+    if (of && part > 0.0 && fw_process_quantity_in_range(&below, &quiet) &&
+        fw_quantity_unit_parse(of->unit, strlen(of->unit), &unit, NULL, NULL)) {
+        unit.offset = 0.0;
+        fw_text_number(out, fw_quantity_unit_from_si(&unit, part), 2);
+        fw_text_printf(out, " %s", of->unit);
+        return;
+    }
     fw_text_number(out, whole != 0.0 ? 100.0 * part / fabs(whole) : 0.0, 2);
     fw_text_add(out, " %");
 }
 
-static fw_status note_of(const lot *l, const moments *o, const char *first, const char **note) {
+static fw_status note_of(const lot *l, const moments *o, const char *id, const char *first,
+                         const char **note) {
     fw_text text = fw_text_new(l->arena);
     fw_text_add(&text, first);
     if (o->n > 1) {
         fw_text_printf(&text, "; mean of %d wafers, which differ by ", o->n);
-        put_percent(&text, sqrt(o->between), o->mean);
+        put_spread(l, id, sqrt(o->between), o->mean, &text);
         fw_text_printf(&text, " (standard, %d degree%s of freedom); the next wafer is meant",
                        o->n - 1, o->n > 2 ? "s" : "");
     } else
@@ -271,7 +291,8 @@ static fw_status note_of(const lot *l, const moments *o, const char *first, cons
 
 /* is it a reading of a coupon of c; of one whose feature is a quantity, of that one? */
 static bool behind(const lot *l, const fw_process_calibrated *c, const fw_process_reading *r) {
-    if (!strstr(c->coupon, r->row.coupon)) return false;
+    if (!strstr(c->coupon, r->row.coupon) || (r->row.of && strcmp(r->row.of, c->id) != 0))
+        return false;
     return !fw_process_flow_quantity(l->flow, r->row.feature) || strcmp(r->row.feature, c->id) == 0;
 }
 
@@ -339,7 +360,7 @@ static fw_status combine(lot *l, fw_process_calibrated *c, const char *id, doubl
                              "uncertainties allow, all wafers together: a probability of %s; %s is "
                              "not calibrated from them",
                              c->coupon, fw_number_text(text, sizeof text, c->probability, 2), id);
-    FW_TRY(note_of(l, &o, c->note, &c->note));
+    FW_TRY(note_of(l, &o, id, c->note, &c->note));
     return source_of(l, c);
 }
 
@@ -419,6 +440,11 @@ fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *fl
     readings = &kept;
     l->arena = arena, l->flow = flow, l->readings = readings, l->diags = diags;
     FW_NEED(l->wafer = fw_arena_array(arena, wafer, MOST_WAFERS));
+    if (readings->n == 0 && readings->left_out > 0)
+        return fw_diag_error(diags, 211, (fw_place){.file = readings->file},
+                             "of %d reading%s of coupons in the log none counts; why, the "
+                             "warnings say of each, and nothing is calibrated",
+                             readings->left_out, readings->left_out > 1 ? "s" : "");
     if (readings->n == 0)
         return fw_diag_error(diags, 211, (fw_place){.file = readings->file},
                              "the log holds no coupon; enter what was read with --coupon");

@@ -48,6 +48,17 @@ typedef struct fw_process_coupon_work { /* what a kind reads and fills */
     double shift;
 } fw_process_coupon_work;
 
+/* what there is to be read of a row's coupon, in the order of the flow (wafer_state.c): so many, up to FW_COUPON_STAGES */
+enum { FW_COUPON_STAGES = 2 };
+typedef int fw_process_coupon_stages(const fw_process_flow *flow, const fw_process_measurement *row,
+                                     fw_process_coupon_stage *stage);
+fw_process_coupon_stages
+    fw_process_stages_of_edges, /* lines: the image in the resist, then the layer etched under it */
+    fw_process_stages_of_etch,  /* of the etch that cuts the device layer */
+    fw_process_stages_of_mask,  /* of what masks that etch, while it is there */
+    fw_process_stages_of_release, /* of the release of the device */
+    fw_process_stages_of_plating; /* of the step that plates */
+
 typedef struct fw_process_coupon {
     const char *name;
     fw_quantity_dimension measured; /* of every row */
@@ -69,6 +80,8 @@ typedef struct fw_process_coupon {
     bool plain;           /* read on any wafer: stands on no test die */
     bool rate;            /* its feature is the id of a rate of the flow */
     bool of_mask; /* what the layer loses that masks the etch: no more than there is of it */
+    fw_process_coupon_stages
+        *stages; /* NULL: whenever it is read, what it was made under is said */
 } fw_process_coupon;
 
 /* coupon_plating.c: is what stands under `at` of the row told by the meter of all kinds, or of this one (of)? And the least
@@ -89,7 +102,7 @@ fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *f
                                        const fw_process_measurement *measurement, int n,
                                        const fw_process_calibration *found, const double *u,
                                        bool shared, fw_process_covariance *out);
-/* process_calibrate.c: one more, unless it is there */
+/* coupon_fit.c: one more, unless it is there */
 fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *calibration,
                                       const fw_process_found_with *with);
 /* process_calibrate.c: the correlations of those ids that are correlated at all, into `calibration` */
@@ -131,7 +144,7 @@ fw_status fw_process_step_speed(fw_process_coupon_work *work, const fw_process_s
 const char *fw_process_condition_reference(fw_process_condition which);
 /* the kind of that name; NULL: none */
 const fw_process_coupon *fw_process_coupon_kind(const char *name);
-/* says of a what both say of the conditions that they were measured at: process_calibrate.c */
+/* says of a what both say of the conditions that they were measured at: coupon_fit.c */
 void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calibrated *b);
 /* the first step of the flow that corrects the rate for that; NULL: none does */
 const fw_process_step *fw_process_flow_corrects(const fw_process_flow *flow,

@@ -434,6 +434,28 @@ fw_status fw_process_coupon_give(fw_process_coupon_work *w, const char *id, doub
     return FW_OK;
 }
 
+/* ---- what several coupons say of one result ---- */
+
+void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calibrated *b) {
+    for (int k = 0; k < FW_CONDITIONS; k++) {
+        const bool both = a->most[k] > 0.0 && b->most[k] > 0.0;
+        a->least[k] = both ? fmin(a->least[k], b->least[k]) : 0.0;
+        a->most[k] = both ? fmax(a->most[k], b->most[k]) : 0.0;
+    }
+}
+
+fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *c,
+                                      const fw_process_found_with *with) {
+    for (int i = 0; i < c->nwith; i++)
+        if (c->with[i].q == with->q && strcmp(c->with[i].of, with->of) == 0) return FW_OK;
+    fw_process_found_with *grown =
+        fw_arena_grow(arena, c->with, (size_t)c->nwith, (size_t)c->nwith + 1, sizeof *grown);
+    FW_NEED(grown);
+    grown[c->nwith++] = *with;
+    c->with = grown;
+    return FW_OK;
+}
+
 /* how thick the material was when it was put there last, before the step */
 static const fw_quantity *put_there(const fw_process_flow *flow, int before, const char *material) {
     for (int i = before - 1; i >= 0; i--)

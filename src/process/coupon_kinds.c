@@ -150,7 +150,8 @@ const fw_process_coupon fw_process_coupon_step = {
         "value what the mask lost (its step before the etch less that after it), at the "
         "etched depth",
     .under = {FW_DIM_LENGTH},
-    .of_mask = true};
+    .of_mask = true,
+    .stages = fw_process_stages_of_mask};
 
 /* ---- lines undercut in a ladder of widths ---- */
 
@@ -196,12 +197,12 @@ static fw_status ladder_losses(fw_process_coupon_work *w, double *y, double *s, 
 }
 
 /* Lines of width w on the mask, not compensated; the mask layer lost L at every edge (what the flow
-   plans less the edge that cd-lines read), the plasma u at the top: w - m = 2 L + 2 u, u = (1 - A) E, A = 1 - u/E.
+   plans, less where edges are printed and come out, or that cd-lines read), the plasma u at the top: w - m = 2 L + 2 u, u = (1 - A) E, A = 1 - u/E.
    E: the depth that wide openings have reached, or rate times the time, over-etch included. All m;
    A 1. u(A)^2 = (u_u/E)^2 + (u u_E/E^2)^2. Source: docs/theory/calibrate.md. Test:
    test_calibrate.c. */
 static fw_status fit_ladder(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], E, u_E, edge = 0.0, u_edge = 0.0;
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], E, u_E, edge, u_edge;
     int n = 0;
     fw_process_etch etch = fw_process_flow_etch(w->flow);
     if (!etch.anisotropy) return no_etch(w, "undercut-ladder", "an anisotropy");
@@ -223,9 +224,9 @@ static fw_status fit_ladder(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "the column at of undercut-ladder takes a depth or a time");
     FW_TRY(ladder_losses(w, y, s, &n));
-    fw_process_coupon_value(w, fw_process_coupon_edge(w->flow), &edge, &u_edge);
+    fw_process_coupon_mask_edge(w, &edge, &u_edge);
     fw_process_fit f = fw_process_fit_mean(y, s, n);
-    double u = 0.5 * f.value[0] - (fw_process_coupon_loss(w->flow, w) - edge);
+    double u = 0.5 * f.value[0] + edge;
     double A = 1.0 - u / E, u_A = hypot(hypot(0.5 * f.uncertainty[0], u_edge), u / E * u_E) / E;
     if (!(A > 0.0) || !(A < 1.0 + 2.0 * u_A))
         return fw_process_coupon_wrong(w, w->measurement[0],
@@ -248,7 +249,8 @@ const fw_process_coupon fw_process_coupon_ladder = {
     .features = {"width", "gone", "stands"},
     .sides = {"gone", "stands"},
     .features_said = "width, or gone and stands in one line each",
-    .under = {FW_DIM_TIME, FW_DIM_LENGTH}};
+    .under = {FW_DIM_TIME, FW_DIM_LENGTH},
+    .stages = fw_process_stages_of_etch};
 
 /* ---- plates with holes: how far a release has gone sideways ---- */
 
@@ -303,7 +305,8 @@ const fw_process_coupon fw_process_coupon_release = {
     .sides = {"free", "held"},
     .features_said = "free and held in one line each, drawn their pitch, value the width of a hole",
     .sides_measured = true,
-    .under = {FW_DIM_TIME}};
+    .under = {FW_DIM_TIME},
+    .stages = fw_process_stages_of_release};
 
 /* ---- slots: the lag of narrow openings ---- */
 
@@ -395,30 +398,38 @@ static fw_status fit_slots(fw_process_coupon_work *w) {
     FW_TRY(correct_run(w, etch.rate->id, &t, &u_t));
     double R = travelled / t, u = hypot(u_travelled / t, R * u_t / t);
     const char *note =
-        edge == 0.0
-            ? fw_arena_printf(w->arena, "from %d slots; correlation of rate and lag %d %%", w->n,
-                              (int)lround(100.0 * f.correlation))
-            : fw_arena_printf(w->arena,
-                              "from %d slots, %.4g um %s in the layer that masks the etch than "
-                              "drawn; correlation of rate and lag %d %%",
-                              w->n, 2e6 * fabs(edge), edge < 0.0 ? "wider" : "narrower",
-                              (int)lround(100.0 * f.correlation));
+        edge == 0.0 ? fw_arena_printf(w->arena, "from %d slots", w->n)
+                    : fw_arena_printf(w->arena,
+                                      "from %d slots, %.4g um %s in the layer that masks the etch "
+                                      "than drawn",
+                                      w->n, 2e6 * fabs(edge), edge < 0.0 ? "wider" : "narrower");
     FW_NEED(note);
     FW_TRY(fw_process_coupon_give(w, etch.rate->id, R, u, &f, note));
     return fw_process_coupon_give(w, etch.lag->id, fmax(S, 0.0), u_S, &f, note);
 }
 
-const fw_process_coupon fw_process_coupon_slots = {
-    "arde-slots", FW_DIM_LENGTH, false, true, true, true, fit_slots, .under = {FW_DIM_TIME}};
+const fw_process_coupon fw_process_coupon_slots = {"arde-slots",
+                                                   FW_DIM_LENGTH,
+                                                   false,
+                                                   true,
+                                                   true,
+                                                   true,
+                                                   fit_slots,
+                                                   .under = {FW_DIM_TIME},
+                                                   .stages = fw_process_stages_of_etch};
 
 /* ---- printed lines and spaces ---- */
 
 /* Lines and spaces of known width on the mask, not compensated, measured on the wafer: every edge
-   stands out by e = (m - w)/2, of a space by (w - m)/2. m, w, e m. Where the flow etches a mask
-   layer sideways by L = sum d (1 + overrun), made.al-edge = e + L is what is left of it; else e is
-   litho.edge. Weighted mean; residuals are tested. Source: geometry. Test: test_calibrate.c. */
+   stands out by e = (m - w)/2, of a space by (w - m)/2. m, w, e m. In a mask layer that the flow
+   etches sideways by L = sum d (1 + overrun), made.al-edge = e + L is what is left of it; in the resist e is
+   litho.edge. Weighted mean; residuals are tested. Source: geometry. Test: test_calibrate.c; test_asrun.c,
+   lines_in_the_resist. */
 static fw_status fit_lines(fw_process_coupon_work *w) {
-    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS], loss = fw_process_coupon_loss(w->flow, w);
+    const char *of = w->measurement[0]->of, *edge = of ? of : fw_process_coupon_edge(w->flow);
+    const bool etched = strcmp(edge, FW_PROCESS_PRINTED_EDGE) != 0;
+    const double loss = etched ? fw_process_coupon_loss(w->flow, w) : 0.0;
+    double y[FW_COUPON_ROWS], s[FW_COUPON_ROWS];
     for (int i = 0; i < w->n; i++) {
         const fw_process_measurement *r = w->measurement[i];
         bool space = strcmp(r->feature, "space") == 0;
@@ -426,10 +437,8 @@ static fw_status fit_lines(fw_process_coupon_work *w) {
         s[i] = 0.5 * r->uncertainty;
     }
     fw_process_fit f = fw_process_fit_mean(y, s, w->n);
-    const char *edge = fw_process_coupon_edge(w->flow);
-    bool etched = strcmp(edge, FW_PROCESS_PRINTED_EDGE) != 0;
     return fw_process_coupon_give(
-        w, edge, f.value[0] + (etched ? loss : 0.0), f.uncertainty[0], &f,
+        w, edge, f.value[0] + loss, f.uncertainty[0], &f,
         etched ? "edge in the aluminium against the mask, and what the wet etch is "
                  "planned to take; the printed edge is in it"
                : "edge on the wafer against the mask");
@@ -444,6 +453,7 @@ const fw_process_coupon fw_process_coupon_cd_lines = {
     false,
     fit_lines,
     .features = {"line", "space"},
+    .stages = fw_process_stages_of_edges,
     .mistaken = "the mask does not widen the lines of the coupon, so that an etch below the resist "
                 "takes its planned loss "
                 "from them, too"};
@@ -481,10 +491,7 @@ static fw_status fit_spin(fw_process_coupon_work *w) {
         return fw_process_coupon_wrong(w, w->measurement[0],
                                        "the resist is thicker at higher speed: check the rows");
     double d0 = exp(f.value[0]);
-    const char *note = fw_arena_printf(w->arena,
-                                       "from %d coats; correlation of thickness and exponent "
-                                       "%d %%",
-                                       w->n, (int)lround(100.0 * f.correlation));
+    const char *note = fw_arena_printf(w->arena, "from %d coats", w->n);
     FW_NEED(note);
     FW_TRY(fw_process_coupon_give(w, "resist.d0", d0, d0 * f.uncertainty[0], &f, note));
     return fw_process_coupon_give(w, "resist.a", f.value[1], f.uncertainty[1], &f, note);

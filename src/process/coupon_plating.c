@@ -139,7 +139,13 @@ static fw_status by_pads(fw_process_coupon_work *w) {
 const fw_process_coupon fw_process_coupon_mass = {
     "plating-mass",           FW_DIM_MASS,   false,          false, true, false, by_mass,
     .under = {FW_DIM_CHARGE}, .plain = true, .metered = true};
-const fw_process_coupon fw_process_coupon_pads = {
-    "plating-pads", FW_DIM_LENGTH, false,   true,
-    true,           true,          by_pads, .under = {FW_DIM(-2, 0, 1, 1, 0, 0, 0)},
-    .metered = true};
+const fw_process_coupon fw_process_coupon_pads = {"plating-pads",
+                                                  FW_DIM_LENGTH,
+                                                  false,
+                                                  true,
+                                                  true,
+                                                  true,
+                                                  by_pads,
+                                                  .under = {FW_DIM(-2, 0, 1, 1, 0, 0, 0)},
+                                                  .metered = true,
+                                                  .stages = fw_process_stages_of_plating};

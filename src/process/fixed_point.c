@@ -104,6 +104,7 @@ static void read_corners(const fw_process_flow *flow, double thickness_m,
         fw_process_quantity_range(q, &low, &high);
         if (edge) {
             p->printed_m -= x;
+            p->edges_u_m = hypot(p->edges_u_m, q->uncertainty);
             p->off_low_m += low - x;
             p->off_high_m += high - x;
         } else {

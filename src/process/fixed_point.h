@@ -126,6 +126,7 @@ typedef struct fw_process_edge_class { /* one width of opening, in ascending ord
 typedef struct fw_process_wear {  /* what the device itself loses of every open face, walls too */
     double loss_m, uncertainty_m; /* in all such steps: the known part */
     double after_m;               /* of it, what is taken once a release begins */
+    double most_m;       /* where each of them runs to its stop time, at its rate as it is known */
     const char *missing; /* what must be known to say how much a step takes; NULL: nothing */
     bool never; /* ... which no laboratory can state: the mask alone gives it, or nothing does */
     const struct fw_process_step *step; /* the first of them; NULL: there is none */
@@ -146,6 +147,8 @@ typedef struct fw_process_fixed_point {
     double low_m, high_m; /* bias that the ends of what is assumed would ask for; NaN: none */
     double slope;         /* F' at the solution: below 1, what a plain iteration contracts by */
     int iterations;       /* of Newton's method */
+    double
+        edges_u_m; /* standard uncertainty of an edge in the layer that masks the cut: of all those corners */
     double off_low_m, off_high_m; /* range of the <corner>s of edges about what is known, <= 0 <= */
     double flare_off_m;           /* the same of the walls: either way */
     double flare_m;              /* known slope of the walls: bottom wider than top by twice this */

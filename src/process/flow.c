@@ -371,10 +371,8 @@ static fw_status solve_edges(fw_arena *arena, fw_process_flow *flow,
     double thickness = facts ? facts->device_thickness_m : 0.0;
     FW_TRY(fw_process_fixed_point_solve(arena, flow, facts, thickness, p));
     flow->bias_m = p->bias_m;
-    const fw_quantity *edge = fw_process_flow_own_quantity(flow, FW_PROCESS_PRINTED_EDGE);
-    double u = edge && !edge->unknown ? 2.0 * edge->uncertainty : 0.0;
     double opening = p->ncls && p->solved ? p->cls[0].opening_m : (double)NAN;
-    if (p->ncls) fill(flow, FW_MASK_OPENING, opening, u);
+    if (p->ncls) fill(flow, FW_MASK_OPENING, opening, 2.0 * p->edges_u_m); /* of two edges */
     fill_widths(flow, facts);
     fw_process_release_fill(flow, facts);
     return FW_OK;

@@ -98,10 +98,12 @@ static void of_ladder(meant *m) {
     fw_process_etch etch = fw_process_flow_etch(m->flow);
     double A = value_of(m, etch.anisotropy), over = value_of(m, etch.over_etch);
     double D = m->flow->thickness ? known(m->flow, m->flow->thickness->id) : (double)NAN;
-    double E = D * (1.0 + (isnan(over) ? 0.0 : over)),
-           edge = known(m->flow, fw_process_coupon_edge(m->flow));
-    double lost =
-        fw_process_coupon_loss(m->flow, NULL) - (isnan(edge) ? 0.0 : edge) + (1.0 - A) * E;
+    double E = D * (1.0 + (isnan(over) ? 0.0 : over)), edge, u;
+    fw_process_coupon_work *of = fw_arena_one(m->arena, fw_process_coupon_work);
+    if (!of) return; /* as above */
+    of->arena = m->arena, of->flow = m->flow;
+    fw_process_coupon_mask_edge(of, &edge, &u);
+    const double lost = (1.0 - A) * E - edge;
     for (size_t i = 0; i < sizeof line_um / sizeof line_um[0]; i++) {
         double w = line_um[i] * 1e-6;
         fw_process_measurement row =
@@ -458,4 +460,50 @@ fw_status fw_process_measurements_ask(const fw_process_flow *flow,
         }
     }
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- at which step of the flow a coupon is read ---- */
+
+/* "the edge of the aluminium (made.al-edge) ": as its corner is called */
+static void put_named(const fw_process_flow *flow, const char *id, fw_text *out) {
+    for (int i = 0; i < flow->ncorner; i++)
+        if (flow->corner[i].q && strcmp(flow->corner[i].q->id, id) == 0) {
+            fw_text_printf(out, "the %s (%s) ", flow->corner[i].name, id);
+            return;
+        }
+    fw_text_printf(out, "%s ", id);
+}
+
+/* "the printed edge (litho.edge) from S11 to S13, ..." */
+static fw_status said(fw_arena *arena, const fw_process_flow *flow,
+                      const fw_process_coupon_stage *stage, int n, const char **where) {
+    fw_text text = fw_text_new(arena);
+    for (int i = 0; i < n; i++) {
+        const fw_process_step *last =
+            stage[i].until ? stage[i].until - 1 : flow->step + flow->nstep - 1;
+        fw_text_add(&text, i ? ", " : "");
+        if (stage[i].gives) put_named(flow, stage[i].gives, &text);
+        fw_text_printf(&text, last > stage[i].from ? "from %s to %s" : "at %s", stage[i].from->id,
+                       last->id);
+    }
+    FW_TRY(fw_text_end(&text));
+    *where = text.data;
+    return FW_OK;
+}
+
+/* A coupon that its flow does not make has no stage, and is read whenever somebody reads it: others refuse what nothing takes.
+   Test: test_wafer_state.c, where_coupons_are_read; test_asrun.c, lines_in_the_resist */
+fw_status fw_process_coupon_stage_at(fw_arena *arena, const fw_process_flow *flow,
+                                     const fw_process_measurement *row, const fw_process_step *step,
+                                     bool *there, fw_process_coupon_stage *stage,
+                                     const char **where) {
+    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
+    fw_process_coupon_stage list[FW_COUPON_STAGES];
+    const int n = kind && kind->stages ? kind->stages(flow, row, list) : 0;
+    *stage = (fw_process_coupon_stage){0};
+    *there = n == 0;
+    for (int i = 0; i < n; i++)
+        if (step >= list[i].from && (!list[i].until || step < list[i].until))
+            *there = true, *stage = list[i];
+    return *there ? FW_OK : said(arena, flow, list, n, where);
 }

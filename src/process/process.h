@@ -72,6 +72,7 @@ typedef struct fw_process_bath {
     const fw_quantity *volume;       /* of one filling, m3; NULL: one part is stated */
     const fw_quantity *one_part;     /* m3; NULL */
     const fw_quantity *serves; /* wafers, one after the other; NULL: all of a lot in one step */
+    const fw_quantity *keeps;  /* s, from when it was mixed on; NULL: not said */
     fw_process_part *part;     /* (npart) */
     int npart;
     fw_place place;
@@ -513,6 +514,8 @@ bool fw_process_step_on_back(const fw_process_step *step);
 bool fw_process_step_is_of_lot(const fw_process_step *step);
 /* do several runs of it on one wafer come to one longer run: is its time that of an amount? */
 bool fw_process_step_adds_up(const fw_process_step *step);
+/* does what it does go on for as long as a wafer is left in it: in a bath, under a current? */
+bool fw_process_step_runs_on(const fw_process_step *step);
 /* does it go on until somebody ends it: a bath that the wafer is taken out of, a current that is switched off? */
 bool fw_process_step_is_ended(const fw_process_step *step);
 /* does step `index` handle the dies of each wafer, because one before it parted them? */

@@ -163,12 +163,17 @@ bool fw_process_coupon_on_test_die(const char *coupon) {
     return kind && !kind->plain;
 }
 
+const fw_quantity *fw_process_coupon_mask(const fw_process_flow *flow,
+                                          const fw_process_measurement *row) {
+    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
+    return kind && kind->of_mask ? fw_process_flow_etch(flow).mask : NULL;
+}
+
 /* a mask cannot lose more than there was of it: what is left is mistaken for that, or a unit is wrong */
 static fw_status check_lost(const fw_process_flow *flow, const fw_process_measurement *r,
                             fw_diags *diags) {
     static const double sure = 3.0;
-    const fw_process_coupon *kind = fw_process_coupon_kind(r->coupon);
-    const fw_quantity *mask = kind && kind->of_mask ? fw_process_flow_etch(flow).mask : NULL;
+    const fw_quantity *mask = fw_process_coupon_mask(flow, r);
     char lost[32], there[32];
     if (!mask || mask->unknown) return FW_OK;
     const double most = mask->value + sure * hypot(mask->uncertainty, r->uncertainty);
@@ -237,14 +242,6 @@ fw_status fw_process_measurement_check(const fw_process_measurement *r, fw_diags
     return makes_sense(r, diags) ? FW_OK : FW_INPUT;
 }
 
-void fw_process_calibrated_join(fw_process_calibrated *a, const fw_process_calibrated *b) {
-    for (int k = 0; k < FW_CONDITIONS; k++) {
-        const bool both = a->most[k] > 0.0 && b->most[k] > 0.0;
-        a->least[k] = both ? fmin(a->least[k], b->least[k]) : 0.0;
-        a->most[k] = both ? fmax(a->most[k], b->most[k]) : 0.0;
-    }
-}
-
 /* two coupons of one number: their weighted mean, unless they contradict each other */
 static fw_status join(fw_arena *arena, fw_diags *diags, fw_process_calibrated *list, int *n) {
     for (int i = 0; i < *n; i++)
@@ -286,18 +283,6 @@ static fw_status check_result(const fw_process_flow *flow, const fw_process_cali
     return fw_process_quantity_in_range(&q, diags) ? FW_OK : FW_INPUT;
 }
 
-fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *c,
-                                      const fw_process_found_with *with) {
-    for (int i = 0; i < c->nwith; i++)
-        if (c->with[i].q == with->q && strcmp(c->with[i].of, with->of) == 0) return FW_OK;
-    fw_process_found_with *grown =
-        fw_arena_grow(arena, c->with, (size_t)c->nwith, (size_t)c->nwith + 1, sizeof *grown);
-    FW_NEED(grown);
-    grown[c->nwith++] = *with;
-    c->with = grown;
-    return FW_OK;
-}
-
 /* what this kind found, from `first` on, and of which values of the flow */
 static fw_status add_with(const fw_process_coupon_work *w, int first, fw_process_calibration *to) {
     for (int i = 0; i < w->nread; i++)
@@ -308,30 +293,48 @@ static fw_status add_with(const fw_process_coupon_work *w, int first, fw_process
     return FW_OK;
 }
 
+/* of the kind, and of the same: of lines in the resist and in the layer below each by themselves */
+static bool goes_with(const fw_process_measurement *row, const fw_process_coupon *kind,
+                      const fw_process_measurement *first) {
+    return fw_process_coupon_kind(row->coupon) == kind && fw_text_same(row->of, first->of);
+}
+
+/* the rows that go with the first one */
+static fw_status fit_kind(fw_process_coupon_work *w, const fw_process_coupon *kind,
+                          const fw_process_measurement *first, int n,
+                          fw_process_calibration *with) {
+    w->n = 0;
+    for (int i = 0; i < n; i++) {
+        if (!goes_with(&first[i], kind, first)) continue;
+        if (w->n == FW_COUPON_ROWS)
+            return fw_process_coupon_wrong(w, &first[i], "more than %d rows of one coupon",
+                                           FW_COUPON_ROWS);
+        w->measurement[w->n++] = &first[i];
+    }
+    w->one_run = kind->one_run;
+    w->nread = 0;
+    const int before = w->nout;
+    fw_status status = kind->fit(w);
+    if (with && status == FW_OK) FW_TRY(add_with(w, before, with));
+    if (status == FW_OK) status = join(w->arena, w->diags, w->out, &w->nout);
+    w->nknown = w->nout;
+    return status;
+}
+
 /* all rows through all kinds, into work->out; `with`: what they were found with goes there; NULL: it is not asked for */
 static fw_status fit_all(fw_process_coupon_work *w, const fw_process_measurement *measurement,
                          int n, fw_process_calibration *with) {
     fw_status status = FW_OK;
-    for (int k = 0; k < KINDS; k++) {
-        w->n = 0;
+    for (int k = 0; k < KINDS; k++)
         for (int i = 0; i < n; i++) {
-            if (fw_process_coupon_kind(measurement[i].coupon) != table[k]) continue;
-            if (w->n == FW_COUPON_ROWS)
-                return fw_process_coupon_wrong(w, &measurement[i],
-                                               "more than %d rows of one coupon", FW_COUPON_ROWS);
-            w->measurement[w->n++] = &measurement[i];
+            bool first = fw_process_coupon_kind(measurement[i].coupon) == table[k];
+            for (int b = 0; b < i && first; b++)
+                first = !goes_with(&measurement[b], table[k], &measurement[i]);
+            if (!first) continue;
+            const fw_status of_kind = fit_kind(w, table[k], &measurement[i], n - i, with);
+            if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
+            if (of_kind == FW_INPUT) status = of_kind; /* and what is wrong with the others */
         }
-        if (w->n == 0) continue;
-        w->one_run = table[k]->one_run;
-        w->nread = 0;
-        const int first = w->nout;
-        fw_status of_kind = table[k]->fit(w);
-        if (with && of_kind == FW_OK) FW_TRY(add_with(w, first, with));
-        if (of_kind == FW_OK) of_kind = join(w->arena, w->diags, w->out, &w->nout);
-        if (of_kind != FW_OK && of_kind != FW_INPUT) return of_kind;
-        if (of_kind == FW_INPUT) status = of_kind; /* and what is wrong with the others */
-        w->nknown = w->nout;
-    }
     return status;
 }
 

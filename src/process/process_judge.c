@@ -129,6 +129,33 @@ static bool closed(const fw_process_flow *flow, const char *until) {
     return until != NULL;
 }
 
+/* what printed edges may be off by; where that lies within what was measured of a layer below, what those may */
+static void edges_off(fw_process_judge *j) {
+    const fw_quantity *edge = fw_process_flow_quantity(j->flow, FW_PROCESS_PRINTED_EDGE);
+    const char *name = NULL, *within = NULL;
+    for (int i = 0; i < j->flow->ncorner; i++) {
+        const fw_process_corner *c = &j->flow->corner[i];
+        if (c->q == edge && edge && !fw_process_corner_counts(c))
+            edge = c->within, within = c->name;
+    }
+    for (int i = 0; within && i < j->flow->ncorner; i++)
+        if (j->flow->corner[i].q == edge) name = j->flow->corner[i].name;
+    if (!edge || edge->unknown || !(edge->uncertainty > 0.0)) return;
+    fw_process_numbers t = {0};
+    const char *between = j->note.length ? "; " : "",
+               *by = fw_process_judge_um(&t, edge->uncertainty);
+    if (within)
+        fw_text_printf(&j->note,
+                       "%sthe %s, with the %s in it, may lie off by %s um (standard), which is not "
+                       "known and not compensated",
+                       between, name ? name : edge->id, within, by);
+    else
+        fw_text_printf(&j->note,
+                       "%sprinted edges may lie off by %s um (standard), which is not known and "
+                       "not compensated",
+                       between, by);
+}
+
 fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
                                 const fw_process_mask_facts *facts, fw_diags *diags) {
     fw_process_judge j = {.arena = arena,
@@ -150,14 +177,7 @@ fw_status fw_process_flow_judge(fw_arena *arena, fw_process_flow *flow,
     for (int i = 0; i < flow->nopen_point; i++)
         if (!closed(flow, flow->open_until[i]))
             FW_TRY(fw_process_judge_reason(&j, FW_ANSWER_OPEN, "%s", flow->open_point[i]));
-    const fw_quantity *edge = fw_process_flow_quantity(flow, FW_PROCESS_PRINTED_EDGE);
-    if (edge && !edge->unknown && edge->uncertainty > 0.0) {
-        fw_process_numbers t = {0};
-        fw_text_printf(&j.note,
-                       "%sprinted edges may lie off by %s um (standard), which is not known "
-                       "and not compensated",
-                       j.note.length ? "; " : "", fw_process_judge_um(&t, edge->uncertainty));
-    }
+    edges_off(&j);
     FW_TRY(fw_text_end(&j.note));
     flow->bias_note = j.note.length ? j.note.data : "nothing to compensate is known";
     flow->manufacturable = j.verdict == FW_ANSWER_NO ? 0 : j.verdict == FW_ANSWER_OPEN ? -1 : 1;

@@ -343,6 +343,7 @@ bool fw_process_release_solves(const fw_process_flow *flow, const fw_quantity *q
 
 typedef struct lost { /* in one step */
     double loss_m, u_m;
+    double most_m; /* where it runs to its stop time */
     const char *missing;
     bool never;
 } lost;
@@ -401,6 +402,7 @@ static fw_status by_rate(fw_arena *arena, const fw_process_step *s, const fw_qua
         const double of_d = d->value != 0.0 ? d->uncertainty / fabs(d->value) : 0.0;
         l->loss_m = d->value * (1.0 + s->overrun);
         l->u_m = fw_process_lost_uncertainty(true, u_rate, hypot(of_d, u_rate)) * l->loss_m;
+        l->most_m = l->loss_m * (1.0 + s->k * hypot(of_d, u_rate));
         return FW_OK;
     }
     fw_process_law_use use = fw_process_law_of_step(s, list);
@@ -415,6 +417,7 @@ static fw_status by_rate(fw_arena *arena, const fw_process_step *s, const fw_qua
     l->u_m =
         fw_process_lost_uncertainty(R == r, u_rate, T.value > 0.0 ? T.uncertainty / T.value : 0.0) *
         l->loss_m;
+    l->most_m = r->value * (T.value + s->k * T.uncertainty) * (1.0 + s->overrun);
     return FW_OK;
 }
 
@@ -442,6 +445,8 @@ static fw_status by_selectivity(fw_arena *arena, const fw_process_step *s, const
     const double slowed = use.law->lags ? own.value / open.value : 1.0;
     l->loss_m = deep * slowed * (1.0 + s->overrun) / S->value;
     l->u_m = l->loss_m * S->uncertainty / S->value;
+    l->most_m = l->loss_m;
+    if (own.computable && own.value > 0.0) l->most_m *= 1.0 + s->k * own.uncertainty / own.value;
     return FW_OK;
 }
 
@@ -478,6 +483,7 @@ static fw_status wear_with(fw_arena *arena, const fw_process_flow *flow, const f
             w->loss_m += l.loss_m;
             w->after_m += released ? l.loss_m : 0.0;
             w->uncertainty_m = hypot(w->uncertainty_m, l.u_m);
+            w->most_m += l.most_m;
         }
     }
     return FW_OK;
@@ -510,7 +516,7 @@ fw_status fw_process_flow_wear(fw_arena *arena, const fw_process_flow *flow, dou
         if (fabs(second) >= fabs(first)) break;
         a += first * first / (first - second);
     }
-    wear->loss_m = wear->after_m = wear->uncertainty_m = 0.0;
+    wear->loss_m = wear->after_m = wear->uncertainty_m = wear->most_m = 0.0;
     wear->missing = "a reach that is enough: the device is taken as fast as it is freed";
     wear->never = true;
     return FW_OK;

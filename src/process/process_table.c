@@ -127,6 +127,9 @@ static const fw_xml_attribute_row bath_rows[] = {
     {"serves", TO(QUANTITY),
      .sentence = "How many wafers go through one filling, one after the other; without: all of a "
                  "lot, and every step has a filling of its own."},
+    {"keeps", TO(QUANTITY),
+     .sentence = "How long it may be used after it was mixed, by the log after its first use where "
+                 "that is not in it; without: nothing says so."},
 };
 static const fw_xml_attribute_row part_rows[] = {
     {"of", TO(CONSUMABLE), REQUIRED, .sentence = "Of what."},
@@ -540,4 +543,8 @@ bool fw_process_step_adds_up(const fw_process_step *s) {
 fw_process_goes_on fw_process_step_goes_on(const fw_process_step *s) {
     const step_kind *of = kind_of(s);
     return of ? of->goes_on : FW_GOES_ON_NOT;
+}
+
+bool fw_process_step_runs_on(const fw_process_step *s) {
+    return fw_process_step_goes_on(s) != FW_GOES_ON_NOT;
 }

@@ -6,7 +6,10 @@
      image     from the exposure to the developer       hot      after a bake without <finish kind="cool">
      vacuum    after a tool that is pumped, without <finish kind="vent">
      seasoned  from what prepares a pumped chamber (op="mount") to the first step in it
-   A resist that is taken off ends its states. Cost: steps times states. Test: test_wafer_state.c. */
+   A resist that is taken off ends its states. Cost: steps times states. Test: test_wafer_state.c.
+   And from which step on, until which, what a coupon reads is on the wafer. */
+#include "base/text.h"
+#include "process/coupon.h"
 #include "process/films.h"
 #include "process/pack.h"
 #include <math.h>
@@ -337,4 +340,104 @@ fw_status fw_process_flow_ground(fw_arena *arena, const fw_process_flow *flow,
         }
     }
     return FW_OK;
+}
+
+/* ---- at which step of the flow a coupon is read ---- */
+
+static bool takes(const fw_process_change *c, const char *material) {
+    return strcmp(c->kind, "remove") == 0 && strcmp(c->material, material) == 0;
+}
+
+/* the first step behind `after` that removes more of the material; NULL: none does */
+static const fw_process_step *gone_by(const fw_process_flow *flow, const fw_process_step *after,
+                                      const char *material) {
+    for (const fw_process_step *s = after + 1; after && s < flow->step + flow->nstep; s++)
+        for (int k = 0; k < s->nchange; k++)
+            if (takes(&s->change[k], material)) return s;
+    return NULL;
+}
+
+/* the last step that removes in the device's pattern: under a mask and sideways (etched), or where light has printed it */
+static const fw_process_step *edge_made(const fw_process_flow *flow, bool etched,
+                                        const char **material) {
+    const fw_process_step *made = NULL;
+    const fw_process_change *print = NULL;
+    for (const fw_process_step *s = flow->step; s < flow->step + flow->nstep; s++)
+        for (int k = 0; k < s->nchange; k++) {
+            const fw_process_change *c = &s->change[k];
+            if (c->back || !fw_process_where_is_of_device(flow, c->where)) continue;
+            if (strcmp(c->kind, "pattern") == 0) print = c;
+            const bool developed = print && takes(c, print->material) &&
+                                   strcmp(c->where, print->where) == 0,
+                       undercut = strcmp(c->kind, "remove") == 0 && c->isotropic && c->thickness;
+            if (etched ? undercut : developed) made = s, *material = c->material;
+        }
+    return made;
+}
+
+int fw_process_stages_of_edges(const fw_process_flow *flow, const fw_process_measurement *row,
+                               fw_process_coupon_stage *stage) {
+    const char *resist = NULL, *film = NULL, *edge = fw_process_coupon_edge(flow);
+    const fw_process_step *image = edge_made(flow, false, &resist), *etch = NULL;
+    const bool etched = strcmp(edge, FW_PROCESS_PRINTED_EDGE) != 0;
+    int n = 0;
+    (void)row; /* a line and a space alike */
+    if (etched) etch = edge_made(flow, true, &film);
+    if (image)
+        stage[n++] = (fw_process_coupon_stage){.from = image,
+                                               .until = etch ? etch : gone_by(flow, image, resist),
+                                               .gives = FW_PROCESS_PRINTED_EDGE};
+    if (etch)
+        stage[n++] = (fw_process_coupon_stage){
+            .from = etch, .until = gone_by(flow, etch, film), .gives = edge};
+    return n;
+}
+
+static const fw_process_step *etch_step(const fw_process_flow *flow) {
+    const fw_quantity *A = fw_process_flow_etch(flow).anisotropy;
+    for (const fw_process_step *s = flow->step; A && s < flow->step + flow->nstep; s++)
+        for (int k = 0; k < s->nchange; k++)
+            if (s->change[k].anisotropy == A) return s;
+    return NULL;
+}
+
+int fw_process_stages_of_etch(const fw_process_flow *flow, const fw_process_measurement *row,
+                              fw_process_coupon_stage *stage) {
+    (void)row;
+    *stage = (fw_process_coupon_stage){.from = etch_step(flow)};
+    return stage->from ? 1 : 0;
+}
+
+int fw_process_stages_of_mask(const fw_process_flow *flow, const fw_process_measurement *row,
+                              fw_process_coupon_stage *stage) {
+    const fw_process_step *etch = etch_step(flow);
+    (void)row;
+    *stage = (fw_process_coupon_stage){.from = etch};
+    for (int i = 0; etch && i < etch->nexposed; i++)
+        if (etch->exposed[i].selectivity)
+            stage->until = gone_by(flow, etch, etch->exposed[i].material);
+    return etch ? 1 : 0;
+}
+
+static int of_argument(const fw_process_flow *flow, const char *name, const char *id,
+                       fw_process_coupon_stage *stage) {
+    for (const fw_process_step *s = flow->step; id && s < flow->step + flow->nstep; s++) {
+        const fw_quantity *q = fw_process_step_argument(s, name);
+        if (!q || !q->id || strcmp(q->id, id) != 0) continue;
+        *stage = (fw_process_coupon_stage){.from = s};
+        return 1;
+    }
+    return 0;
+}
+
+int fw_process_stages_of_release(const fw_process_flow *flow, const fw_process_measurement *row,
+                                 fw_process_coupon_stage *stage) {
+    (void)row;
+    return of_argument(flow, "rate", "release.R", stage);
+}
+
+int fw_process_stages_of_plating(const fw_process_flow *flow, const fw_process_measurement *row,
+                                 fw_process_coupon_stage *stage) {
+    const fw_quantity *eta = fw_process_flow_plating(flow, row->feature).efficiency;
+    return of_argument(flow, "efficiency", eta ? eta->id : NULL, stage);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The as-run log as a text: its chain, its entries, and the head beside it. */
 #include "base/text.h"
+#include "process/process_law.h"
 #include "recipe/asrun.h"
 #include "recipe/asrun_parts.h"
 #include "schedule/schedule.h"
@@ -240,6 +241,28 @@ fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
     return FW_OK;
 }
 
+/* A difference is small on either side: a whole width in its place lies further from its limits than twice the larger of them,
+   and so does another unit; a line that was etched away altogether does not as a rule */
+static bool ask_difference(const fw_recipe_asrun_reader *r, const fw_recipe_measured *m,
+                           const fw_process_accept *a) {
+    static const double times = 2.0;
+    const double least = fw_recipe_asrun_limit(a->low, (double)NAN),
+                 most = fw_recipe_asrun_limit(a->high, (double)NAN),
+                 beyond = fmax(least - m->number, m->number - most);
+    fw_quantity_unit unit;
+    if (!(least < 0.0) || isnan(most) ||
+        !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
+        !fw_quantity_dimension_equal(unit.dimension, (fw_quantity_dimension)FW_DIM_LENGTH))
+        return false;
+    if (beyond > times * fmax(fabs(least), fabs(most)))
+        fw_diag_unreliable(
+            r->diags, 283, r->place,
+            "%s=%s is far from the %s to %s %s that are accepted: is the unit right, "
+            "and is it the difference? A later entry of the step takes its place",
+            m->measure, m->value, a->low, a->high, a->unit);
+    return true;
+}
+
 /* mm for um, or nm: a hundred times what is accepted is in the range of its dimension, and seldom true. Said also to
    those who want no warnings (-q), since no line can be taken back. */
 static void ask_units(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_entry *e) {
@@ -248,6 +271,7 @@ static void ask_units(const fw_recipe_asrun_reader *r, const fw_recipe_asrun_ent
         const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
         double most = fw_recipe_asrun_limit(a->high, (double)NAN),
                least = fw_recipe_asrun_limit(a->low, (double)NAN), size = fabs(m->number);
+        if (ask_difference(r, m, a)) continue;
         bool above = most > 0.0 && size > 100.0 * most,
              below = least > 0.0 && size > 0.0 && size < 0.01 * least;
         if (!above && !below) continue;
@@ -375,10 +399,13 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
     const fw_recipe_asrun_entry *by =
         before ? fw_recipe_asrun_overtaken(run, before, e->wafer) : NULL;
     if (by)
-        fw_diag_warning(r->diags, 687, r->place,
-                        "step %s, which comes before it, is in the log from before step %s was run "
-                        "again (lines %d and %d): run it again, or log it where it was",
-                        before->step->id, by->step->id, before->line, by->line);
+        fw_diag_warning(
+            r->diags, 687, r->place,
+            "step %s, which comes before it, is in the log from before step %s was run%s "
+            "(lines %d and %d): run it again, or log it where it was",
+            before->step->id, by->step->id,
+            fw_recipe_asrun_is_again(run, by, before, e->wafer) ? " again" : "", before->line,
+            by->line);
     if (!before && index > 0)
         fw_diag_warning(r->diags, 283, r->place,
                         "step %s, which comes before it, is not in the log",

@@ -89,6 +89,17 @@ static fw_status at_once_of(builder *b, const fw_recipe_asrun *run,
     return add(b, e, "wafers at once", &planned, &is);
 }
 
+static fw_status bath_of_entry(builder *b, const fw_recipe_asrun *run,
+                               const fw_recipe_asrun_entry *e) {
+    const char *is, *allowed;
+    FW_TRY(fw_recipe_asrun_bath_life(b->arena, run, e, &is, &allowed));
+    if (!is) return FW_OK;
+    fw_text planned = fw_text_new(b->arena), actual = fw_text_new(b->arena);
+    fw_text_add(&planned, allowed);
+    fw_text_add(&actual, is);
+    return add(b, e, fw_arena_printf(b->arena, "bath %s", e->bath), &planned, &actual);
+}
+
 static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_recipe_measured *m = &e->measured[i];
@@ -208,6 +219,7 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
             b.repeated = !last && !added;
             if (!added) FW_TRY(durations_of(&b, run, e));
             if (!added) FW_TRY(at_once_of(&b, run, e));
+            if (!added) FW_TRY(bath_of_entry(&b, run, e));
             FW_TRY(values_of(&b, e));
             FW_TRY(amount_of(&b, run, e));
             FW_TRY(settings_of(&b, e));
@@ -240,13 +252,14 @@ static void put_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
     const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
     if (by)
         fw_text_printf(out,
-                       "      overtaken: %s%s%s was run again at %s (line %d); run and log this "
+                       "      overtaken: %s%s%s was run %s at %s (line %d); run and log this "
                        "step again\n",
                        by->step->id, by->wafer ? " of wafer " : "", by->wafer ? by->wafer : "",
+                       fw_recipe_asrun_is_again(run, by, e, e->wafer) ? "again" : "after it",
                        by->start, by->line);
 }
 
-static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e,
+static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e, bool overtaken,
                          const fw_recipe_measured *m) {
     const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
     bool fine = fw_recipe_asrun_accepted(a, m), yes = isnan(m->number);
@@ -258,10 +271,10 @@ static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e,
         fw_recipe_put_value(out, m->number);
     fw_text_printf(out, "%s%s", unit ? " " : "", unit ? a->unit : "");
     if (m->nsite > 1) fw_text_printf(out, ", mean of %d sites", m->nsite);
-    fw_text_printf(out, ": %s", fine ? "accepted" : "OUT of ");
-    if (!fine && yes)
+    fw_text_printf(out, ": %s", overtaken ? "of before" : fine ? "accepted" : "OUT of ");
+    if (!fine && !overtaken && yes)
         fw_text_add(out, "yes");
-    else if (!fine)
+    else if (!fine && !overtaken)
         put_span(out, a->low, a->high);
     fw_text_add(out, "\n");
 }
@@ -316,9 +329,19 @@ static void put_times_as_set(const fw_recipe_asrun *run, const fw_recipe_asrun_e
     fw_text_add(out, "\n");
 }
 
+static void put_bath(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
+    const char *is, *allowed;
+    fw_text left = fw_text_new(out->arena);
+    if (fw_recipe_asrun_put_left_in_it(run, e, &left) && fw_text_end(&left) == FW_OK)
+        fw_text_printf(out, "      %s; was the rest in it?\n", left.data);
+    if (fw_recipe_asrun_bath_life(out->arena, run, e, &is, &allowed) == FW_OK && is)
+        fw_text_printf(out, "      bath %s: %s: OUT, since %s\n", e->bath, is, allowed);
+}
+
 static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
+    const bool overtaken = fw_recipe_asrun_overtaken(run, e, e->wafer);
     for (int i = 0; i < e->nmeasured; i++)
-        put_measured(out, e, &e->measured[i]);
+        put_measured(out, e, overtaken, &e->measured[i]);
     for (int i = 0; i < e->nset; i++)
         put_setting(out, &e->set[i]);
     for (int i = 0; i < e->ncoupon; i++)
@@ -338,6 +361,7 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
         }
         fw_text_add(out, "\n");
     }
+    put_bath(run, e, out);
     if (e->note) fw_text_printf(out, "      note: %s\n", e->note);
 }
 

@@ -118,8 +118,9 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     }
     if (!word) {
         fw_recipe_asrun_values v;
-        /* a difference may be below 0 where its limits are */
-        const fw_quantity any = {.range = a->low[0] == '-' ? "edge" : NULL};
+        /* A difference may be below 0 where its limits are, and as far off as a step that was badly overdone leaves it: what is
+           to be done then stands in the sheet. What lies far from its limits is asked after (asrun.c) */
+        const fw_quantity any = {.range = a->low[0] == '-' ? "difference" : NULL};
         FW_TRY(fw_recipe_asrun_values_read(r, name, value, a->sites, &v));
         FW_TRY(fw_recipe_asrun_values_in(r, name, a->unit, &any, &v));
         memcpy(m.site, v.site, sizeof m.site);
@@ -223,12 +224,27 @@ static fw_status ask_drawn(const fw_recipe_asrun_reader *r, const fw_process_mea
     return r->diags->failed ? FW_NOMEM : FW_OK;
 }
 
+/* what it reads is there at this step: a line of a log is read as what exists then */
+static fw_status check_stage(const fw_recipe_asrun_reader *r, const fw_process_step *step,
+                             const fw_process_measurement *row) {
+    fw_process_coupon_stage stage;
+    const char *where;
+    bool there;
+    FW_TRY(fw_process_coupon_stage_at(r->arena, r->flow, row, step, &there, &stage, &where));
+    if (there) return FW_OK;
+    return fw_diag_error(r->diags, 706, r->place,
+                         "coupon %s is not read at step %s: it reads %s. Log it with the step at "
+                         "which it was read, and its time",
+                         row->coupon, step->id, where);
+}
+
 static fw_status read_coupon(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                              const char *value) {
     fw_recipe_coupon *c = &e->coupon[e->ncoupon++];
     FW_TRY(fw_recipe_asrun_coupon_read(r, value, c));
     if (!r->fresh) return FW_OK;
     FW_TRY(check_coupon(r, &c->row));
+    FW_TRY(check_stage(r, e->step, &c->row));
     return ask_drawn(r, &c->row);
 }
 

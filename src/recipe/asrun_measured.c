@@ -474,21 +474,25 @@ static const fw_recipe_asrun_entry *out_of_window(const fw_recipe_asrun *run,
 
 /* FW-D693, once for the entry; true: its readings that say nothing of what they were read under do not count */
 static bool is_of_bad_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                          const fw_recipe_counted *counted, fw_diags *diags) {
+                          const bool *there, const fw_recipe_counted *counted, fw_diags *diags) {
     const fw_recipe_asrun_entry *by = e->step ? fw_recipe_asrun_overtaken(run, e, e->wafer) : NULL,
                                 *bad = by || !e->step ? NULL : out_of_window(run, e);
     const fw_recipe_coupon *first = NULL;
     int n = 0;
     for (int i = 0; i < e->ncoupon; i++) {
         fw_recipe_read_again again;
-        if (!isnan(e->coupon[i].row.at) || read_again(run, (int)(e - run->entry), i, &again))
+        if (!isnan(e->coupon[i].row.at) || !there[i] ||
+            read_again(run, (int)(e - run->entry), i, &again))
             continue;
         if (n++ == 0) first = &e->coupon[i];
     }
     if (n == 0 || (!by && !bad)) return false;
     const fw_recipe_asrun_entry *of = by ? by : bad;
     fw_text why = fw_text_new(diags->arena);
-    fw_text_printf(&why, "%s%s (line %d, %s)", of->step->id, by ? ", run again after it" : "",
+    fw_text_printf(&why, "%s%s (line %d, %s)", of->step->id,
+                   !by                                              ? ""
+                   : fw_recipe_asrun_is_again(run, by, e, e->wafer) ? ", run again after it"
+                                                                    : ", run after it",
                    of->line, of->start);
     if (!by) fw_text_printf(&why, " was %s", fw_recipe_asrun_in_time(run, of));
     if (fw_text_end(&why) != FW_OK) return false;
@@ -540,7 +544,13 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
         const fw_recipe_asrun_entry *e = &run->entry[i];
         if (is_among(counted->without, e->wafer) || fw_recipe_asrun_taken_back(run, e)) continue;
         FW_TRY(tell_otherwise(arena, e, diags));
-        const bool bad = is_of_bad_run(run, e, counted, diags);
+        fw_process_measurement *row =
+            fw_arena_array(arena, fw_process_measurement, (size_t)e->ncoupon + 1);
+        bool *there = fw_arena_array(arena, bool, (size_t)e->ncoupon + 1);
+        FW_NEED(row && there ? row : NULL);
+        for (int k = 0; k < e->ncoupon; k++)
+            FW_TRY(fw_recipe_asrun_stage(arena, run, e, &e->coupon[k], &row[k], &there[k], diags));
+        const bool bad = is_of_bad_run(run, e, there, counted, diags);
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
             fw_recipe_read_again again;
@@ -549,9 +559,9 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
                 warn_again(&again, diags);
                 continue;
             }
-            if (bad && isnan(c->row.at)) continue;
+            if (!there[k] || (bad && isnan(c->row.at))) continue;
             fw_process_reading *r = &readings->item[readings->n++];
-            *r = (fw_process_reading){.row = c->row,
+            *r = (fw_process_reading){.row = row[k],
                                       .wafer = e->wafer ? e->wafer : "",
                                       .step = e->step->id,
                                       .nsite = c->nsite};
@@ -564,5 +574,6 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
             warn_apart(readings, diags);
         }
     }
+    readings->left_out = most - readings->n;
     return FW_OK;
 }

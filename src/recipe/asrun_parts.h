@@ -53,6 +53,12 @@ fw_status fw_recipe_asrun_unknown(const fw_recipe_asrun_reader *r, const char *w
 fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const char *text,
                                       fw_recipe_coupon *coupon);
 
+/* The row of a coupon of a log with what it was read of, and whether that was there: by the step that it is logged for (else
+   FW-D706) and by the times of the log (else FW-D707) */
+fw_status fw_recipe_asrun_stage(fw_arena *arena, const fw_recipe_asrun *run,
+                                const fw_recipe_asrun_entry *e, const fw_recipe_coupon *c,
+                                fw_process_measurement *row, bool *there, fw_diags *diags);
+
 /* asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
    limit as it is written; does what was measured and set keep its limits? */
 bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
@@ -87,11 +93,19 @@ bool fw_recipe_asrun_replaces(const fw_recipe_asrun_entry *e, const fw_recipe_as
 bool fw_recipe_asrun_taken_back(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o);
 /* asrun_compare.c: does a later run go on from this one? Then it is neither short nor repeated: both come to one */
 bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
-/* The run of an earlier step that was done again after e, of the wafer (NULL: of any): what e found, or did, is no longer so.
-   NULL: it stands. FW-D687 says it of the entry that overtakes others */
+/* The run of an earlier step that was done again after e, of the wafer (NULL: of any), or of the step that e inspects where
+   there was none before e: what e found, or did, is not so. NULL: it stands. FW-D687 and FW-D707 say it of the entry that shows it */
 const fw_recipe_asrun_entry *fw_recipe_asrun_overtaken(const fw_recipe_asrun *run,
                                                        const fw_recipe_asrun_entry *e,
                                                        const char *wafer);
+/* was the step of o run on the wafer before e had ended, too? */
+bool fw_recipe_asrun_is_again(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o,
+                              const fw_recipe_asrun_entry *e, const char *wafer);
+/* asrun_runs.c: the run by which what a coupon's stage reads was not there at e: it makes it and is after e, or it ends it and is
+   before. NULL: it was there, or the log does not say */
+const fw_recipe_asrun_entry *fw_recipe_asrun_not_there(const fw_recipe_asrun *run,
+                                                       const fw_recipe_asrun_entry *e,
+                                                       const fw_process_coupon_stage *stage);
 fw_status fw_recipe_asrun_ask_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                         fw_place place, fw_diags *diags);
 typedef struct fw_recipe_runs { /* that come to one longer run */
@@ -102,8 +116,23 @@ typedef struct fw_recipe_runs { /* that come to one longer run */
 } fw_recipe_runs;
 fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 
-/* "short", "in window", "long" or "no plan": an entry's duration, with the runs that it goes on from */
+/* "short", "in window", "long", "no plan", or "unclear" (FW-D680, FW-D684: asked, and not answered): an entry's duration, with
+   the runs that it goes on from */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
+/* of one that is unclear since it is longer than what is finished at the bench explains: "took 22 min, and is to stop by 12 min,
+   with ..."; false: it is not */
+bool fw_recipe_asrun_put_left_in_it(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                    fw_text *out);
+/* FW-D708: has the filling that the entry names served more wafers by then, or for longer, than it does? *is NULL: no, or it is
+   not known; else "wafer 3 of one filling", and "a filling of SC1 serves 2 (ID)" */
+fw_status fw_recipe_asrun_bath_life(fw_arena *arena, const fw_recipe_asrun *run,
+                                    const fw_recipe_asrun_entry *e, const char **is,
+                                    const char **allowed);
+/* asrun_values.c: FW-D709 where one thing of the entry says otherwise than another: a coupon and what was measured, or the time
+   that it says it was etched for and that of the run */
+fw_status fw_recipe_asrun_ask_contradictions(const fw_recipe_asrun *run,
+                                             const fw_recipe_asrun_entry *e, fw_place place,
+                                             fw_diags *diags);
 /* as members "overtaken_by" and "as_set", where it was */
 void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                  fw_json *out);

@@ -132,13 +132,48 @@ static bool inspects(const fw_process_step *s) {
     return strcmp(s->op, "inspect") == 0;
 }
 
+/* is the material bonded to the wafer later on, and not there before? */
+static bool is_bonded_later(const fw_process_flow *flow, const fw_process_step *s,
+                            const char *material) {
+    bool later = false;
+    for (const fw_process_step *x = flow->step; x < flow->step + flow->nstep; x++)
+        for (int k = 0; k < x->nchange; k++) {
+            if (strcmp(x->change[k].material, material) != 0) continue;
+            if (x < s) return false;
+            later = later || (strcmp(x->op, "bond") == 0 && strcmp(x->change[k].kind, "add") == 0);
+        }
+    return later;
+}
+
+/* what is looked at while what it will be a part of is made elsewhere: the second wafer of a bond, before it is there */
+static bool is_beside(const fw_process_flow *flow, const fw_process_step *step) {
+    for (int i = 0; i < step->nrequired; i++)
+        if (step->required[i].material && !step->required[i].present && inspects(step) &&
+            is_bonded_later(flow, step, step->required[i].material))
+            return true;
+    return fw_process_step_is_of_lot(step);
+}
+
+/* Is this what an inspection looks at? The step that it requires or that stands before it, and whatever makes or takes away a
+   material that it requires to be there or gone */
+static bool is_looked_at(const fw_process_step *made, const fw_process_step *by) {
+    bool is = made + 1 == by;
+    for (int i = 0; i < by->nrequired; i++) {
+        const fw_process_requirement *r = &by->required[i];
+        is = is || (r->step && strcmp(r->step, made->id) == 0);
+        for (int k = 0; r->material && k < made->nchange; k++)
+            is = is || strcmp(made->change[k].material, r->material) == 0;
+    }
+    return is;
+}
+
 static bool is_of(const fw_recipe_asrun_entry *e, const char *wafer) {
     return !e->wafer || !wafer || strcmp(e->wafer, wafer) == 0;
 }
 
 /* was the step of o run on the wafer before e ended? Then o repeats it, and is not only late in the log */
-static bool was_run_before(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o,
-                           const fw_recipe_asrun_entry *e, const char *wafer) {
+bool fw_recipe_asrun_is_again(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o,
+                              const fw_recipe_asrun_entry *e, const char *wafer) {
     for (const fw_recipe_asrun_entry *b = run->entry; b < run->entry + run->nentry; b++)
         if (b != o && b->step == o->step && is_of(b, wafer) && b->start_s < e->end_s &&
             !fw_recipe_asrun_taken_back(run, b))
@@ -146,8 +181,15 @@ static bool was_run_before(const fw_recipe_asrun *run, const fw_recipe_asrun_ent
     return false;
 }
 
-/* An inspection tells of the wafer as it was: whatever was done again before it has it look again. So has what works on a film
-   that was made anew. The first such run in the log. */
+/* The step that e inspects was run after it for the first time: what e looked at was not there yet */
+static bool is_too_early(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                         const fw_recipe_asrun_entry *o) {
+    return inspects(e->step) && is_looked_at(o->step, e->step) && !is_beside(run->flow, e->step) &&
+           o->end_s > e->end_s + fw_recipe_asrun_clock_s(e);
+}
+
+/* An inspection tells of the wafer as it was: whatever was done again before it has it look again, and so has the step that it
+   inspects where that was run after it alone. So has what works on a film that was made anew. The first such run in the log. */
 const fw_recipe_asrun_entry *fw_recipe_asrun_overtaken(const fw_recipe_asrun *run,
                                                        const fw_recipe_asrun_entry *e,
                                                        const char *wafer) {
@@ -155,8 +197,10 @@ const fw_recipe_asrun_entry *fw_recipe_asrun_overtaken(const fw_recipe_asrun *ru
     for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
         if (o->step && o->step < e->step && !inspects(o->step) &&
             !fw_process_step_is_of_lot(o->step) && is_of(o, wafer) && o->start_s >= e->end_s &&
-            (inspects(e->step) || renews(o->step, e->step)) && !is_replaced(run, o) &&
-            was_run_before(run, o, e, wafer))
+            !is_replaced(run, o) &&
+            (fw_recipe_asrun_is_again(run, o, e, wafer)
+                 ? inspects(e->step) || renews(o->step, e->step)
+                 : is_too_early(run, e, o)))
             return o;
     return NULL;
 }
@@ -169,14 +213,32 @@ static bool is_last_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *
     return true;
 }
 
+/* FW-D707: x looked at what is run after it; `now` is whichever of the two is entered now */
+static fw_status ask_too_early(const fw_recipe_asrun_entry *x, const fw_recipe_asrun_entry *by,
+                               fw_place place, fw_diags *diags) {
+    fw_diag_warning(
+        diags, 707, place,
+        "step %s%s%s (%s to %s) was done before step %s, which it inspects (%s to %s): it "
+        "looked at a wafer without it, and what it found counts no more; log %s again, "
+        "or its right times",
+        x->step->id, x->wafer ? " of wafer " : "", x->wafer ? x->wafer : "", x->start, x->end,
+        by->step->id, by->start, by->end, x->step->id);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_recipe_asrun_ask_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                         fw_place place, fw_diags *diags) {
     fw_text list = fw_text_new(diags->arena);
     int n = 0;
-    for (const fw_recipe_asrun_entry *x = run->entry; x < run->entry + run->nentry; x++)
-        if (x->step && is_of(x, e->wafer) && is_last_of(run, x, e->wafer) &&
-            fw_recipe_asrun_overtaken(run, x, e->wafer) == e)
+    for (const fw_recipe_asrun_entry *x = run->entry; x < run->entry + run->nentry; x++) {
+        if (!x->step || !is_of(x, e->wafer) || !is_last_of(run, x, e->wafer)) continue;
+        const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, x, e->wafer);
+        if (!by || (by != e && x != e)) continue;
+        if (!fw_recipe_asrun_is_again(run, by, x, e->wafer))
+            FW_TRY(ask_too_early(x, by, place, diags));
+        else if (by == e)
             fw_text_printf(&list, "%s%s (line %d)", n++ ? ", " : "", x->step->id, x->line);
+    }
     if (n == 0) return FW_OK;
     FW_TRY(fw_text_end(&list));
     fw_diag_warning(diags, 687, place,
@@ -185,6 +247,25 @@ fw_status fw_recipe_asrun_ask_overtaken(const fw_recipe_asrun *run, const fw_rec
                     e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", list.data,
                     n > 1 ? "these steps" : "that step");
     return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* The last of the runs that make and end what is read, by the times of the log; where none is before e, the first one that makes
+   it. Test: test_asrun.c, lines_in_the_resist */
+const fw_recipe_asrun_entry *fw_recipe_asrun_not_there(const fw_recipe_asrun *run,
+                                                       const fw_recipe_asrun_entry *e,
+                                                       const fw_process_coupon_stage *stage) {
+    const fw_recipe_asrun_entry *last = NULL, *later = NULL;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++) {
+        const bool makes = o->step && o->step == stage->from,
+                   ends = o->step && o->step == stage->until;
+        if ((!makes && !ends) || !is_of(o, e->wafer) || is_replaced(run, o)) continue;
+        if (o == e) return NULL;
+        const bool before = makes ? o->start_s < e->end_s : o->end_s <= e->start_s;
+        if (before && (!last || o->start_s > last->start_s)) last = o;
+        if (makes && !before && !later) later = o;
+    }
+    if (!last) return later;
+    return last->step == stage->until ? last : NULL;
 }
 
 fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
@@ -319,23 +400,14 @@ static const fw_recipe_asrun_entry *came_from(const fw_recipe_asrun *run, const 
     return from;
 }
 
-/* what is looked at while what it will be a part of is made elsewhere: the second wafer of a bond, before it is there */
-static bool is_beside(const fw_process_step *step) {
-    for (int i = 0; i < step->nrequired; i++)
-        if (step->required[i].material && !step->required[i].present &&
-            strcmp(step->op, "inspect") == 0)
-            return true;
-    return fw_process_step_is_of_lot(step);
-}
-
 /* the step of the flow that the log has of this wafer before that of e; NULL: none, or e is beside the wafer */
 static const fw_process_step *step_before(const fw_recipe_asrun *run,
                                           const fw_recipe_asrun_entry *e) {
     const fw_process_step *before = NULL;
-    for (int i = 0; i < run->nentry && !is_beside(e->step); i++) {
+    for (int i = 0; i < run->nentry && !is_beside(run->flow, e->step); i++) {
         const fw_recipe_asrun_entry *of = &run->entry[i];
-        if (of->step && of->step < e->step && shares_wafer(of, e) && !is_beside(of->step) &&
-            (!before || of->step > before))
+        if (of->step && of->step < e->step && shares_wafer(of, e) &&
+            !is_beside(run->flow, of->step) && (!before || of->step > before))
             before = of->step;
     }
     return before;

@@ -183,7 +183,7 @@ static double took_s(const fw_recipe_asrun_entry *e, const fw_recipe_runs *runs)
 
 /* A step is booked with its over-etch, its pauses and what is finished at the bench, and is logged from its start to its
    end, or to the end of the etch alone: short is below the first look, long above the stop time with all of that. */
-const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+static const char *by_the_window(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     const double actual_s = took_s(e, &runs), read_s = runs.n * fw_recipe_asrun_clock_s(e);
     double surely;
@@ -191,6 +191,60 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
     if (actual_s + read_s < e->as_set->time.first_look_s) return "short";
     fw_recipe_asrun_stop_by(run, e, &runs, &surely);
     return actual_s - read_s > surely ? "long" : "in window";
+}
+
+/* Where what a step does goes on for as long as the wafer is in it (a bath, a current), handling may explain only so much: the
+   stop time with its pauses, its finishes, and a minute for each finish that has no time of its own. *by_s: to the end of
+   these. Test: test_asrun.c, left_in_the_bath */
+static bool is_left_in_it(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                          double *by_s) {
+    static const double untimed_s = 60.0;
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    const fw_process_step *s = e->as_set;
+    int together, untimed = 0;
+    const double loads = runs.n > 1 ? 1.0 : fw_recipe_asrun_loads(run, e, &together);
+    for (int i = 0; i < e->step->nfinish; i++)
+        untimed += e->step->finish[i].time == NULL;
+    *by_s = loads * (s->booked_stop_own_s + untimed * untimed_s) +
+            (runs.n - 1) * (s->finish_s + untimed * untimed_s);
+    return s->time.computable && fw_process_step_runs_on(e->step) &&
+           took_s(e, &runs) - runs.n * fw_recipe_asrun_clock_s(e) > *by_s;
+}
+
+/* do several runs come to more than one of them may take, unless each has its handling in it? */
+static bool adds_up_to_more(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                            const fw_recipe_runs *runs) {
+    double surely;
+    const double stop = fw_recipe_asrun_stop_by(run, e, runs, &surely),
+                 took = runs->time_s - runs->n * fw_recipe_asrun_clock_s(e);
+    return runs->n > 1 && e->as_set->time.computable && took > stop && took <= surely;
+}
+
+/* what was asked, and no later entry has answered, is not in its window */
+const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const char *judged = by_the_window(run, e);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    double by_s;
+    if (strcmp(judged, "in window") != 0) return judged;
+    return fw_recipe_asrun_is_late_as_set(run, e) || adds_up_to_more(run, e, &runs) ||
+                   is_left_in_it(run, e, &by_s)
+               ? "unclear"
+               : judged;
+}
+
+bool fw_recipe_asrun_put_left_in_it(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                    fw_text *out) {
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    double by_s;
+    if (strcmp(by_the_window(run, e), "in window") != 0 || !is_left_in_it(run, e, &by_s))
+        return false;
+    fw_text_add(out, "took ");
+    fw_recipe_asrun_put_took(out, e, &runs);
+    fw_text_add(out, ", and is to stop by ");
+    fw_schedule_put_duration(out, e->as_set->time.stop_s);
+    fw_text_add(out, ", with what is finished at the bench by ");
+    fw_schedule_put_duration(out, by_s);
+    return true;
 }
 
 /* As the planned settings judge it, it may have ended with its etch; as it was set, that was to stop before */
@@ -203,7 +257,7 @@ bool fw_recipe_asrun_is_late_as_set(const fw_recipe_asrun *run, const fw_recipe_
     return e->as_set != e->step && !e->former && set->computable &&
            actual_s > loads * set->stop_s &&
            (!planned->computable || actual_s <= loads * planned->stop_s) &&
-           strcmp(fw_recipe_asrun_in_time(run, e), "in window") == 0;
+           strcmp(by_the_window(run, e), "in window") == 0;
 }
 
 static bool is_out_of_time(const char *judged) {
@@ -275,6 +329,16 @@ static fw_status ask_as_set(fw_arena *arena, const fw_recipe_asrun *run,
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     fw_text text = fw_text_new(arena);
     ask_unknown_to_law(e, place, diags);
+    if (fw_recipe_asrun_put_left_in_it(run, e, &text)) {
+        FW_TRY(fw_text_end(&text));
+        fw_diag_warning(diags, 684, place,
+                        "step %s%s%s %s: too long, unless the rest was not in it; log the time in "
+                        "it alone with the same start, or look at what that leaves before the next "
+                        "step",
+                        e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "",
+                        text.data);
+        return diags->failed ? FW_NOMEM : FW_OK;
+    }
     if (!fw_recipe_asrun_is_late_as_set(run, e)) return FW_OK;
     fw_recipe_asrun_put_took(&text, e, &runs);
     fw_text_add(&text, ", and is to stop by ");
@@ -292,16 +356,11 @@ static fw_status ask_as_set(fw_arena *arena, const fw_recipe_asrun *run,
 static fw_status ask_runs(fw_arena *arena, const fw_recipe_asrun *run,
                           const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    double surely;
-    const double stop = fw_recipe_asrun_stop_by(run, e, &runs, &surely),
-                 read_s = runs.n * fw_recipe_asrun_clock_s(e);
     fw_text text = fw_text_new(arena);
-    if (runs.n < 2 || !e->as_set->time.computable || !(runs.time_s - read_s > stop) ||
-        runs.time_s - read_s > surely)
-        return FW_OK;
+    if (!adds_up_to_more(run, e, &runs)) return FW_OK;
     fw_recipe_asrun_put_took(&text, e, &runs);
     fw_text_add(&text, ", and one run is to stop by ");
-    fw_schedule_put_duration(&text, stop);
+    fw_schedule_put_duration(&text, fw_recipe_asrun_stop_by(run, e, &runs, NULL));
     FW_TRY(fw_text_end(&text));
     fw_diag_warning(diags, 680, place,
                     "step %s%s%s: what it does adds up, and comes to %s: too long, unless what is "
@@ -352,6 +411,100 @@ static fw_status ask_amount(fw_arena *arena, const fw_recipe_asrun *run,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
+/* ---- what a filling of a bath has served ----
+   Fillings that an entry names (bath=) are one where they are of one bath and one name, from when it was mixed under that name
+   on. What nobody named is another one each time. */
+
+static const fw_process_bath *bath_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const fw_process_bath *bath = NULL;
+    for (int i = 0; e->step && e->bath && i < e->step->nuse && !bath; i++)
+        bath = e->step->use[i].bath;
+    return bath || !e->step || !e->bath ? bath : fw_process_step_mixes(run->flow, e->step);
+}
+
+static bool is_mixed_in(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    return fw_process_step_mixes(run->flow, e->step) != NULL;
+}
+
+/* of the same filling, and by then in the log: not later than e, nor taken back, nor one run of several that come to one */
+static bool shares_bath(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o,
+                        const fw_recipe_asrun_entry *e) {
+    return o->bath && bath_of(run, o) == bath_of(run, e) && strcmp(o->bath, e->bath) == 0 &&
+           (o == e || o->start_s < e->start_s || (o->start_s == e->start_s && o < e)) &&
+           !fw_recipe_asrun_taken_back(run, o);
+}
+
+/* is the later of the two the same run put right, or gone on with? */
+static bool is_one_run(const fw_recipe_asrun_entry *o, const fw_recipe_asrun_entry *later) {
+    return o->step == later->step && fw_text_same(o->wafer, later->wafer);
+}
+
+fw_status fw_recipe_asrun_bath_life(fw_arena *arena, const fw_recipe_asrun *run,
+                                    const fw_recipe_asrun_entry *e, const char **is,
+                                    const char **allowed) {
+    const fw_process_bath *bath = bath_of(run, e);
+    const fw_recipe_asrun_entry *mixed = NULL, *first = e;
+    int wafers = 0;
+    *is = NULL;
+    if (!bath || is_mixed_in(run, e)) return FW_OK;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        if (shares_bath(run, o, e) && is_mixed_in(run, o) && (!mixed || o->end_s > mixed->end_s))
+            mixed = o;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++) {
+        if (!shares_bath(run, o, e) || is_mixed_in(run, o) ||
+            (mixed && o->start_s < mixed->start_s))
+            continue;
+        bool counted = false;
+        for (const fw_recipe_asrun_entry *b = run->entry; b < o; b++)
+            counted = counted || (shares_bath(run, b, e) && is_one_run(b, o) &&
+                                  (!mixed || b->start_s >= mixed->start_s));
+        if (!counted) wafers += o->wafer || run->nwafer == 0 ? 1 : run->nwafer;
+        if (o->start_s < first->start_s) first = o;
+    }
+    const double most = bath->serves && !bath->serves->unknown ? floor(bath->serves->value + 1e-9)
+                                                               : (double)INFINITY,
+                 age_s = e->start_s - (mixed ? mixed->end_s : first->start_s),
+                 keeps_s = bath->keeps && !bath->keeps->unknown
+                               ? bath->keeps->value + fw_recipe_asrun_clock_s(e)
+                               : (double)INFINITY;
+    const bool many = wafers > most, old = age_s > keeps_s;
+    if (!many && !old) return FW_OK;
+    fw_text what = fw_text_new(arena), limit = fw_text_new(arena);
+    fw_text_printf(&limit, "a filling of %s", bath->name);
+    if (many) {
+        fw_text_printf(&what, "wafer %d of one filling", wafers);
+        fw_text_add(&limit, " serves ");
+        fw_text_number(&limit, most, 4);
+        fw_text_printf(&limit, " (%s)", bath->serves->id);
+    }
+    if (old) {
+        fw_text_add(&what, many ? ", " : "");
+        fw_schedule_put_duration(&what, age_s);
+        fw_text_printf(&what, " after it was %s", mixed ? "mixed" : "first used");
+        fw_text_add(&limit, many ? " and keeps for " : " keeps for ");
+        fw_schedule_put_duration(&limit, bath->keeps->value);
+        fw_text_printf(&limit, " (%s)", bath->keeps->id);
+    }
+    FW_TRY(fw_text_end(&what));
+    FW_TRY(fw_text_end(&limit));
+    *is = what.data, *allowed = limit.data;
+    return FW_OK;
+}
+
+static fw_status ask_bath(fw_arena *arena, const fw_recipe_asrun *run,
+                          const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
+    const char *is, *allowed;
+    FW_TRY(fw_recipe_asrun_bath_life(arena, run, e, &is, &allowed));
+    if (!is) return FW_OK;
+    fw_diag_warning(diags, 708, place,
+                    "step %s%s%s, bath %s: %s, and %s. What it does to the wafer "
+                    "is not what was planned: look at that before the next step, mix anew and give "
+                    "the next filling a name of its own (bath=)%s",
+                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", e->bath,
+                    is, allowed, e->deviation ? "" : ", and write down why (deviation=...)");
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, fw_place place,
                                    fw_diags *diags) {
@@ -363,6 +516,8 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     FW_TRY(ask_runs(arena, run, e, place, diags));
     FW_TRY(ask_as_set(arena, run, e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_at_once(arena, run, e, place, diags));
+    FW_TRY(ask_bath(arena, run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_contradictions(run, e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_overtaken(run, e, place, diags));
     FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;

@@ -5,6 +5,7 @@
 #include "process/process_law.h"
 #include "recipe/asrun_parts.h"
 #include "recipe/recipe_words.h"
+#include "schedule/schedule.h"
 #include <math.h>
 #include <string.h>
 
@@ -362,6 +363,130 @@ fw_status fw_recipe_asrun_coupon_read(const fw_recipe_asrun_reader *r, const cha
                              "u=, the standard uncertainty of the instrument",
                              c->row.coupon);
     return fw_process_measurement_check(&c->row, r->diags);
+}
+
+/* ---- at which step a coupon was read ---- */
+
+fw_status fw_recipe_asrun_stage(fw_arena *arena, const fw_recipe_asrun *run,
+                                const fw_recipe_asrun_entry *e, const fw_recipe_coupon *c,
+                                fw_process_measurement *row, bool *there, fw_diags *diags) {
+    fw_process_coupon_stage stage;
+    const char *where;
+    *row = c->row;
+    FW_TRY(fw_process_coupon_stage_at(arena, run->flow, row, e->step, there, &stage, &where));
+    if (!*there) {
+        fw_diag_warning(diags, 706, row->place,
+                        "'%s' of step %s does not count: %s reads %s, so that nobody knows what "
+                        "this is of",
+                        c->text, e->step->id, row->coupon, where);
+        return diags->failed ? FW_NOMEM : FW_OK;
+    }
+    row->of = stage.gives;
+    const fw_recipe_asrun_entry *not = fw_recipe_asrun_not_there(run, e, &stage);
+    if (!not ) return FW_OK;
+    *there = false;
+    fw_diag_warning(diags, 707, row->place,
+                    "'%s' of step %s%s%s does not count: by the times of the log step %s (line %d, "
+                    "%s) was run %s it, so that %s",
+                    c->text, e->step->id, e->wafer ? ", wafer " : "", e->wafer ? e->wafer : "",
+                    not ->step->id, not ->line, not ->start,
+                    not ->step == stage.from ? "after" : "before",
+                    not ->step == stage.from ? "there was nothing to read yet"
+                                             : "what it reads was no longer there");
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* ---- does an entry contradict itself? ---- */
+
+static bool is_time(fw_quantity_dimension d) {
+    return fw_quantity_dimension_equal(d, (fw_quantity_dimension)FW_DIM_TIME);
+}
+
+/* the last run of the step that makes what the coupon reads, of the entry's wafer and not after it */
+static const fw_recipe_asrun_entry *
+run_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, const fw_process_step *step) {
+    const fw_recipe_asrun_entry *of = NULL;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        if (o->step == step && (!o->wafer || !e->wafer || strcmp(o->wafer, e->wafer) == 0) &&
+            !fw_recipe_asrun_taken_back(run, o) && o->start_s <= e->start_s &&
+            (!of || o->start_s >= of->start_s))
+            of = o;
+    return of;
+}
+
+/* It cannot have been etched for longer than its run took; for less it may, handling and pauses are in that */
+static fw_status ask_time_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             const fw_recipe_coupon *c, fw_place place, fw_diags *diags) {
+    static const double sure = 3.0;
+    fw_process_coupon_stage stage;
+    const char *where;
+    bool there;
+    if (isnan(c->row.at) || !is_time(c->row.at_dimension)) return FW_OK;
+    FW_TRY(fw_process_coupon_stage_at(diags->arena, run->flow, &c->row, e->step, &there, &stage,
+                                      &where));
+    const fw_recipe_asrun_entry *of = stage.from ? run_of(run, e, stage.from) : NULL;
+    if (!of) return FW_OK;
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, of);
+    const double most = runs.took_s + runs.n * fw_recipe_asrun_clock_s(of) +
+                        sure * fmax(c->row.at_uncertainty, 0.0);
+    if (!(c->row.at > most)) return FW_OK;
+    fw_text took = fw_text_new(diags->arena), at = fw_text_new(diags->arena);
+    fw_schedule_put_duration(&took, runs.took_s);
+    fw_schedule_put_duration(&at, c->row.at);
+    FW_TRY(fw_text_end(&took));
+    FW_TRY(fw_text_end(&at));
+    fw_diag_warning(diags, 709, place,
+                    "coupon %s says that it was etched for %s (at=), and by its times step %s%s%s "
+                    "took %s in all (line %d): one of them is wrong",
+                    c->row.coupon, at.data, of->step->id, of->wafer ? " of wafer " : "",
+                    of->wafer ? of->wafer : "", took.data, of->line);
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+/* what the mask lost and what is left of it are what was put there */
+static fw_status ask_mask_of(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             const fw_recipe_coupon *c, fw_place place, fw_diags *diags) {
+    static const double sure = 3.0;
+    const fw_quantity *mask = fw_process_coupon_mask(run->flow, &c->row);
+    char lost[32], left[32], there[32];
+    for (int i = 0; mask && !mask->unknown && i < e->nmeasured; i++) {
+        const fw_recipe_measured *m = &e->measured[i];
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
+        fw_quantity_unit unit;
+        if (!a || isnan(m->number) ||
+            strcmp(fw_process_coupon_called(a->coupon), c->row.coupon) != 0 ||
+            !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
+            !fw_quantity_dimension_equal(unit.dimension, mask->dimension))
+            continue;
+        double squares = 0.0;
+        for (int k = 0; k < FW_RECIPE_SITES; k++) {
+            const double off = isnan(m->site[k]) ? 0.0 : m->site[k] - m->number;
+            squares += off * off;
+        }
+        const double rest = fw_quantity_unit_to_si(&unit, m->number),
+                     scatter = fw_quantity_unit_to_si(&unit, sqrt(squares)) / fmax(m->nsite, 1.0);
+        const double off = fabs(c->row.value + rest - mask->value),
+                     u = hypot(hypot(mask->uncertainty, fmax(c->row.uncertainty, 0.0)), scatter);
+        if (off <= sure * u) continue;
+        fw_diag_warning(
+            diags, 709, place,
+            "coupon %s says that %s um were lost, and %s = %s um that so many are left: together "
+            "they are not the %s um that were put there (%s): one of them is wrong",
+            c->row.coupon, fw_number_text(lost, sizeof lost, 1e6 * c->row.value, 4), m->measure,
+            fw_number_text(left, sizeof left, 1e6 * rest, 4),
+            fw_number_text(there, sizeof there, 1e6 * mask->value, 4), mask->id);
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_recipe_asrun_ask_contradictions(const fw_recipe_asrun *run,
+                                             const fw_recipe_asrun_entry *e, fw_place place,
+                                             fw_diags *diags) {
+    for (int i = 0; i < e->ncoupon; i++) {
+        FW_TRY(ask_time_of(run, e, &e->coupon[i], place, diags));
+        FW_TRY(ask_mask_of(run, e, &e->coupon[i], place, diags));
+    }
+    return FW_OK;
 }
 
 /* ---- limits ---- */

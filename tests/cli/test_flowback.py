@@ -260,6 +260,29 @@ class Flowback(unittest.TestCase):
             said = json.loads(self.expect(run("log", device, *few, "--run", self.here / f"{flow}.log", "--json")).stdout)
             self.assertEqual(sum(len(s["settings"]) for s in said["steps"]), set_)
 
+    def test_a_coupon_is_of_what_is_there(self):
+        """lines in the resist are the printed edge, those of the metal its own; at other steps, and by times that cannot be, none"""
+        lines = "; coupon=cd-lines, line, drawn=10 um, value={} um, u=0.05 um; coupon=cd-lines, space, drawn=10 um, value={} um, u=0.05 um"
+        resist, metal = lines.format("10.04 10.06 10.02", "9.96 9.98 9.94"), lines.format("7.90 7.92 7.88", "12.10 12.12 12.08")
+        at = "{}; start=2026-11-02T{}; end=2026-11-02T{}; by=AB; wafer=1"
+        refused = self.expect(self.command("--wafers", "1", "--entry", at.format("S09", "09:00", "09:08") + resist), 3)
+        self.assertIn("[FW-D706]", refused.stderr)
+        self.assertIn("(litho.edge) from S11 to S13", refused.stderr)
+        self.expect(self.command("--wafers", "1", "--entry", at.format("S12", "10:00", "10:08") + resist))
+        printed = self.expect(run("calibrate", self.log, "--flow", SILICON))
+        self.assertRegex(printed.stdout, r'<q id="litho.edge" value="0.02" ')
+        self.assertNotIn("made.al-edge", printed.stdout)
+        self.expect(self.command("--entry", at.format("S15", "11:00", "11:07") + metal))
+        early = self.expect(self.command("--entry", at.format("S14", "12:00", "12:17")))
+        self.assertIn("[FW-D707]", early.stderr)
+        left = self.expect(run("calibrate", self.log, "--flow", SILICON, "--all-runs"))
+        self.assertIn("[FW-D707]", left.stderr)
+        self.assertNotIn("made.al-edge", left.stdout)
+        self.expect(self.command("--entry", at.format("S15", "12:20", "12:27") + metal))
+        both = self.expect(run("calibrate", self.log, "--flow", SILICON))
+        self.assertRegex(both.stdout, r'<q id="made.al-edge" value="0.05" ')
+        self.assertRegex(both.stdout, r'<q id="litho.edge" value="0.02" ')
+
     def test_one_side_alone(self):
         """lines that are gone say nothing to calibrate without those that stand; a mistake of a load is told once"""
         etch = "S18; wafer=1; start=2026-11-02T08:00; end=2026-11-02T10:05; by=AB; second=CD; coupon=undercut-ladder, {}, drawn={} um, at=52 um"

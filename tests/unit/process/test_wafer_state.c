@@ -190,10 +190,47 @@ static void a_laboratory_meets_the_same_checks(void **state) {
     }
 }
 
+/* From the step on that makes what a coupon reads, until the one that takes it away; of a flow that does not make it, and of what
+   is read on any wafer, whenever */
+static void where_coupons_are_read(void **state) {
+    (void)state;
+    static const struct {
+        const char *flow, *coupon, *feature, *where; /* NULL: at any step */
+    } of[] = {
+        {SILICON, "cd-lines", "line", "the printed edge (litho.edge) from S11 to S13, the edge of the aluminium (made.al-edge) from S14 to S20"},
+        {SILICON, "arde-slots", "", "from S18 to S23"},
+        {SILICON, "undercut-ladder", "width", "from S18 to S23"},
+        {SILICON, "al-step", "", "from S18 to S20"},
+        {SILICON, "etch-rate", "pan.R", NULL},
+        {SILICON, "spin", "", NULL},
+        {SILICON, "release-holes", "free", NULL},
+        {COPPER, "cd-lines", "space", "the printed edge (litho.edge) from C18 to C23"},
+        {COPPER, "plating-pads", "", "from C22 to C28"},
+        {COPPER, "release-holes", "held", "from C26 to C28"},
+        {COPPER, "plating-mass", "", NULL},
+        {"soi-deep-rie", "cd-lines", "line", "the printed edge (litho.edge) from D07 to D09"},
+        {"soi-deep-rie", "arde-slots", "", "from D09 to D13"},
+        {"soi-double-sided", "cd-lines", "line", "the printed edge (litho.edge) from B07 to B09"},
+        {"silicon-on-glass", "cd-lines", "line", "the printed edge (litho.edge) from G34 to G36, the edge of the aluminium (made.al-edge) from G37 to G44"},
+        {"silicon-on-glass", "undercut-ladder", "width", "from G42 to G53"},
+    };
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        const fw_process_flow *f = read_pack(arena, of[i].flow, NULL, NULL, &diags);
+        const fw_process_measurement row = {.coupon = of[i].coupon, .feature = of[i].feature};
+        fw_process_coupon_stage stage;
+        const char *where = NULL;
+        bool there;
+        assert_int_equal(fw_process_coupon_stage_at(arena, f, &row, f->step, &there, &stage, &where), FW_OK);
+        assert_int_equal(there, of[i].where == NULL);
+        if (of[i].where && strcmp(where, of[i].where) != 0) fail_msg("%s of %s: %s", of[i].coupon, of[i].flow, where);
+    }
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
 int main(void) {
     const struct CMUnitTest tests[] = {TEST(a_bath_leaves_wafers_wet_until_it_is_finished),
                                        TEST(mistakes), TEST(dries),
-                                       TEST(a_laboratory_meets_the_same_checks)};
+                                       TEST(a_laboratory_meets_the_same_checks),
+                                       TEST(where_coupons_are_read)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -253,9 +253,34 @@ static void refused(void **state) {
     assert_non_null(strstr(said.item[0].message, "wafer 1: "));
 }
 
+/* An edge may lie at 0, where no share of it says by how much wafers differ; one that is 0 but for rounding is written so; and how
+   results go together is said once, with all that they share */
+static void edges_about_nothing(void **state) {
+    (void)state;
+    static const double off_um[3] = {-0.03, 0.0, 0.03};
+    fw_process_calibration c;
+    fw_text pack = fw_text_new(arena);
+    readings = (fw_process_readings){.item = item, .file = "lot.log", .sha256 = "0123456789abcdef"};
+    for (int w = 0; w < 3; w++) {
+        fw_process_reading *r = put("cd-lines", "line", name[w], (10.0 - 2.2 + 2.0 * off_um[w]) * 1e-6, 0.0, 1, 0.01e-6);
+        r->row.drawn_m = 10e-6;
+    }
+    assert_int_equal(fw_process_calibrate_wafers(arena, silicon, &readings, &diags, &c), FW_OK);
+    assert_int_equal(c.count, 1);
+    assert_true(fabs(c.item[0].value) < 1e-15);
+    assert_non_null(strstr(c.item[0].note, "mean of 3 wafers, which differ by 0.03 um (standard"));
+    assert_int_equal(fw_process_calibration_pack(silicon, &c, "lot.log", "0123456789abcdef", &pack), FW_OK);
+    assert_non_null(strstr(pack.data, "<q id=\"made.al-edge\" value=\"0\" "));
+    lot_of(3, 1e-9, 0.05, 1e-9, 1e-9);
+    assert_int_equal(fw_process_calibrate_wafers(arena, silicon, &readings, &diags, &c), FW_OK);
+    assert_non_null(strstr(c.item[0].note, " % (standard"));
+    assert_null(strstr(c.item[0].note, "correlation"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coverage), cmocka_unit_test(slots),
                                        cmocka_unit_test(copies_count_once), cmocka_unit_test(one_that_is_odd),
+        cmocka_unit_test(edges_about_nothing),
                                        cmocka_unit_test(refused)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
