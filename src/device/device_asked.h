@@ -198,7 +198,7 @@ typedef enum fw_device_respond_goal {
 
 typedef struct fw_device_respond { /* <respond>: a number that is looked at */
     const char *name;
-    const char *value; /* where it stands: "governing.utilisation", "modes:modes[0].frequency_Hz" */
+    const char *value; /* where it stands: "governing.utilisation", "modes:modes[0].f_Hz" */
     fw_device_respond_take take;
     fw_device_respond_goal goal;
     double min, max; /* SI; NaN: no limit */

@@ -58,8 +58,12 @@ static const fw_xml_attribute_row probe_rows[] = {
      .sentence =
          "Body that carries the point, or that turns. A point goes against the substrate, also "
          "where heat or stress makes the layer longer."},
-    {"x", PLACE, .fallback = "0 mm", .sentence = "Point in the body's frame."},
-    {"y", PLACE, .fallback = "0 mm", .sentence = "Point in the body's frame."},
+    {"x", PLACE, .fallback = "0 mm",
+     .sentence = "Point in the body's frame, whose origin is the centroid of what is drawn of a "
+                 "link or platform without mass."},
+    {"y", PLACE, .fallback = "0 mm",
+     .sentence = "Point in the body's frame, whose origin is the centroid of what is drawn of a "
+                 "link or platform without mass."},
     {"direction", TURN, .fallback = "the size of the vector",
      .sentence = "From the world's x axis; of an opening in the frame of a. Stiffness and "
                  "compliance need it."},
@@ -211,7 +215,9 @@ static const fw_xml_attribute_row limits_rows[] = {
     {"failure-probability", D_PURE,
      ABOVE(0, 0.5, "never is not to be had, and a device that more often breaks than not is none"),
      .fallback = "none: the material's plain strength",
-     .sentence = "Of the whole device, of a material that fractures: its Weibull data then rule."},
+     .sentence =
+         "Of the whole device, of a material that fractures: its Weibull data then rule. All "
+         "flexures together may break with it, whichever has how much of it."},
     {"clearance", SIZE, .fallback = "none: parts that move do not meet",
      .sentence = "That everything that moves keeps from whatever it may meet, in every scene and "
                  "required pose, as drawn and as made."},

@@ -24,6 +24,10 @@ static const fw_xml_attribute_row hinge_rows[] = {
      .sentence =
          "Direction of the flexure's bulge, from the x axis; the strip of a leaf lies across it."},
 };
+#define DRAWN_FRAME                                                                                \
+    "Without mass the origin of its frame, from which points of it are measured, is the centroid " \
+    "of all that is drawn of it, necks and rings of its hinges included; `flexwright assemble` "   \
+    "says where."
 static const fw_xml_attribute_row link_rows[] = {
     {"id", .kind = FW_KIND_WORD, REQUIRED, .words = link_names,
      .sentence = "Which link of ABCDEF."},
@@ -36,18 +40,18 @@ static const fw_xml_attribute_row link_rows[] = {
     {"inertia", D_INERTIA, SOME_INERTIA, .fallback = "from the drawn shape",
      .sentence = "Moment of inertia about the centre of mass; together with mass."},
     {"x", POSITION, .fallback = "midpoint of its hinges",
-     .sentence = "Reference frame and centre of mass, when mass is given."},
+     .sentence = "Reference frame and centre of mass, when mass is given. " DRAWN_FRAME},
     {"y", POSITION, .fallback = "midpoint of its hinges",
-     .sentence = "Reference frame and centre of mass, when mass is given."},
+     .sentence = "Reference frame and centre of mass, when mass is given. " DRAWN_FRAME},
 };
 static const fw_xml_attribute_row platform_rows[] = {
     {"id", .kind = FW_KIND_WORD, REQUIRED, .words = platform_names, .sentence = "Always CD."},
     {"width", SIZE, .fallback = "not drawn", .sentence = "Of the rectangle; together with height."},
     {"height", SIZE, .fallback = "not drawn", .sentence = "Of the rectangle; together with width."},
     {"x", POSITION, REQUIRED,
-     .sentence = "Centre of the rectangle, and of mass when mass is given."},
+     .sentence = "Centre of the rectangle, and of mass when mass is given. " DRAWN_FRAME},
     {"y", POSITION, REQUIRED,
-     .sentence = "Centre of the rectangle, and of mass when mass is given."},
+     .sentence = "Centre of the rectangle, and of mass when mass is given. " DRAWN_FRAME},
     {"angle", TURN, .fallback = "0 deg",
      .sentence = "Of the rectangle's width against the x axis."},
     {"mass", D_MASS, SOME_MASS, .fallback = "from the drawn shape",
@@ -88,20 +92,19 @@ static const fw_xml_attribute_row body_rows[] = {
     {"plate-y", PLACE, .fallback = "y", .sentence = "Centre of the rectangle, as drawn."},
     {"plate-angle", TURN, .fallback = "0 deg", .sentence = "Of the rectangle against the x axis."},
 };
+#define POINT_OF(end)                                                                              \
+    "Point " end                                                                                   \
+    " in the body's frame, whose origin is the centroid of what is drawn of a link or "            \
+    "platform without mass; on ground in the world."
 #define ENDS                                                                                       \
     {"a", REF(FW_SPACE_BODY), .ground = true, REQUIRED,                                            \
      .sentence = "What it holds on to: a body, or ground."},                                       \
-        {"a-x", PLACE, .fallback = "0 mm",                                                         \
-         .sentence = "Point a in the body's frame; on ground in the world."},                      \
-        {"a-y", PLACE, .fallback = "0 mm",                                                         \
-         .sentence = "Point a in the body's frame; on ground in the world."},                      \
+        {"a-x", PLACE, .fallback = "0 mm", .sentence = POINT_OF("a")},                             \
+        {"a-y", PLACE, .fallback = "0 mm", .sentence = POINT_OF("a")},                             \
         {"b", REF(FW_SPACE_BODY), .ground = true, REQUIRED,                                        \
          .sentence = "What it holds: another body, or ground."},                                   \
-        {"b-x", PLACE, .fallback = "0 mm",                                                         \
-         .sentence = "Point b in the body's frame; on ground in the world."},                      \
-    {                                                                                              \
-        "b-y", PLACE, .fallback = "0 mm",                                                          \
-                      .sentence = "Point b in the body's frame; on ground in the world."           \
+        {"b-x", PLACE, .fallback = "0 mm", .sentence = POINT_OF("b")}, {                           \
+        "b-y", PLACE, .fallback = "0 mm", .sentence = POINT_OF("b")                                \
     }
 static const fw_xml_attribute_row revolute_rows[] = {
     {"id", ID, REQUIRED, .sentence = "Id of the joint."},

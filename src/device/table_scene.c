@@ -13,8 +13,12 @@ static const fw_xml_attribute_row scene_rows[] = {
 };
 static const fw_xml_attribute_row force_rows[] = {
     {"on", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that it pulls."},
-    {"x", PLACE, .fallback = "0 mm", .sentence = "Point in the body's frame."},
-    {"y", PLACE, .fallback = "0 mm", .sentence = "Point in the body's frame."},
+    {"x", PLACE, .fallback = "0 mm",
+     .sentence = "Point in the body's frame, whose origin is the centroid of what is drawn of a "
+                 "link or platform without mass."},
+    {"y", PLACE, .fallback = "0 mm",
+     .sentence = "Point in the body's frame, whose origin is the centroid of what is drawn of a "
+                 "link or platform without mass."},
     {"fx", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's x axis."},
     {"fy", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's y axis."},
 };
@@ -69,7 +73,9 @@ static const char *const air_kinds[] = {"slide", "squeeze", "drag", NULL};
 #define D_STRESS    .kind = FW_KIND_NUMBER, .dimension = {-1, 1, -2, 0, 0, 0, 0, 0}, .unit = "MPa"
 #define D_STRESS_SLOPE                                                                             \
     .kind = FW_KIND_NUMBER, .dimension = {-2, 1, -2, 0, 0, 0, 0, 0}, .unit = "MPa/um"
-#define BODY_POINT_X "Point in the body's frame; on ground in the world."
+#define BODY_POINT_X                                                                               \
+    "Point in the body's frame, whose origin is the centroid of what is drawn of a link or "       \
+    "platform without mass; on ground in the world."
 
 /* ---- actuators ---- */
 

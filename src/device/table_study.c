@@ -174,7 +174,7 @@ static const fw_xml_attribute_row respond_rows[] = {
     {"value", TEXT, REQUIRED,
      .sentence = "Where the number stands in a document of --json, by its keys: "
                  "governing.utilisation, hinges[C].utilisation, requirements[stroke].value, "
-                 "modes:modes[0].frequency_Hz; [*] stands for all. The document before the colon "
+                 "modes:modes[0].f_Hz; [*] stands for all. The document before the colon "
                  "is one of verdict (without one), simulate, statics, modes, workspace, masks, "
                  "recipes. true and accept count 1; false, inconclusive and reject 0."},
     {"take", .kind = FW_KIND_WORD, .words = takes, .fallback = "one",

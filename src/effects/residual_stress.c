@@ -27,13 +27,22 @@ typedef struct released {
     double curvature_per_m; /* (1 - nu)/E times the gradient */
 } released;
 
-static released released_by(const fw_effect_case *c) {
-    double per_Pa = compliance(c->mechanism), mean = 0, gradient = 0;
-    for (int i = 0; i < c->scene->nstress; i++) {
-        mean += c->scene->stress[i].mean_Pa;
-        gradient += c->scene->stress[i].gradient_Pa_per_m;
+static released released_in(const fw_mechanism *m, const fw_device_scene *s) {
+    double per_Pa = compliance(m), mean = 0, gradient = 0;
+    for (int i = 0; i < s->nstress; i++) {
+        mean += s->stress[i].mean_Pa;
+        gradient += s->stress[i].gradient_Pa_per_m;
     }
     return (released){-mean * per_Pa, gradient * per_Pa};
+}
+
+static released released_by(const fw_effect_case *c) {
+    return released_in(c->mechanism, c->scene);
+}
+
+double fw_effects_stress_strain(const fw_mechanism *m, const fw_device_scene *s) {
+    const double strain = s->nstress > 0 ? released_in(m, s).strain : 0;
+    return isnan(strain) ? 0 : -strain / (1 + strain);
 }
 
 /* ---- bow ---- */

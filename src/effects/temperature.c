@@ -56,6 +56,41 @@ static double softening(const fw_mechanism *m, const fw_device_temperature *t) {
     return has_hinge(m) ? stated_or(t->modulus_change_per_K, m, true) * t->change_K : 0;
 }
 
+int fw_effects_ground_strains(const fw_mechanism *m, const fw_device_scene *s, double strain[2]) {
+    double low = fw_effects_stress_strain(m, s), high = low;
+    enum { SAMPLES = 256 };
+    for (int i = 0; i < s->ntemperature; i++) {
+        const fw_device_temperature *t = &s->temperature[i];
+        const double one = t->change_K != 0 ? ground_strain(m, t) : 0;
+        double least = 0, most = 0, value[3];
+        if (!(fabs(one) > 0)) continue; /* none, or not known: the scene is refused */
+        if (fw_quantity_law_is_constant(t->law)) {
+            low += fmin(one, 0), high += fmax(one, 0);
+            continue;
+        }
+        for (int k = 1; k <= SAMPLES; k++) { /* of which sign it is */
+            fw_quantity_law_value(t->law, s->duration_s * k / SAMPLES, 0, value);
+            least = fmin(least, value[0]), most = fmax(most, value[0]);
+        }
+        const double largest = fw_quantity_law_largest(t->law, s->duration_s);
+        if (least < 0) least = -largest;
+        if (most > 0) most = largest;
+        low += fmin(one * least, one * most), high += fmax(one * least, one * most);
+    }
+    strain[0] = low, strain[1] = high;
+    return high > low ? 2 : high != 0 ? 1 : 0;
+}
+
+double fw_effects_softened(const fw_mechanism *m, const fw_device_scene *s) {
+    double most = 0;
+    for (int i = 0; i < s->ntemperature; i++) {
+        const double one = softening(m, &s->temperature[i]);
+        if (s->temperature[i].change_K != 0 && !isnan(one))
+            most += fabs(one) * fw_quantity_law_largest(s->temperature[i].law, s->duration_s);
+    }
+    return most;
+}
+
 /* ---- what cannot be ---- */
 
 static fw_status unknown(const fw_device_temperature *t, fw_diags *diags, const char *what,

@@ -47,7 +47,8 @@ static bool stated(const fw_flexure_limit_input *in, fw_flexure_limits *all,
 }
 
 /* What breaks: its plain strength, or, where a failure probability P of the whole device is asked
-   for, the stress at which one of its n flexures in series breaks with 1 - (1 - P)^(1/n):
+   for, the stress at which one of its n flexures in series breaks with 1 - (1 - P)^(1/n) (what each may have of P where
+   they are not strained alike is for the verdict to say):
      sigma = sigma0 ((A0/A_eff) ln(1/(1 - P))/n)^(1/m)
    A distribution that the device file states counts for what yields, too, beside its yield.
    source: Weibull (1951), docs/theory/limits-of-materials.md eq. 1-3; test_weibull.c */
@@ -69,8 +70,8 @@ static bool fracture(const fw_flexure_limit_input *in, fw_flexure_limits *all,
         const fw_quantity *const used[] = {&d->weibull_strength, &d->weibull_modulus,
                                            &d->weibull_area};
         limit->definition =
-            "fracture of one flexure of the device at the failure probability asked "
-            "for (Weibull, with the stressed surface)";
+            "fracture at the failure probability asked for of the device, by what all of its "
+            "flexures have of it (Weibull, with the stressed surface)";
         limit->source = d->weibull_strength.source;
         limit->status = weakest(used, 3);
         limit->allowable_Pa = fw_flexure_weibull_stress_Pa(

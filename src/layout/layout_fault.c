@@ -164,12 +164,15 @@ fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item) {
     FW_NEED(l->missing = fw_arena_grow(d->arena, l->missing, n, n + 1, sizeof *l->missing));
     l->missing[l->nmissing++] = item;
     if (d->said) return FW_OK;
-    fw_diag_warning(
-        d->diags, item.number, item.place,
-        "%s at (%s, %s) um %s not drawn: %s; a device that lacks what it moves with or is "
-        "held by is rejected",
-        item.name, fw_layout_um(x, item.at.x), fw_layout_um(y, item.at.y),
-        item.number == 127 ? "are" : "is", item.why);
+    const bool known = isfinite(item.at.x) && isfinite(item.at.y);
+    const char *at = known ? fw_arena_printf(d->arena, " at (%s, %s) um",
+                                             fw_layout_um(x, item.at.x), fw_layout_um(y, item.at.y))
+                           : "";
+    FW_NEED(at);
+    fw_diag_warning(d->diags, item.number, item.place,
+                    "%s%s %s not drawn: %s; a device that lacks what it moves with or is "
+                    "held by is rejected",
+                    item.name, at, item.number == 127 ? "are" : "is", item.why);
     return FW_OK;
 }
 

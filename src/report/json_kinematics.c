@@ -426,7 +426,8 @@ static void certified_actuator(fw_json *json, const fw_workspace_actuator *a) {
 static void certified_strain(fw_json *json, const fw_report_workspace_flow *f,
                              const fw_workspace_strain_proof *p) {
     if (!p->hold || !p->proved ||
-        p->hold->ngiven > 0) { /* the certificate has no words for what is given */
+        (p->hold->ngiven > 0 ||
+         p->hold->rubs)) { /* the certificate has no words for what is given */
         fw_json_null(json, "strain");
         return;
     }

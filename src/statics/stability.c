@@ -361,10 +361,15 @@ static fw_status say(looker *k, fw_diags *diags) {
             fw_number_text(turned, sizeof turned, degree * fabs(out->angle_rad[out->pin]), 4));
     else if (!out->angle_rad)
         fw_text_add(&text, ", and no stable equilibrium was found that it would move to");
-    fw_text_add(&text,
-                "; only the exact symmetry of the description keeps it there. Lower the load, "
-                "stiffen the joints, or apply the load with a small eccentricity to compute "
-                "that motion");
+    /* where it would go to either side alike, what keeps it is that nothing decides the side */
+    fw_text_add(&text, out->goes || out->pin != FW_NONE
+                           ? "; only the exact symmetry of the description keeps it there. Lower "
+                             "the load, stiffen the joints, or apply the load with a small "
+                             "eccentricity to compute that motion"
+                           : "; a symmetry of the description keeps it there, or it has "
+                             "not had the time to leave. Lower the load, stiffen the "
+                             "joints, or apply the load with a small eccentricity to "
+                             "compute that motion");
     FW_TRY(fw_text_end(&text));
     out->text = text.data;
     fw_diag_warning(diags, 259, w->scene->place, "%s", out->text);

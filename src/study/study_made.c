@@ -14,10 +14,11 @@
 typedef struct batch {
     fw_study_yielding *y;
     size_t n;
-    const double *x;       /* (n x npoint) */
-    const long *number;    /* (n) of their samples */
-    fw_verdict_made *made; /* (n) */
-    bool *wanted;          /* (n) not known from before */
+    const double *x;           /* (n x npoint) */
+    const long *number;        /* (n) of their samples */
+    fw_verdict_made *made;     /* (n) */
+    bool *wanted;              /* (n) not known from before */
+    char (*why)[FW_STUDY_WHY]; /* (n) what is not known of it; "" */
 } batch;
 
 /* with settings of its own: the description read again and judged as drawn, then as made */
@@ -57,11 +58,13 @@ static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, con
         status = fw_verdict_made_at(arena, device, layout, &options, &variant[y->flow], x, made);
     if (status == FW_NOMEM || status == FW_CANCELLED || status == FW_OK) return status;
     made->ln = (double)NAN;
+    for (size_t i = 0; i < diags.count; i++) /* the first error says it */
+        if (diags.item[i].severity == FW_ERROR && !made->why) made->why = diags.item[i].message;
     return FW_OK;
 }
 
 fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
-                                  fw_verdict_made *made) {
+                                  fw_verdict_made *made, char *why) {
     const fw_plan *plan = y->study->plan;
     fw_arena *arena = fw_arena_part(plan->arena, 0);
     FW_NEED(arena);
@@ -72,6 +75,9 @@ fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
     else
         status = fw_verdict_made_at(arena, plan->device, plan->layout, &plan->options.verdict,
                                     &plan->verdict.variant[y->flow], x, made);
+    if (why)
+        snprintf(why, FW_STUDY_WHY, "%s",
+                 status == FW_OK && isnan(made->ln) && made->why ? made->why : "");
     made->why = NULL; /* of this arena */
     fw_arena_free(arena);
     return status;
@@ -79,9 +85,10 @@ fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
 
 static fw_status judge_kth(void *context, long k) {
     batch *b = context;
-    return b->wanted[k] ? fw_study_yielding_judge(
-                              b->y, b->x + (size_t)k * (size_t)b->y->scatter.npoint, &b->made[k])
-                        : FW_OK;
+    return b->wanted[k]
+               ? fw_study_yielding_judge(b->y, b->x + (size_t)k * (size_t)b->y->scatter.npoint,
+                                         &b->made[k], b->why[k])
+               : FW_OK;
 }
 
 /* ---- devices that were judged before ---- */
@@ -120,7 +127,7 @@ static fw_status make_room(fw_study_yielding *y, size_t more) {
 /* ---- the limit state ---- */
 
 static void fill_sample(const fw_study_yielding *y, const double *x, const fw_study_cached *c,
-                        fw_study_sample *sample) {
+                        const char *why, fw_study_sample *sample) {
     const fw_study *study = y->study;
     for (int k = 0; k < study->ninput; k++)
         sample->value[k] = (double)NAN, sample->text[k][0] = '\0';
@@ -134,8 +141,10 @@ static void fill_sample(const fw_study_yielding *y, const double *x, const fw_st
     sample->run = !isnan(c->ln);
     sample->used = exp(c->ln);
     sample->decision = !sample->run ? -1 : c->ln > 0 ? 1 : 0;
-    if (!sample->run)
-        memcpy(sample->why, "it could not be judged", sizeof "it could not be judged");
+    snprintf(sample->why, FW_STUDY_WHY, "%s",
+             sample->run ? ""
+             : why[0]    ? why
+                         : "it could not be judged");
 }
 
 /* what the store has of these devices is not judged again */
@@ -162,7 +171,8 @@ static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b, 
     bool *stored = fw_arena_array(scratch, bool, b->n);
     b->made = fw_arena_array(scratch, fw_verdict_made, b->n);
     b->wanted = fw_arena_array(scratch, bool, b->n);
-    FW_NEED(stored && b->made && b->wanted ? stored : NULL);
+    b->why = fw_arena_alloc(scratch, b->n, sizeof *b->why);
+    FW_NEED(stored && b->made && b->wanted && b->why ? stored : NULL);
     FW_TRY(fw_study_sample_new(scratch, y->study, &sample));
     for (size_t k = 0; k < b->n; k++)
         b->wanted[k] = true;
@@ -174,7 +184,7 @@ static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b, 
         ln[k] = log(exp(b->made[k].ln)); /* as a store that is read again says it */
         if (stored[k]) continue;
         const fw_study_cached c = {.i = b->number[k], .ln = ln[k]};
-        fill_sample(y, b->x + k * (size_t)y->scatter.npoint, &c, &sample);
+        fill_sample(y, b->x + k * (size_t)y->scatter.npoint, &c, b->why[k], &sample);
         FW_TRY(fw_study_keep(y->study, &sample));
     }
     return FW_OK;
@@ -338,7 +348,7 @@ static fw_status time_die(fw_study_yielding *y) {
         u[d] = 0.1; /* what is just as it is drawn is not judged again */
     fw_study_scatter_point(s, u, NULL, fw_study_scatter_at(s, u), drawn, x);
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun);
-    FW_TRY(fw_study_yielding_judge(y, x, &made));
+    FW_TRY(fw_study_yielding_judge(y, x, &made, NULL));
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
     y->study->seconds_each =
         (double)(ended.tv_sec - begun.tv_sec) + 1e-9 * (double)(ended.tv_nsec - begun.tv_nsec);

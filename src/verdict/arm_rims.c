@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bodies with release holes, cut straight across: what they leave of the body where a hinge's way is strained most, and how
-   much the rims of holes are strained at most. Theory: docs/theory/release.md */
+   much the rims of holes are strained at most. Theory: docs/theory/release.md. And what of required poses is open. */
 #include "base/constants.h"
 #include "base/sort.h"
 #include "geometry/segment.h"
@@ -332,4 +332,128 @@ const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *s,
         low, holds, opens,
         fw_number_text(least, sizeof least, 1e3 * adhesion_J_per_m2 * pow(share, 1.5), 2),
         fw_number_text(times, sizeof times, 1 / share, 3));
+}
+
+/* least, most: over what is allowed, of the rims beside end i; of required poses its low end is not known */
+fw_status fw_verdict_give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, double least,
+                               double most, const char *scene, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+    const bool breaks = least > 1, posed = scene == NULL;
+    char low[32], high[32], x[32], y[32];
+    const char *use = posed ? "at most"
+                            : fw_arena_printf(arena, "%s to",
+                                              fw_number_text(low, sizeof low, 100 * least, 2)),
+               *where = posed ? "required poses"
+                              : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", scene));
+    FW_NEED(use && where ? use : NULL);
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s the rims of release holes of %s%s %s what %s%s brings: they use %s "
+        "%s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
+        "smaller holes (release-hole), a wider body there or %s lowers it",
+        where, FW_NAMED("body", m->device->body[i % 2 ? pin->body_b : pin->body_a].id),
+        breaks ? "do not bear" : "are not known to bear", FW_NAMED("hinge", pin->id), use,
+        fw_number_text(high, sizeof high, 100 * most, 4),
+        fw_number_text(x, sizeof x, 1e6 * arm->rim.x, 4),
+        fw_number_text(y, sizeof y, 1e6 * arm->rim.y, 4),
+        posed ? "a smaller required box" : "less load");
+    FW_NEED(text);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = posed ? "workspace" : scene,
+                                                  .flow = m->variant->flow,
+                                                  .number = FW_VERDICT_RIMS,
+                                                  .decision = breaks ? FW_REJECT : FW_INCONCLUSIVE,
+                                                  .keep = fmin(fmax(0.98 / most, 1e-3), 0.99),
+                                                  .not_by_loads = posed,
+                                                  .not_by_width = true,
+                                                  .text = text};
+    return FW_OK;
+}
+
+/* ---- what of required poses is open ---- */
+
+/* required poses in which nothing bounds what drift and give of the hinges add */
+static fw_status judge_give(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_workspace_load *worst = NULL;
+    for (int i = 0; i < FW_SIX && !worst; i++)
+        if (v->workspace.load[i].known && isinf(v->workspace.load[i].give))
+            worst = &v->workspace.load[i];
+    if (!worst) return FW_OK;
+    return fw_verdict_workspace_reason(
+        v, 535, FW_INCONCLUSIVE,
+        fw_arena_printf(
+            arena,
+            "what drift and give of the hinges change in required poses is not known: held by "
+            "%s, no equilibrium of hinges that give was found; hold the platform where it is "
+            "needed, ask for a smaller box, or take hinges that give less",
+            worst->actuation));
+}
+
+/* what drives the device in its scenes holds no required pose well: what it must give has no bound there */
+static fw_status judge_held(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_workspace_result *w = &v->workspace;
+    char volume[32], needed[32];
+    if (!w->badly_by) return FW_OK;
+    return fw_verdict_workspace_reason(
+        v, 536, FW_INCONCLUSIVE,
+        fw_arena_printf(
+            arena,
+            "the actuators of the scenes hold the required workspace badly: the best three, %s, "
+            "have unit wrenches of a volume of %s in one of its poses, and %s is needed; forces "
+            "grow without bound towards 0, so that the strain is computed for a wrench on the "
+            "platform instead; drive it at another place, ask for a smaller box, or state in a "
+            "scene two forces and a torque on the platform if they hold it",
+            w->badly_by, fw_number_text(volume, sizeof volume, w->badly, 2),
+            fw_number_text(needed, sizeof needed, FW_WORKSPACE_HOLDS_WELL, 2)));
+}
+
+/* what poses do not count, or do not tell the size of */
+static fw_status judge_unknown(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_workspace_result *w = &v->workspace;
+    const char *text[3] = {NULL, NULL, NULL};
+    static const int number[3] = {710, 711, 646};
+    if (w->left_out)
+        FW_NEED(text[0] = fw_arena_printf(
+                    arena,
+                    "required poses are judged without %s: that may strain hinges there, too; "
+                    "judge such poses as scenes, or leave it out where it does not act in them",
+                    w->left_out));
+    if (w->presses_itself)
+        FW_NEED(text[1] =
+                    fw_arena_printf(arena,
+                                    "in required poses friction of scene %s presses hinges so that "
+                                    "it grows without end: they jam; smaller radii or "
+                                    "coefficients, or what holds better, keep away from there",
+                                    w->presses_itself));
+    if (w->unknown)
+        FW_NEED(text[2] = fw_arena_printf(
+                    arena,
+                    "required poses have to be held against %s, too, and do not tell how strong "
+                    "that is: it ends at what rides on the six-bar; let it act on a body of the "
+                    "six-bar or on the ground, or judge such a pose as a scene",
+                    w->unknown));
+    for (int i = 0; i < 3; i++)
+        if (text[i]) FW_TRY(fw_verdict_workspace_reason(v, number[i], FW_INCONCLUSIVE, text[i]));
+    return FW_OK;
+}
+
+/* a required pose that no pose of the legs has: nothing of a hinge can be said there */
+fw_status fw_verdict_required_poses(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_workspace_result *w = &v->workspace;
+    char x[32], y[32], phi[32];
+    if (!w->required) return FW_OK;
+    if (w->reachable) {
+        FW_TRY(judge_held(arena, v));
+        FW_TRY(judge_unknown(arena, v));
+        return judge_give(arena, v);
+    }
+    return fw_verdict_workspace_reason(
+        v, 201, FW_REJECT,
+        fw_arena_printf(
+            arena,
+            "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, turned "
+            "by %s deg",
+            fw_number_text(x, sizeof x, w->fail_x_m * 1e6, 4),
+            fw_number_text(y, sizeof y, w->fail_y_m * 1e6, 4),
+            fw_number_text(phi, sizeof phi, w->fail_phi_rad * FW_DEG_PER_RAD, 3)));
 }

@@ -394,7 +394,8 @@ static brought in_poses(const fw_verdict_variant_verdict *v, int i) {
     const double more =
         (1 + fmax(load->added, 0)) * (1 + (isfinite(load->give) ? fmax(load->give, 0) : 0));
     return (brought){.moment_Nm = m->pin[at].stiffness_Nm_per_rad *
-                                  (fabs(w->peak[at].angle_rad) + w->peak[at].error_rad),
+                                      (fabs(w->peak[at].angle_rad) + w->peak[at].error_rad) +
+                                  (load->known ? more * load->rub_Nm : 0),
                      .force_N = load->known ? more * load->most_N : 0};
 }
 
@@ -434,42 +435,6 @@ static double required_at_most(const fw_verdict_variant_verdict *v, int *at) {
 
 double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at) {
     return v->mechanism->device->release_pitch_m > 0 ? required_at_most(v, at) : (double)NAN;
-}
-
-/* band: over what is allowed, of the rims beside end i; of required poses its low end is not known */
-static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, fw_verdict_band band,
-                           const char *scene, fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-    const bool breaks = band.low > 1, posed = scene == NULL;
-    char low[32], high[32], x[32], y[32];
-    const char *use = posed ? "at most"
-                            : fw_arena_printf(arena, "%s to",
-                                              fw_number_text(low, sizeof low, 100 * band.low, 2)),
-               *where = posed ? "required poses"
-                              : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", scene));
-    FW_NEED(use && where ? use : NULL);
-    const char *text = fw_arena_printf(
-        arena,
-        "in %s the rims of release holes of %s%s %s what %s%s brings: they use %s "
-        "%s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
-        "smaller holes (release-hole), a wider body there or %s lowers it",
-        where, FW_NAMED("body", m->device->body[i % 2 ? pin->body_b : pin->body_a].id),
-        breaks ? "do not bear" : "are not known to bear", FW_NAMED("hinge", pin->id), use,
-        fw_number_text(high, sizeof high, 100 * band.high, 4),
-        fw_number_text(x, sizeof x, 1e6 * arm->rim.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * arm->rim.y, 4),
-        posed ? "a smaller required box" : "less load");
-    FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = posed ? "workspace" : scene,
-                                                  .flow = m->variant->flow,
-                                                  .number = FW_VERDICT_RIMS,
-                                                  .decision = breaks ? FW_REJECT : FW_INCONCLUSIVE,
-                                                  .keep = fmin(fmax(0.98 / band.high, 1e-3), 0.99),
-                                                  .not_by_loads = posed,
-                                                  .not_by_width = true,
-                                                  .text = text};
-    return FW_OK;
 }
 
 /* ---- and of bodies, with holes and without ---- */
@@ -575,8 +540,8 @@ fw_status fw_verdict_bending_judge(fw_arena *arena, int scene, const fw_dynamics
     if (!(band.high > 1)) return FW_OK;
     const fw_verdict_strain_monitor *saw = motion->observed;
     const int i = at[band.low > 1 ? 0 : 1];
-    return give_rims(arena, &saw->bending.arm[i], i, band, v->mechanism->device->scene[scene].name,
-                     v);
+    return fw_verdict_give_rims(arena, &saw->bending.arm[i], i, band.low, band.high,
+                                v->mechanism->device->scene[scene].name, v);
 }
 
 fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v) {
@@ -585,7 +550,7 @@ fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_
     const double high = required_at_most(v, &at);
     if (!(high > 1)) return FW_OK;
     if (m->device->release_pitch_m > 0)
-        return give_rims(arena, &v->arm[at], at, (fw_verdict_band){0, high}, NULL, v);
+        return fw_verdict_give_rims(arena, &v->arm[at], at, 0, high, NULL, v);
     const fw_mechanism_pin *pin = &m->pin[m->hinge[at / 2].pin];
     const weak worst = {high, &v->arm[at], at % 2 ? pin->body_b : pin->body_a, "hinge", pin->id};
     return say_weak(arena, NULL, &worst, v);

@@ -154,6 +154,7 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     chance(by, out);
     FW_TRY(count_fatigue(arena, by, monitor, k, out));
     out->decision = decide(out->utilisation_low, out->utilisation_high);
+    out->open = lost;
     if (lost && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
     collide(by->drawn, out);
     return FW_OK;
@@ -226,6 +227,7 @@ static void judge_workspace(const judged *by, const fw_workspace_result *workspa
     chance(by, out);
     workspace_fatigue(by, out);
     out->decision = decide(out->utilisation_low, out->utilisation_high);
+    out->open = !load->known;
     if (!load->known && out->decision == FW_ACCEPT) out->decision = FW_INCONCLUSIVE;
     collide(by->drawn, out);
 }
@@ -430,6 +432,57 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
     return FW_OK;
 }
 
+/* ---- the share of a failure probability that each hinge may have ----
+   Limits come with equal shares of what is asked of the device: U_k there, so that its hazard is (U_k)^m/n of what is allowed,
+   times the safety factor's power. All stresses together may grow until the sum of these is 1, which makes
+
+     U = (sum over k of U_k^m/n)^(1/m)
+
+   the device's utilisation: equation (3) of docs/theory/limits-of-materials.md with n replaced by n' = sum (U_k/U_max)^m,
+   flexures as strained as the one that is strained most. So every limit is n^(1/m)/n'^(1/m) times as large, ends of bands
+   likewise with those of all. In: hinges as judged; out: their limits, utilisations and decisions. Test:
+   tests/cli/test_limits.py */
+static bool by_probability(const fw_verdict_hinge_verdict *h) {
+    return h->limit && strcmp(h->limit->criterion, "fracture") == 0;
+}
+
+static void rescale(double u, double low, double high, fw_verdict_hinge_verdict *h) {
+    h->utilisation *= u, h->utilisation_low *= low, h->utilisation_high *= high;
+    h->limit_Pa /= u, h->strain_limit /= u, h->limit_angle_rad /= u;
+    h->numeric *= u;
+    h->lasting = (1 + h->lasting) * high / u - 1;
+    h->lasting_low = 1 - (1 - h->lasting_low) * low / u;
+    h->decision = decide(h->utilisation_low, h->utilisation_high);
+    if ((h->touches || h->open) && h->decision == FW_ACCEPT) h->decision = FW_INCONCLUSIVE;
+}
+
+static void share_out(const fw_device *device, const fw_mechanism *m,
+                      fw_verdict_variant_verdict *v) {
+    const double asked = device->limits.failure_probability, hazard = -log1p(-asked);
+    const double modulus = m->nhinge > 0 ? m->hinge[0].limits.weibull.modulus : 0;
+    double sum[3] = {0}, most[3] = {0}, by[3];
+    if (!(asked > 0)) return;
+    for (int k = 0; k < m->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &v->hinge[k];
+        const fw_flexure_weibull *w = &m->hinge[k].limits.weibull;
+        if (!w->known || w->modulus != modulus || !(h->failure_probability < 1)) return;
+        const double own = device->safety_factor *
+                           pow(-log1p(-h->failure_probability) * m->nhinge / hazard, 1 / modulus);
+        const double of = h->utilisation > 0 ? own / h->utilisation : 0;
+        const double use[3] = {own, of * h->utilisation_low, of * h->utilisation_high};
+        for (int i = 0; i < 3; i++)
+            sum[i] += pow(use[i], modulus) / m->nhinge, most[i] = fmax(most[i], use[i]);
+    }
+    for (int i = 0; i < 3; i++)
+        by[i] = most[i] > 0 && isfinite(most[i]) ? fmin(pow(sum[i], 1 / modulus) / most[i], 1) : 1;
+    for (int k = 0; k < m->nhinge; k++) {
+        if (!by_probability(&v->hinge[k])) continue;
+        rescale(by[0], by[1], by[2], &v->hinge[k]);
+        for (int i = 0; i <= device->nscene; i++)
+            v->used[(size_t)k * ((size_t)device->nscene + 1) + (size_t)i] *= by[0];
+    }
+}
+
 static fw_status judge_hinges(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                               const fw_verdict_strain_monitor *monitor, fw_diags *diags,
                               fw_verdict_variant_verdict *v) {
@@ -444,76 +497,8 @@ static fw_status judge_hinges(fw_arena *arena, const fw_device *device, const fw
                            .repetitions = device->limits.cycles};
         FW_TRY(judge_hinge(arena, device, &by, k, monitor, diags, v));
     }
+    share_out(device, m, v);
     return FW_OK;
-}
-
-/* required poses in which nothing bounds what drift and give of the hinges add */
-static fw_status judge_give(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_workspace_load *worst = NULL;
-    for (int i = 0; i < FW_SIX && !worst; i++)
-        if (v->workspace.load[i].known && isinf(v->workspace.load[i].give))
-            worst = &v->workspace.load[i];
-    if (!worst) return FW_OK;
-    return fw_verdict_workspace_reason(
-        v, 535, FW_INCONCLUSIVE,
-        fw_arena_printf(
-            arena,
-            "what drift and give of the hinges change in required poses is not known: held by "
-            "%s, no equilibrium of hinges that give was found; hold the platform where it is "
-            "needed, ask for a smaller box, or take hinges that give less",
-            worst->actuation));
-}
-
-/* what drives the device in its scenes holds no required pose well: what it must give has no bound there */
-static fw_status judge_held(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_workspace_result *w = &v->workspace;
-    char volume[32], needed[32];
-    if (!w->badly_by) return FW_OK;
-    return fw_verdict_workspace_reason(
-        v, 536, FW_INCONCLUSIVE,
-        fw_arena_printf(
-            arena,
-            "the actuators of the scenes hold the required workspace badly: the best three, %s, "
-            "have unit wrenches of a volume of %s in one of its poses, and %s is needed; forces "
-            "grow without bound towards 0, so that the strain is computed for a wrench on the "
-            "platform instead; drive it at another place, ask for a smaller box, or state in a "
-            "scene two forces and a torque on the platform if they hold it",
-            w->badly_by, fw_number_text(volume, sizeof volume, w->badly, 2),
-            fw_number_text(needed, sizeof needed, FW_WORKSPACE_HOLDS_WELL, 2)));
-}
-
-/* what acts on the six-bar besides, by way of what rides on it */
-static fw_status judge_unknown(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    if (!v->workspace.unknown) return FW_OK;
-    return fw_verdict_workspace_reason(
-        v, 646, FW_INCONCLUSIVE,
-        fw_arena_printf(
-            arena,
-            "required poses have to be held against %s, too, and do not tell how strong that is: "
-            "it ends at what rides on the six-bar; let it act on a body of the six-bar or on the "
-            "ground, or judge such a pose as a scene",
-            v->workspace.unknown));
-}
-
-/* a required pose that no pose of the legs has: nothing of a hinge can be said there */
-static fw_status judge_reach(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_workspace_result *w = &v->workspace;
-    char x[32], y[32], phi[32];
-    if (!w->required) return FW_OK;
-    if (w->reachable) {
-        FW_TRY(judge_held(arena, v));
-        FW_TRY(judge_unknown(arena, v));
-        return judge_give(arena, v);
-    }
-    return fw_verdict_workspace_reason(
-        v, 201, FW_REJECT,
-        fw_arena_printf(
-            arena,
-            "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, turned "
-            "by %s deg",
-            fw_number_text(x, sizeof x, w->fail_x_m * 1e6, 4),
-            fw_number_text(y, sizeof y, w->fail_y_m * 1e6, 4),
-            fw_number_text(phi, sizeof phi, w->fail_phi_rad * FW_DEG_PER_RAD, 3)));
 }
 
 /* each hinge may break the device: its survival is the product of theirs */
@@ -591,7 +576,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
             (v->governing == FW_NONE || fw_verdict_governs(&v->hinge[k], &v->hinge[v->governing])))
             v->governing = k;
     }
-    FW_TRY(judge_reach(arena, v));
+    FW_TRY(fw_verdict_required_poses(arena, v));
     FW_TRY(fw_verdict_missing(arena, device, layout, v));
     for (int i = 0; i < v->nreason; i++)
         v->decision = fw_verdict_worse(v->decision, v->reason[i].decision);

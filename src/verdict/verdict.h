@@ -49,7 +49,7 @@ typedef struct fw_verdict_hinge_verdict {
        strain over that of the rotation there alone */
     const char *actuation;
     double joint_force_N, over_rotation;
-    bool touches;                  /* the drawn solids meet before the peak angle */
+    bool touches, open; /* the drawn solids meet before the peak angle; no band of it is accepted */
     const fw_flexure_limit *limit; /* the criterion that governs; NULL: a number without a source */
     double limit_Pa; /* peak stress that it allows in this motion, before the safety factor */
     double failure_probability; /* at the peak, no safety factor; NaN: nothing known or asked */

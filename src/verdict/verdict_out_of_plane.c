@@ -439,7 +439,8 @@ static fw_status required_factor(fw_arena *arena, const both *is,
         if (j >= FW_SIX) continue;
         double *most = forces + 2 * n + 3 * (size_t)k; /* whichever way it acts */
         most[0] = most[2] = pow(v->workspace.load[j].most_N, 2);
-        most[1] = m->pin[j].stiffness_Nm_per_rad * fabs(v->workspace.peak[j].angle_rad);
+        most[1] = m->pin[j].stiffness_Nm_per_rad * fabs(v->workspace.peak[j].angle_rad) +
+                  v->workspace.load[j].rub_Nm;
     }
     fw_mechanism_plates_pressed pressed = {forces, forces + 2 * n, far, 1 / (1 - is->rigid.error)};
     *factor = HUGE_VAL;

@@ -78,6 +78,8 @@ fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_
 /* ---- verdict_out_of_plane.c: plates on flexures ---- */
 
 /* decision.c: one more reason, of the required poses; text NULL: FW_NOMEM */
+/* adds why required poses are out of reach or undecided: arm_rims.c */
+fw_status fw_verdict_required_poses(fw_arena *arena, fw_verdict_variant_verdict *v);
 fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
                                       fw_verdict_decision decision, const char *text);
 

@@ -363,12 +363,15 @@ static fw_status text_of(fw_arena *arena, const fw_layout_missing *m, const char
                            ? fw_arena_printf(arena, ", line %d, column %d of the description",
                                              m->place.line, m->place.column)
                            : "";
-    FW_NEED(line);
+    const char *at = isfinite(m->at.x) && isfinite(m->at.y) /* else of a body that no file places */
+                         ? fw_arena_printf(arena, " at (%s, %s) um",
+                                           fw_number_text(x, sizeof x, m->at.x * 1e6, 5),
+                                           fw_number_text(y, sizeof y, m->at.y * 1e6, 5))
+                         : "";
+    FW_NEED(line && at ? line : NULL);
     FW_NEED(*text =
-                fw_arena_printf(arena, "%s at (%s, %s) um%s: %s, but not in the masks: %s%s%s",
-                                m->name, fw_number_text(x, sizeof x, m->at.x * 1e6, 5),
-                                fw_number_text(y, sizeof y, m->at.y * 1e6, 5), line,
-                                moves ? "in the motion" : "asked for", m->why,
+                fw_arena_printf(arena, "%s%s%s: %s, but not in the masks: %s%s%s", m->name, at,
+                                line, moves ? "in the motion" : "asked for", m->why,
                                 m->room ? fw_layout_missing_way(m) : "", m->room ? m->room : ""));
     return FW_OK;
 }

@@ -264,14 +264,54 @@ static fw_status weights(giving *g, const fw_device_scene *s) {
     return FW_OK;
 }
 
+/* ---- friction ---- */
+
+/* of the hinge's convex conjugate surface; NaN: there is none */
+static double surface_of(const fw_mechanism *m, int pin) {
+    for (int i = 0; i < m->nhinge; i++)
+        if (m->hinge[i].pin == pin && m->hinge[i].surface_radius_m > 0)
+            return m->hinge[i].surface_radius_m;
+    return (double)NAN;
+}
+
+/* largest coefficient times radius, of a hinge of the six-bar; 0: it does not rub. Where that is not known the scene
+   itself is refused (FW-D245). */
+static double arm_of_friction(const fw_mechanism *m, const fw_device_friction_use *u) {
+    if (u->revolute < 0 || u->revolute >= FW_SIX || u->revolute >= m->npin) return 0;
+    const double mu = fmax(u->coefficient, u->static_coefficient); /* passes by NaN */
+    const double radius = isnan(u->radius_m) ? surface_of(m, u->revolute) : u->radius_m;
+    return mu > 0 && radius > 0 ? mu * radius : 0;
+}
+
+static fw_status frictions(giving *g, const fw_device_scene *s, fw_workspace_hold *hold) {
+    const char *who = NULL;
+    int n = 0;
+    for (int i = 0; i < s->nfriction; i++) {
+        const fw_device_friction_use *u = &s->friction[i];
+        const double arm = arm_of_friction(g->in.m, u);
+        const char *id = arm > 0 ? g->in.m->pin[u->revolute].id : NULL;
+        if (!(arm > 0)) continue;
+        hold->rubs = true;
+        hold->rub_arm_m[u->revolute] = arm, hold->rub_preload_N[u->revolute] = u->preload_N;
+        FW_NEED(who = fw_arena_printf(g->in.arena, "%s%s%s", who ? who : "", who ? ", " : "",
+                                      id ? id : "?"));
+        n++;
+    }
+    return n > 0 ? named(g, fw_arena_printf(g->in.arena, "friction of hinge%s %s in scene %s",
+                                            n > 1 ? "s" : "", who, s->name))
+                 : FW_OK;
+}
+
 static bool heavy(const fw_device_scene *s) {
     return s->gravity && (s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0);
 }
 
-bool fw_workspace_scene_gives(const fw_device_scene *s) {
+bool fw_workspace_scene_gives(const fw_mechanism *m, const fw_device_scene *s) {
     bool any = heavy(s);
     for (int i = 0; i < s->ncontact && !any; i++)
         any = touches_loop(&s->contact[i]);
+    for (int i = 0; i < s->nfriction && !any; i++)
+        any = arm_of_friction(m, &s->friction[i]) > 0;
     return any;
 }
 
@@ -289,6 +329,7 @@ fw_status fw_workspace_hold_given(fw_arena *arena, const fw_mechanism *m,
     if (scene && heavy(scene)) FW_TRY(weights(&g, scene));
     for (int i = 0; scene && i < scene->ncontact; i++)
         FW_TRY(one_contact(&g, &scene->contact[i]));
+    if (scene) FW_TRY(frictions(&g, scene, hold));
     hold->given = g.to, hold->ngiven = g.n, hold->given_by = g.by, hold->unknown = g.unknown;
     return FW_OK;
 }

@@ -44,6 +44,7 @@ typedef struct limber {
 typedef struct standing {
     double body[LINKS][3]; /* displacement of hold->at (m) and rotation (rad), from the drawing */
     double size[3];        /* of the actuators, in their units times force_N */
+    int sign[FW_SIX];      /* with which hinges rub */
 } standing;
 
 typedef struct loads {
@@ -51,7 +52,7 @@ typedef struct loads {
 } loads;
 
 static fw_geometry_vec2 place(const limber *l, const standing *s, int body, fw_geometry_vec2 p) {
-    if (body < 0 || body >= LINKS) return p;
+    if (body < 0 || body >= LINKS) return fw_workspace_on_ground(l->hold, p.x, p.y);
     const double *q = s->body[body], c = cos(q[2]), n = sin(q[2]);
     fw_geometry_vec2 at = l->hold->at[body];
     double x = p.x - at.x, y = p.y - at.y;
@@ -125,8 +126,11 @@ static void of_hinge(const limber *l, const standing *s, int i, loads *to, doubl
     law_of(l, i, &b, a != NULL, &law);
     double M = b.o * law.gradient[0], X = b.o * law.gradient[1], Y = b.o * law.gradient[2];
     double fx = X * b.c - Y * b.n, fy = X * b.n + Y * b.c, both = 0.5 * (Y * b.w - X * b.v);
-    add(l, s, i - 1, b.from, fx, fy, both + M, to);
-    add(l, s, i, b.to, -fx, -fy, both - M, to);
+    /* friction presses on both bodies alike, as the joint's force tells; its slope by that is left out */
+    const double rub = s->sign[i] * l->hold->rub_arm_m[i] *
+                       (l->hold->rub_preload_N[i] + (s->sign[i] ? hypot(X, Y) : 0));
+    add(l, s, i - 1, b.from, fx, fy, both + M + rub, to);
+    add(l, s, i, b.to, -fx, -fy, both - M - rub, to);
     if (!a) return;
     const double J[3][6] = {{0, 0, -1, 0, 0, 1},
                             {-b.c, -b.n, 0.5 * b.v, b.c, b.n, 0.5 * b.v},
@@ -332,12 +336,14 @@ static void stiff(const limber *l, const double pose[3], const fw_workspace_pose
 /* from where it stands with pins, or along the way from the drawn pose, each step with what pins do
    in it */
 static bool stand(const limber *l, const fw_workspace_grip *grip, const double pose[3],
-                  const fw_workspace_pose_load *load, standing *s) {
+                  const fw_workspace_pose_load *load, const int sign[FW_SIX], standing *s) {
     *s = (standing){0};
+    memcpy(s->sign, sign, sizeof s->sign);
     stiff(l, pose, load, s);
     if (settle(l, grip, s)) return true;
     standing before = {0}, now;
     *s = (standing){0};
+    memcpy(s->sign, sign, sizeof s->sign);
     for (int i = 0; i <= STEPS; i++) {
         const double part = (double)i / STEPS;
         const double way[3] = {part * pose[0], part * pose[1], part * pose[2]};
@@ -414,14 +420,16 @@ typedef struct looked {
 
 /* where it stands at a pose by a grip: most extremes lie in corners, which are then looked at, too */
 static bool stood(const limber *l, int g, const double pose[3], const fw_workspace_pose_load *load,
-                  looked *to, standing *s) {
+                  const int sign[FW_SIX], looked *to, standing *s) {
     for (int k = 0; k < to->nstance; k++) {
         const stance *was = &to->stance[k];
-        if (was->grip != g || memcmp(was->pose, pose, sizeof was->pose)) continue;
+        if (was->grip != g || memcmp(was->pose, pose, sizeof was->pose) ||
+            memcmp(was->at.sign, sign, sizeof was->at.sign))
+            continue;
         *s = was->at;
         return was->stands;
     }
-    bool stands = stand(l, &l->hold->grip[g], pose, load, s);
+    bool stands = stand(l, &l->hold->grip[g], pose, load, sign, s);
     if (to->nstance < STANCES)
         to->stance[to->nstance++] =
             (stance){.pose = {pose[0], pose[1], pose[2]}, .grip = g, .stands = stands, .at = *s};
@@ -433,8 +441,9 @@ static bool stood(const limber *l, int g, const double pose[3], const fw_workspa
 static void look(const limber *l, const double pose[3], int g, bool always, looked *to) {
     const fw_workspace_grip *grip = &l->hold->grip[g];
     fw_workspace_gripped *by = fw_workspace_view_grip(to->view, g);
-    bool any = always, matters[FW_SIX];
+    bool any = always, matters[FW_SIX], stands = false;
     double pins[FW_SIX];
+    int sign[FW_SIX] = {0};
     standing s;
     if (!by->holds) return;
     for (int i = 0; i < FW_SIX; i++) {
@@ -444,10 +453,18 @@ static void look(const limber *l, const double pose[3], int g, bool always, look
         any = any || matters[i];
     }
     if (!any) return;
-    bool stands = stood(l, g, pose, &to->view->load, to, &s);
-    if (stands && !holds(l, grip, &s)) return;
+    if (!l->hold->rubs) {
+        stands = stood(l, g, pose, &to->view->load, sign, to, &s);
+        if (stands && !holds(l, grip, &s)) return;
+    }
     for (int i = 0; i < FW_SIX; i++) {
         if (!matters[i]) continue;
+        if (l->hold->rubs) { /* with the signs that strain this hinge most */
+            fw_workspace_rub_signs(l->hold, &to->view->load, i, &by->force[i], &to->view->rub,
+                                   sign);
+            stands = stood(l, g, pose, &to->view->load, sign, to, &s);
+            if (stands && !holds(l, grip, &s)) continue;
+        }
         double strain = stands ? strain_of(l, &s, i) : HUGE_VAL;
         to->gives[i] = fmax(to->gives[i], strain);
         to->apart = fmax(to->apart, fabs(strain / pins[i] - 1.0));

@@ -12,7 +12,8 @@
      R_E = R_F - f_EF,   R_D = R_E - f_DE.
 
    Linear in the moments and in the actuators' sizes; the three equations of the platform give
-   these sizes (Cramer). What is given (springs, weight, contacts) counts with the moments.
+   these sizes (Cramer). What is given (springs, weight, contacts) counts with the moments, and so does friction, of either
+   sign.
    in: box m, rad; out: N. Error: proved by maths_interval.h. Cost about 10 us and 3 us a grip. Source: docs/theory/workspace.md. Test: test_pose_strain.c. */
 #include "workspace/pose_load.h"
 #include <math.h>
@@ -112,11 +113,6 @@ typedef struct outer { /* what acts on the five bodies; moments about hold->at *
     fw_workspace_jet moment[5];
 } outer;
 
-static fw_workspace_jet moment_of(const fw_workspace_hold *hold,
-                                  const fw_workspace_jet theta[FW_SIX], int hinge) {
-    return fw_jet_scaled(theta[hinge], hold->section[hinge].spring_Nm_per_rad);
-}
-
 static bool is_zero(const fw_workspace_jet *a) {
     return a->v.m == 0.0 && a->v.r <= 1e-290;
 }
@@ -130,17 +126,14 @@ static bool acts_on(const outer *by, int side) {
     return any;
 }
 
-/* theta: to the hinges' moments; by: to outer forces; one of them may be NULL */
+/* m: to moments of the hinges; by: to outer forces; one of them may be NULL */
 static void respond(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
-                    const fw_workspace_jet *theta, const outer *by, fw_workspace_response *out) {
+                    const fw_workspace_jet *m, const outer *by, fw_workspace_response *out) {
     fw_workspace_jet along[2][2], zero = fw_jet_exact(0.0); /* a x R, b x R of both legs */
     fw_workspace_jet turn = zero;
     for (int side = 0; side < 2; side++)
         along[side][0] = along[side][1] = zero;
-    if (theta) {
-        fw_workspace_jet m[FW_SIX];
-        for (int i = 0; i < FW_SIX; i++)
-            m[i] = moment_of(hold, theta, i);
+    if (m) {
         along[0][0] = fw_jet_sub(m[1], m[0]), along[0][1] = fw_jet_sub(m[2], m[1]);
         along[1][0] = fw_jet_sub(m[4], m[5]), along[1][1] = fw_jet_sub(m[3], m[4]);
         turn = fw_jet_sub(m[3], m[2]);
@@ -180,7 +173,7 @@ static void respond(const fw_workspace_hold *hold, const fw_workspace_pose_load 
     out->wrench[0] = push.x, out->wrench[1] = push.y;
     out->wrench[2] = fw_jet_scaled(turn, 1.0 / hold->length_m);
     for (int side = 0; side < 2; side++)
-        out->on_leg[side] = theta || acts_on(by, side);
+        out->on_leg[side] = m || acts_on(by, side);
 }
 
 bool fw_workspace_pose_places(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
@@ -222,7 +215,10 @@ static fw_workspace_jet2 turn_of(const fw_workspace_pose_load *o, int body) {
 /* from the point that moments of the body are about; of the ground: from the origin */
 static fw_workspace_jet2 arm_of(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
                                 const fw_workspace_body_point *p) {
-    if (p->body == FW_GROUND) return fw_jet2_exact(p->x_m, p->y_m);
+    if (p->body == FW_GROUND) {
+        const fw_geometry_vec2 stands = fw_workspace_on_ground(hold, p->x_m, p->y_m);
+        return fw_jet2_exact(stands.x, stands.y);
+    }
     fw_geometry_vec2 at = hold->at[p->body];
     return fw_jet2_turned(o->turn[p->body], p->x_m - at.x, p->y_m - at.y);
 }
@@ -390,8 +386,11 @@ static void add_given(const fw_workspace_hold *hold, const fw_workspace_pose_loa
 
 void fw_workspace_pose_own(const fw_workspace_hold *hold, fw_workspace_pose_load *o) {
     outer on = nothing();
+    fw_workspace_jet m[FW_SIX];
+    for (int i = 0; i < FW_SIX; i++)
+        m[i] = fw_jet_scaled(o->theta[i], hold->section[i].spring_Nm_per_rad);
     add_given(hold, o, &on);
-    respond(hold, o, o->theta, hold->ngiven > 0 ? &on : NULL, &o->own);
+    respond(hold, o, m, hold->ngiven > 0 ? &on : NULL, &o->own);
 }
 
 bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspace_box3 *box,
@@ -416,34 +415,153 @@ static fw_workspace_jet dot3(const fw_workspace_jet p[3], const fw_workspace_jet
                       fw_jet_mul(p[2], q[2]));
 }
 
+typedef struct gripping { /* three actuators, that are not all the wrench */
+    const fw_workspace_hold *hold;
+    const fw_workspace_pose_load *at;
+    const fw_workspace_grip *grip;
+    const fw_workspace_response *by[3];
+    fw_workspace_jet others[3]; /* by[1] x by[2] */
+    fw_workspace_jet gain;      /* -1/(by[0] . others) */
+} gripping;
+
+static gripping gripping_of(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                            const fw_workspace_response *response, const fw_workspace_grip *grip) {
+    gripping g;
+    g.hold = hold, g.at = o, g.grip = grip;
+    for (int j = 0; j < 3; j++)
+        g.by[j] = &response[grip->actuator[j]];
+    cross3(g.by[1]->wrench, g.by[2]->wrench, g.others);
+    g.gain = fw_jet_tight(dot3(g.by[0]->wrench, g.others), o->half);
+    g.gain = fw_jet_negated(fw_jet_inverse(g.gain));
+    return g;
+}
+
+static bool asked_for(const gripping *g, int j) {
+    return g->by[j]->on_leg[0] || g->by[j]->on_leg[1] ||
+           g->hold->actuator[g->grip->actuator[j]].pulls;
+}
+
+/* how strong the actuator has to be against a response, and what that does to the joints */
+static fw_workspace_jet answer(const gripping *g, int j, const fw_workspace_response *to,
+                               fw_workspace_jet2 force[FW_SIX]) {
+    fw_workspace_jet others[3];
+    if (j > 0) cross3(g->by[(j + 1) % 3]->wrench, g->by[(j + 2) % 3]->wrench, others);
+    fw_workspace_jet size = fw_jet_tight(
+        fw_jet_mul(dot3(to->wrench, j > 0 ? others : g->others), g->gain), g->at->half);
+    for (int i = 0; i < FW_SIX; i++)
+        if (g->by[j]->on_leg[i > 2])
+            force[i] = fw_jet2_add(force[i], fw_jet2_times(g->by[j]->force[i], size));
+    return size;
+}
+
+/* ---- friction ---- */
+
+static fw_maths_interval length_over(const fw_workspace_jet2 *f, const double half[3]) {
+    const fw_maths_interval x = fw_jet_range(&f->x, half), y = fw_jet_range(&f->y, half);
+    const double near_x = fmax(fmax(x.lo, -x.hi), 0), near_y = fmax(fmax(y.lo, -y.hi), 0);
+    return (fw_maths_interval){fw_down(hypot(near_x, near_y)) * (1 - 1e-15),
+                               fw_grown(hypot(fmax(-x.lo, x.hi), fmax(-y.lo, y.hi)))};
+}
+
+/* T_j = arm_j (preload_j + |R_j|), |R_j| <= |R0_j| + sum_k T_k |G_kj|: the least solution, by its fixed point, which the
+   ends from above are a hair beyond. It has one where friction does not press itself without end. */
+static void torques_of(const fw_workspace_hold *h, const double own_N[FW_SIX],
+                       const double gain[FW_SIX][FW_SIX], bool above, double torque[FW_SIX]) {
+    enum { ROUNDS = 200 };
+    double most = 0, change = HUGE_VAL;
+    memset(torque, 0, FW_SIX * sizeof *torque);
+    for (int round = 0; round < ROUNDS && change > 1e-12 * most; round++) {
+        double now[FW_SIX];
+        change = most = 0;
+        for (int j = 0; j < FW_SIX; j++) {
+            double press = h->rub_preload_N[j] + own_N[j];
+            for (int k = 0; k < FW_SIX; k++)
+                press += torque[k] * gain[k][j];
+            now[j] = h->rub_arm_m[j] > 0 ? h->rub_arm_m[j] * press : 0;
+            change = fmax(change, fabs(now[j] - torque[j])), most = fmax(most, now[j]);
+        }
+        memcpy(torque, now, sizeof now);
+    }
+    for (int j = 0; j < FW_SIX && above; j++)
+        torque[j] = change <= 1e-12 * most ? torque[j] * (1 + 1e-9) : HUGE_VAL;
+    for (int j = 0; j < FW_SIX; j++)
+        if (!(h->rub_arm_m[j] > 0)) torque[j] = 0;
+}
+
+static void rub_of(const fw_workspace_hold *h, const fw_workspace_pose_load *o, const gripping *g,
+                   const fw_workspace_jet2 force[FW_SIX], fw_workspace_rub *rub) {
+    double near_N[FW_SIX], far_N[FW_SIX], less[FW_SIX][FW_SIX] = {{0}},
+                                          more[FW_SIX][FW_SIX] = {{0}};
+    *rub = (fw_workspace_rub){0};
+    for (int k = 0; k < FW_SIX; k++) {
+        const fw_maths_interval size = length_over(&force[k], o->half);
+        near_N[k] = size.lo, far_N[k] = size.hi;
+        rub->rubs[k] = h->rub_arm_m[k] > 0;
+        if (!rub->rubs[k]) continue;
+        fw_workspace_jet m[FW_SIX];
+        fw_workspace_response one;
+        for (int i = 0; i < FW_SIX; i++)
+            m[i] = fw_jet_exact(i == k);
+        respond(h, o, m, NULL, &one);
+        memcpy(rub->force[k], one.force, sizeof rub->force[k]);
+        for (int j = 0; j < 3 && g; j++)
+            if (asked_for(g, j)) rub->size[k][j] = answer(g, j, &one, rub->force[k]);
+        for (int i = 0; i < FW_SIX; i++) {
+            const fw_maths_interval gain = length_over(&rub->force[k][i], o->half);
+            less[k][i] = gain.lo, more[k][i] = gain.hi;
+        }
+    }
+    torques_of(h, near_N, (const double(*)[FW_SIX])less, false, rub->least_Nm);
+    torques_of(h, far_N, (const double(*)[FW_SIX])more, true, rub->most_Nm);
+    for (int k = 0; k < FW_SIX; k++) {
+        if (!rub->rubs[k]) continue;
+        for (int i = 0; i < FW_SIX; i++)
+            rub->more_N[i] += rub->most_Nm[k] * more[k][i];
+        for (int j = 0; j < 3; j++) {
+            const fw_maths_interval by = fw_jet_range(&rub->size[k][j], o->half);
+            rub->wider[j] += rub->most_Nm[k] * fmax(-by.lo, by.hi);
+        }
+    }
+}
+
 bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
                               const fw_workspace_response *response, const fw_workspace_grip *grip,
-                              bool *certain, bool own[2], fw_workspace_jet2 force[FW_SIX]) {
+                              bool *certain, bool own[2], fw_workspace_jet2 force[FW_SIX],
+                              fw_workspace_rub *rub) {
+    fw_workspace_jet size[3];
     *certain = own[0] = own[1] = true;
     for (int i = 0; i < FW_SIX; i++)
         force[i] = o->own.force[i];
-    if (grip->wrench) return true;
-    const fw_workspace_response *r[3];
-    for (int j = 0; j < 3; j++)
-        r[j] = &response[grip->actuator[j]];
-    fw_workspace_jet others[3], by;
-    cross3(r[1]->wrench, r[2]->wrench, others);
-    by = fw_jet_tight(dot3(r[0]->wrench, others), o->half);
-    by = fw_jet_negated(fw_jet_inverse(by));
+    if (grip->wrench) {
+        if (hold->rubs) rub_of(hold, o, NULL, force, rub);
+        return true;
+    }
+    const gripping g = gripping_of(hold, o, response, grip);
     for (int j = 0; j < 3; j++) {
-        bool one_way = hold->actuator[grip->actuator[j]].pulls;
-        bool reaches = r[j]->on_leg[0] || r[j]->on_leg[1];
-        if (!reaches && !one_way) continue;
-        if (j > 0) cross3(r[(j + 1) % 3]->wrench, r[(j + 2) % 3]->wrench, others);
-        fw_workspace_jet size = fw_jet_tight(fw_jet_mul(dot3(o->own.wrench, others), by), o->half);
-        fw_maths_interval range = fw_jet_range(&size, o->half);
-        if (one_way && range.hi < 0.0) return false;
-        if (one_way && !(range.lo >= 0.0)) *certain = false;
-        for (int i = 0; i < FW_SIX; i++)
-            if (r[j]->on_leg[i > 2])
-                force[i] = fw_jet2_add(force[i], fw_jet2_times(r[j]->force[i], size));
+        if (!asked_for(&g, j)) continue;
+        size[j] = answer(&g, j, &o->own, force);
         for (int side = 0; side < 2; side++)
-            own[side] = own[side] && !r[j]->on_leg[side];
+            own[side] = own[side] && !g.by[j]->on_leg[side];
+    }
+    if (hold->rubs) rub_of(hold, o, &g, force, rub);
+    for (int j = 0; j < 3; j++) {
+        if (!hold->actuator[grip->actuator[j]].pulls) continue;
+        const double wider = hold->rubs ? rub->wider[j] : 0.0;
+        const fw_maths_interval range = fw_jet_range(&size[j], o->half);
+        if (range.hi + wider < 0.0) return false;
+        if (!(range.lo + wider >= 0.0)) *certain = false;
     }
     return true;
+}
+
+void fw_workspace_grip_sizes(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                             const fw_workspace_response *response, const fw_workspace_grip *grip,
+                             double size[3]) {
+    fw_workspace_jet2 unused[FW_SIX];
+    size[0] = size[1] = size[2] = 0;
+    if (grip->wrench) return;
+    const gripping g = gripping_of(hold, o, response, grip);
+    memset(unused, 0, sizeof unused);
+    for (int j = 0; j < 3; j++)
+        if (asked_for(&g, j)) size[j] = answer(&g, j, &o->own, unused).v.m;
 }

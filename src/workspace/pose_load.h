@@ -243,6 +243,13 @@ struct fw_workspace_hold {
     int ngiven;
     const char *given_by; /* all of it, to be read; NULL: nothing is given */
     const char *unknown;  /* acts, too, with a force that the pose does not tell; NULL: nothing */
+    /* points of the ground stand at p + strain (p - middle): the loop has its own there already */
+    double strain;
+    fw_geometry_vec2 middle;
+    /* Dry friction of the hinges takes a torque of either sign up to rub_arm_m (rub_preload_N + joint force): largest
+       coefficient times radius */
+    bool rubs;
+    double rub_arm_m[FW_SIX], rub_preload_N[FW_SIX]; /* 0: has none */
 };
 
 /* which grips there are over a box: triples that hold all of it */
@@ -250,11 +257,33 @@ fw_status fw_workspace_hold_of(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_workspace_loop *loop, const fw_workspace_box3 *box,
                                fw_workspace_poses *poses, fw_workspace_hold *hold);
 
-/* adds what is given: springs, and weight and contacts of that scene, or of none (NULL) */
+/* of the ground's points, m, where a layer that grows or shrinks has them */
+static inline fw_geometry_vec2 fw_workspace_on_ground(const fw_workspace_hold *h, double x,
+                                                      double y) {
+    if (h->strain == 0) return (fw_geometry_vec2){x, y};
+    return (fw_geometry_vec2){x + h->strain * (x - h->middle.x), y + h->strain * (y - h->middle.y)};
+}
+
+/* Poses are those beside the substrate, which stays as it is drawn: from there to the layer's own lengths, and back. of: a
+   displacement of the platform's centre of mass */
+static inline fw_geometry_vec2 fw_workspace_in_layer(const fw_workspace_hold *h, double x,
+                                                     double y) {
+    const fw_geometry_vec2 c = h->loop->centre, at = fw_workspace_on_ground(h, c.x + x, c.y + y);
+    return h->strain == 0 ? (fw_geometry_vec2){x, y} : (fw_geometry_vec2){at.x - c.x, at.y - c.y};
+}
+static inline fw_geometry_vec2 fw_workspace_on_substrate(const fw_workspace_hold *h, double x,
+                                                         double y) {
+    const fw_geometry_vec2 shift = fw_workspace_in_layer(h, 0, 0);
+    return h->strain == 0 ? (fw_geometry_vec2){x, y}
+                          : (fw_geometry_vec2){(x - shift.x) / (1 + h->strain),
+                                               (y - shift.y) / (1 + h->strain)};
+}
+
+/* adds what is given: springs, and weight, contacts and friction of that scene, or of none (NULL) */
 fw_status fw_workspace_hold_given(fw_arena *arena, const fw_mechanism *mechanism,
                                   const fw_device_scene *scene, fw_workspace_hold *hold);
 /* a scene of the mechanism that has something to give */
-bool fw_workspace_scene_gives(const fw_device_scene *scene);
+bool fw_workspace_scene_gives(const fw_mechanism *mechanism, const fw_device_scene *scene);
 
 /* ---- pose_load.c: statics over a box ---- */
 
@@ -288,19 +317,40 @@ bool fw_workspace_pose_load_over(const fw_workspace_hold *hold, const fw_workspa
                                  const double *shift, fw_workspace_pose_load *out);
 void fw_workspace_pose_response(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
                                 const fw_workspace_actuator *by, fw_workspace_response *out);
+/* What friction may add under one grip, of either sign: to joint forces and sizes per unit of each torque, and bounds
+   of these torques over the box (at a pose the two ends are the same): no choice of signs has more. HUGE_VAL: they
+   press themselves without end. */
+typedef struct fw_workspace_rub {
+    bool rubs[FW_SIX];
+    fw_workspace_jet2 force[FW_SIX][FW_SIX]; /* [of the torque][of the joint], N/(N m) */
+    fw_workspace_jet size[FW_SIX][3];        /* of the grip's actuators */
+    double least_Nm[FW_SIX], most_Nm[FW_SIX];
+    double wider[3];       /* by which sizes may be larger or smaller */
+    double more_N[FW_SIX]; /* by which joint forces may be larger */
+} fw_workspace_rub;
 /* Joint forces under one grip. response: (nactuator). false: this grip would have to push where it
-   only pulls, all over the box; `certain`: at no pose of it. own: of which legs the forces are what
-   they are under a wrench on the platform. */
+   only pulls, all over the box; `certain`: at no pose of it, where friction is as it should be. own: of which legs the
+   forces are what they are under a wrench on the platform. rub: set where the hold has friction. */
 bool fw_workspace_pose_forces(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
                               const fw_workspace_response *response, const fw_workspace_grip *grip,
-                              bool *certain, bool own[2], fw_workspace_jet2 force[FW_SIX]);
+                              bool *certain, bool own[2], fw_workspace_jet2 force[FW_SIX],
+                              fw_workspace_rub *rub);
+/* at a pose: how strong its actuators are without friction; 0 of the wrench, and of one that reaches no joint */
+void fw_workspace_grip_sizes(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
+                             const fw_workspace_response *response, const fw_workspace_grip *grip,
+                             double size[3]);
 /* ---- pose_view.c: what that strains ---- */
 
 /* range that holds the largest strain of a hinge at every pose of the box, and where in the box it
-   grows to (signs of its slope; may be NULL) */
+   grows to (signs of its slope; may be NULL). rub: no signs of friction make it larger; NULL: there is none */
 fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
                                            const fw_workspace_pose_load *at, int hinge,
-                                           const fw_workspace_jet2 *force, double slope[3]);
+                                           const fw_workspace_jet2 *force,
+                                           const fw_workspace_rub *rub, double slope[3]);
+/* of a pose: with which signs of friction (-1, 0, 1) the hinge is strained most */
+void fw_workspace_rub_signs(const fw_workspace_hold *hold, const fw_workspace_pose_load *at,
+                            int hinge, const fw_workspace_jet2 *force, const fw_workspace_rub *rub,
+                            int sign[FW_SIX]);
 
 /* ---- pose_view.c: boxes that are looked at ---- */
 
@@ -330,6 +380,7 @@ typedef struct fw_workspace_view { /* a box of poses, of which is found what som
     long filled;                     /* of `kept`, as long as that is of this box */
     fw_workspace_gripped here;       /* what cannot be kept, of this grip */
     int here_of;
+    fw_workspace_rub rub; /* of `here`, where the hold has friction */
 } fw_workspace_view;
 fw_status fw_workspace_view_new(fw_arena *arena, const fw_workspace_hold *hold,
                                 fw_workspace_view *view);
@@ -352,6 +403,10 @@ fw_status fw_workspace_certify_strain(fw_arena *arena, const fw_workspace_hold *
 fw_status fw_workspace_sample_strain(fw_arena *arena, const fw_workspace_hold *hold,
                                      const fw_workspace_box3 *box,
                                      fw_workspace_strain_proof *proof);
+
+/* does friction press itself without end in a corner or in the middle of the box? */
+fw_status fw_workspace_presses_itself(fw_arena *arena, const fw_workspace_hold *hold,
+                                      const fw_workspace_box3 *box, bool *itself);
 
 /* ---- pose_give.c: what drift and give of the hinges change ---- */
 

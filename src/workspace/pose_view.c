@@ -138,11 +138,18 @@ static plane plane_of(const fw_workspace_jet *a, const double half[3]) {
     return p;
 }
 
+typedef struct share { /* of friction in one hinge: per unit of its torque, and that */
+    plane fx, fy;
+    double near, far, least_Nm, most_Nm;
+} share;
+
 typedef struct loaded {       /* of one hinge over one box */
     plane moment, fx, fy;     /* K theta; force in the frame half turned */
     plane along;              /* n.F, n the force's direction in the middle: |F| <= n.F + beside */
     double beside, far, near; /* far and near bound |F| in any case */
     bool slanted;             /* `along` holds */
+    const struct share *rub;  /* (nrub) of friction */
+    int nrub;
 } loaded;
 
 static void press(const fw_workspace_jet2 *f, const double half[3], loaded *p) {
@@ -162,6 +169,30 @@ static void press(const fw_workspace_jet2 *f, const double half[3], loaded *p) {
     p->along = plane_of(&along, half);
     p->beside = fw_grown(fw_grown(0.5 * off.hi * off.hi) / least.lo) + 1e-14 * p->far;
     p->slanted = true;
+}
+
+/* What friction adds at most: sum of T_j (bending |lever.G_j| + axial |G_j|), which is where the signs are such that all of
+   it bends further. */
+static fw_maths_interval rubbed(const fw_workspace_station *at, const loaded *p, double slope[3]) {
+    fw_maths_interval sum = {0, 0};
+    const double w = at->bending_per_Nm, x = at->lever_m[0], y = at->lever_m[1];
+    for (int j = 0; j < p->nrub; j++) {
+        const double m = x * p->rub[j].fx.m + y * p->rub[j].fy.m;
+        double reach = fabs(x) * p->rub[j].fx.rest + fabs(y) * p->rub[j].fy.rest;
+        const double turn = m < 0 ? -1 : 1;
+        for (int i = 0; i < 3; i++) {
+            const double g = x * p->rub[j].fx.g[i] + y * p->rub[j].fy.g[i];
+            reach += fabs(g);
+            slope[i] += turn * p->rub[j].most_Nm * w * g;
+        }
+        const double slack =
+            (fabs(x * p->rub[j].fx.m) + fabs(y * p->rub[j].fy.m) + reach) * 0x1p-46;
+        sum.hi +=
+            p->rub[j].most_Nm * (w * (fabs(m) + reach + slack) + at->axial_per_N * p->rub[j].far);
+        sum.lo += p->rub[j].least_Nm *
+                  (w * fmax(fabs(m) - reach - slack, 0) + at->axial_per_N * p->rub[j].near);
+    }
+    return (fw_maths_interval){sum.lo * (1 - 0x1p-40), sum.hi * (1 + 0x1p-40)};
 }
 
 /* Range of bending |M - lever.F| + axial |F|. The sums of planes are rounded as numbers are: they
@@ -196,9 +227,36 @@ static fw_maths_interval one_station(const fw_workspace_station *at, const loade
     return (fw_maths_interval){lo, hi};
 }
 
+static plane along_of(const fw_workspace_jet2 *t, const fw_workspace_jet2 *f, bool across,
+                      const double half[3]) {
+    const fw_workspace_jet a =
+        fw_jet_tight(across ? fw_jet2_cross(*t, *f) : fw_jet2_dot(*t, *f), half);
+    return plane_of(&a, half);
+}
+
+static int shares_of(const fw_workspace_pose_load *o, int hinge, const fw_workspace_rub *rub,
+                     share to[FW_SIX]) {
+    const fw_workspace_jet2 *t = &o->frame[hinge];
+    int n = 0;
+    for (int j = 0; j < FW_SIX; j++) {
+        if (!rub->rubs[j]) continue;
+        const fw_workspace_jet2 *g = &rub->force[j][hinge];
+        loaded size = {0};
+        press(g, o->half, &size);
+        to[n++] = (share){.fx = along_of(t, g, false, o->half),
+                          .fy = along_of(t, g, true, o->half),
+                          .near = size.near,
+                          .far = size.far,
+                          .least_Nm = rub->least_Nm[j],
+                          .most_Nm = rub->most_Nm[j]};
+    }
+    return n;
+}
+
 fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
                                            const fw_workspace_pose_load *o, int hinge,
-                                           const fw_workspace_jet2 *force, double slope[3]) {
+                                           const fw_workspace_jet2 *force,
+                                           const fw_workspace_rub *rub, double slope[3]) {
     const fw_workspace_section *s = &hold->section[hinge];
     fw_maths_interval all = {0.0, 0.0};
     if (s->n == 0) return all;
@@ -210,10 +268,16 @@ fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
                 .fx = plane_of(&along, o->half),
                 .fy = plane_of(&across, o->half)};
     press(force, o->half, &p);
+    share of_friction[FW_SIX];
+    if (rub) p.nrub = shares_of(o, hinge, rub, of_friction), p.rub = of_friction;
     for (int i = 0; i < s->n; i++) {
         double now[3];
-        if (i == s->roots && one_station(&s->inside, &p, now).hi <= all.hi) break;
+        if (i == s->roots && p.nrub == 0 && one_station(&s->inside, &p, now).hi <= all.hi) break;
         fw_maths_interval one = one_station(&s->station[i], &p, now);
+        if (p.nrub > 0) {
+            const fw_maths_interval more = rubbed(&s->station[i], &p, now);
+            one.lo += more.lo, one.hi += more.hi;
+        }
         if (one.lo > all.lo) all.lo = one.lo;
         for (int k = 0; k < 3 && slope && one.hi > all.hi; k++)
             slope[k] = now[k];
@@ -222,11 +286,38 @@ fw_maths_interval fw_workspace_pose_strain(const fw_workspace_hold *hold,
     return all;
 }
 
+void fw_workspace_rub_signs(const fw_workspace_hold *hold, const fw_workspace_pose_load *o,
+                            int hinge, const fw_workspace_jet2 *force, const fw_workspace_rub *rub,
+                            int sign[FW_SIX]) {
+    const fw_workspace_section *s = &hold->section[hinge];
+    const fw_workspace_jet2 *t = &o->frame[hinge];
+    double most = -1;
+    memset(sign, 0, FW_SIX * sizeof *sign);
+    for (int i = 0; i < s->n; i++) {
+        const fw_workspace_station *at = &s->station[i];
+        const double c = t->x.v.m, n = t->y.v.m, x = at->lever_m[0], y = at->lever_m[1];
+        const double fx = c * force->x.v.m + n * force->y.v.m,
+                     fy = c * force->y.v.m - n * force->x.v.m;
+        const double m = s->moment_Nm_per_rad * o->theta[hinge].v.m - x * fx - y * fy;
+        double lever[FW_SIX] = {0}, all = fabs(m);
+        for (int j = 0; j < FW_SIX; j++) {
+            const fw_workspace_jet2 *g = &rub->force[j][hinge];
+            if (!rub->rubs[j]) continue;
+            lever[j] = -x * (c * g->x.v.m + n * g->y.v.m) - y * (c * g->y.v.m - n * g->x.v.m);
+            all += rub->most_Nm[j] * fabs(lever[j]);
+        }
+        all = at->bending_per_Nm * all + at->axial_per_N * hypot(fx, fy);
+        for (int j = 0; j < FW_SIX && all > most; j++)
+            sign[j] = !rub->rubs[j] ? 0 : (m < 0) == (lever[j] < 0) ? 1 : -1;
+        most = fmax(most, all);
+    }
+}
+
 /* ---- poses that were looked at before ----
    Of the devices of a study much is the same to the last bit: where everything is, unless a
    pin moves; forces, unless a spring, a grip or the platform does; the strain of a hinge, unless it is another one. What is
    kept carries the number of what it was found with, and is found again with the same alone; forces where something is given
-   are not kept. Test: test_pose_strain.c what_devices_have_in_common */
+   or rubs are not kept. Test: test_pose_strain.c what_devices_have_in_common */
 
 enum {
     POSES = 1024, /* a power of 2: one place for each box */
@@ -397,7 +488,7 @@ static fw_workspace_gripped *kept_grips(const fw_workspace_view *v) {
     fw_workspace_poses *p = v->hold->poses;
     placed *k = v->kept;
     if (!k || p->hold != v->hold || p->forces == 0 || k->filled != v->filled) return NULL;
-    if (v->hold->ngiven > 0) return NULL;
+    if (v->hold->ngiven > 0 || v->hold->rubs) return NULL;
     if (!k->grip && p->roomy < BOXES) {
         k->grip = fw_arena_array(p->arena, fw_workspace_gripped, GRIPS);
         p->roomy += k->grip != NULL;
@@ -430,8 +521,8 @@ fw_workspace_gripped *fw_workspace_view_grip(fw_workspace_view *v, int grip) {
             fw_workspace_pose_response(h, &v->load, &h->actuator[i], &v->response[i]);
         v->responded[i] = true;
     }
-    to->holds =
-        fw_workspace_pose_forces(h, &v->load, v->response, by, &to->certain, to->own, to->force);
+    to->holds = fw_workspace_pose_forces(h, &v->load, v->response, by, &to->certain, to->own,
+                                         to->force, &v->rub);
     memset(to->section, 0, sizeof to->section);
     to->known = true;
     return to;
@@ -444,7 +535,8 @@ fw_maths_interval fw_workspace_view_strain(const fw_workspace_view *v, fw_worksp
     if (section == 0 || by->section[hinge] != section) {
         memset(by->slope[hinge], 0, sizeof by->slope[hinge]);
         by->strain[hinge] =
-            fw_workspace_pose_strain(v->hold, &v->load, hinge, &by->force[hinge], by->slope[hinge]);
+            fw_workspace_pose_strain(v->hold, &v->load, hinge, &by->force[hinge],
+                                     v->hold->rubs ? &v->rub : NULL, by->slope[hinge]);
         by->section[hinge] = section;
     }
     if (slope) memcpy(slope, by->slope[hinge], sizeof by->slope[hinge]);

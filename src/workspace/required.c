@@ -2,6 +2,7 @@
 #include "workspace/pose_load.h"
 #include "base/constants.h"
 #include "base/text.h"
+#include "effects/effects.h"
 #include <math.h>
 #include <string.h>
 
@@ -320,67 +321,188 @@ static fw_status certify(fw_arena *arena, const fw_workspace_loop *loop, fw_work
 }
 
 /* of one box and what is given in two scenes: the worse one of every hinge */
-static void both(const fw_workspace_strain_proof *now, fw_workspace_strain_proof *all) {
+static void both(fw_workspace_strain_proof *now, fw_workspace_strain_proof *all) {
     all->proved = all->proved && now->proved;
     for (int i = 0; i < FW_SIX; i++) {
         all->force_N[i] = fmax(all->force_N[i], now->force_N[i]);
+        all->rub_Nm[i] = fmax(all->rub_Nm[i], now->rub_Nm[i]);
         if (now->strain[i] > all->strain[i])
             all->strain[i] = now->strain[i], all->most[i] = now->most[i];
     }
+    now->also = all->also, all->also = now;
 }
 
-/* Strains over one box, and the worst pose so far of every hinge. scene: whose weight and contacts are given; NULL: none */
-static fw_status one_strain(fw_arena *arena, const fw_mechanism *m, const fw_workspace_loop *loop,
-                            fw_workspace_kept *kept, const fw_workspace_box3 *box,
-                            const fw_device_scene *scene, fw_workspace_strain_proof *proof,
-                            fw_workspace_result *result) {
-    fw_workspace_hold *hold = fw_arena_one(arena, fw_workspace_hold);
-    fw_workspace_proof_end end;
-    FW_NEED(hold);
-    FW_TRY(fw_workspace_hold_of(arena, m, loop, box, kept ? kept->poses : NULL, hold));
-    FW_TRY(fw_workspace_hold_given(arena, m, scene, hold));
-    if (hold->unknown) result->unknown = hold->unknown;
-    if (hold->badly_by && (!result->badly_by || hold->badly < result->badly))
-        result->badly_by = hold->badly_by, result->badly = hold->badly;
-    FW_TRY(
-        fw_workspace_certify_strain(arena, hold, box, strain_sharpness, MOST_BOXES, proof, &end));
-    if (end != FW_PROVED) {
-        result->certified = false;
-        FW_TRY(fw_workspace_sample_strain(arena, hold, box, proof));
+typedef struct required_box { /* of one box */
+    const fw_mechanism *m;
+    const fw_workspace_loop *loop; /* as drawn */
+    fw_workspace_kept *kept;
+    const fw_workspace_box3 *box;
+    fw_workspace_result *result;
+} required_box;
+
+/* what holds the box where the ground stands at `strain`, and what is given in that scene, or in none (NULL); box: in the
+   layer's lengths */
+static fw_status held(fw_arena *arena, const required_box *q, const fw_device_scene *scene,
+                      double strain, fw_workspace_box3 *box, fw_workspace_hold *hold) {
+    fw_workspace_loop *loop;
+    const fw_geometry_vec2 middle = fw_mechanism_ground_centre(q->m);
+    const fw_workspace_hold of = {.loop = q->loop, .strain = strain, .middle = middle};
+    FW_NEED(loop = fw_arena_one(arena, fw_workspace_loop));
+    *box = *q->box;
+    for (int end = 0; end < 2 && strain != 0; end++) {
+        double *at = end ? box->hi : box->lo;
+        const fw_geometry_vec2 stands = fw_workspace_in_layer(&of, at[0], at[1]);
+        at[0] = stands.x, at[1] = stands.y;
     }
-    fw_workspace_give give[FW_SIX];
-    FW_TRY(fw_workspace_gives(arena, hold, m, box, proof, give));
-    for (int i = 0; i < FW_SIX; i++) {
-        if (hold->section[i].n == 0) continue;
-        fw_workspace_load now, was = result->load[i];
-        FW_TRY(fw_workspace_load_of(arena, hold, m, proof, i, &give[i], &now));
-        bool worse = !was.known || now.strain > was.strain;
-        result->load[i] = worse ? now : was;
-        if (was.known) fw_workspace_load_both(&was, &now, &result->load[i]);
+    *loop = *q->loop;
+    for (int side = 0; side < 2; side++) {
+        fw_geometry_vec2 *base = &loop->leg[side].base;
+        *base = fw_workspace_on_ground(&of, base->x, base->y);
+    }
+    FW_TRY(fw_workspace_hold_of(arena, q->m, strain == 0 ? q->loop : loop, box,
+                                q->kept ? q->kept->poses : NULL, hold));
+    hold->strain = strain, hold->middle = middle;
+    FW_TRY(fw_workspace_hold_given(arena, q->m, scene, hold));
+    if (strain != 0)
+        FW_NEED(hold->given_by = fw_arena_printf(
+                    arena, "%s%sthe growth of the layer on its carrier in scene %s",
+                    hold->given_by ? hold->given_by : "", hold->given_by ? ", " : "", scene->name));
+    return FW_OK;
+}
+
+/* The legs of a layer that grew: rotations of the box, which all poses of it have to have, too. *whole: all are reached */
+static fw_status grown_rotations(fw_arena *arena, const required_box *q,
+                                 const fw_workspace_hold *hold, const fw_workspace_box3 *box,
+                                 bool *whole) {
+    fw_workspace_proof found;
+    fw_workspace_proof_end end;
+    double at[3];
+    FW_TRY(certify(arena, hold->loop, q->kept, box, &found, at, &end));
+    if (end == FW_REFUTED) unreachable(q->result, at), *whole = false;
+    if (end == FW_UNDECIDED) q->result->certified = false;
+    for (int j = 0; j < FW_SIX && end == FW_PROVED; j++) {
+        fw_workspace_peak now = peak_of(&found, j);
+        const fw_geometry_vec2 seen = fw_workspace_on_substrate(hold, now.x_m, now.y_m);
+        now.x_m = seen.x, now.y_m = seen.y;
+        if (fabs(now.angle_rad) > fabs(q->result->peak[j].angle_rad)) q->result->peak[j] = now;
     }
     return FW_OK;
 }
 
-/* By what each scene of the flow gives, as it may be in any of them */
-static fw_status all_strains(fw_arena *arena, const fw_mechanism *m, const fw_workspace_loop *loop,
-                             fw_workspace_kept *kept, const fw_workspace_box3 *box,
-                             fw_workspace_strain_proof *proof, fw_workspace_result *result) {
+/* Strains over one box, and the worst pose so far of every hinge. scene: whose weight, contacts, friction and heat are
+   given; NULL: none */
+static fw_status one_strain(fw_arena *arena, const required_box *q, const fw_device_scene *scene,
+                            double strain, fw_workspace_strain_proof *proof, bool *whole) {
+    fw_workspace_hold *hold = fw_arena_one(arena, fw_workspace_hold);
+    fw_workspace_result *result = q->result;
+    fw_workspace_proof_end end;
+    FW_NEED(hold);
+    fw_workspace_box3 box;
+    FW_TRY(held(arena, q, scene, strain, &box, hold));
+    if (hold->unknown) result->unknown = hold->unknown;
+    if (hold->badly_by && (!result->badly_by || hold->badly < result->badly))
+        result->badly_by = hold->badly_by, result->badly = hold->badly;
+    bool itself = false;
+    if (hold->rubs) FW_TRY(fw_workspace_presses_itself(arena, hold, &box, &itself));
+    if (itself) { /* nothing is known of it */
+        result->presses_itself = scene->name, hold->rubs = false;
+        memset(hold->rub_arm_m, 0, sizeof hold->rub_arm_m);
+    }
+    FW_TRY(
+        fw_workspace_certify_strain(arena, hold, &box, strain_sharpness, MOST_BOXES, proof, &end));
+    if (end != FW_PROVED) {
+        result->certified = false;
+        FW_TRY(fw_workspace_sample_strain(arena, hold, &box, proof));
+    }
+    fw_workspace_give give[FW_SIX];
+    FW_TRY(fw_workspace_gives(arena, hold, q->m, &box, proof, give));
+    for (int i = 0; i < FW_SIX; i++) {
+        if (hold->section[i].n == 0) continue;
+        fw_workspace_load now, was = result->load[i];
+        FW_TRY(fw_workspace_load_of(arena, hold, q->m, proof, i, &give[i], &now));
+        const fw_geometry_vec2 seen = fw_workspace_on_substrate(hold, now.x_m, now.y_m);
+        now.x_m = seen.x, now.y_m = seen.y;
+        bool worse = !was.known || now.strain > was.strain;
+        result->load[i] = worse ? now : was;
+        if (was.known) fw_workspace_load_both(&was, &now, &result->load[i]);
+    }
+    return strain != 0 ? grown_rotations(arena, q, hold, &box, whole) : FW_OK;
+}
+
+/* how a scene gives: nothing at all, or with the ground at these strains */
+static int ways_of(const fw_mechanism *m, const fw_device_scene *s, double strain[2]) {
+    int n = fw_effects_ground_strains(m, s, strain);
+    if (n == 0 && fw_workspace_scene_gives(m, s)) n = 1, strain[0] = 0;
+    return n;
+}
+
+/* By what each scene of the flow gives, as it may be in any of them. *whole: all of the box is reached */
+static fw_status all_strains(fw_arena *arena, const required_box *q,
+                             fw_workspace_strain_proof *proof, bool *whole) {
+    const fw_mechanism *m = q->m;
     bool any = false, all_give = true, first = true;
+    double strain[2];
     for (int i = 0; i < m->device->nscene; i++) {
         const fw_device_scene *s = &m->device->scene[i];
         if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
         any = true;
-        all_give = all_give && fw_workspace_scene_gives(s);
+        all_give = all_give && ways_of(m, s, strain) > 0;
     }
     for (int i = any && all_give ? 0 : -1; i < m->device->nscene; i++) {
         const fw_device_scene *s = i < 0 ? NULL : &m->device->scene[i];
-        fw_workspace_strain_proof now;
-        if (s && (!fw_device_in_flow(s->flow, m->variant->flow) || !fw_workspace_scene_gives(s)))
-            continue;
-        FW_TRY(one_strain(arena, m, loop, kept, box, s, first ? proof : &now, result));
-        if (!first) both(&now, proof);
-        first = false;
+        if (s && !fw_device_in_flow(s->flow, m->variant->flow)) continue;
+        const int ways = s ? ways_of(m, s, strain) : 1;
+        for (int k = 0; k < ways; k++) {
+            fw_workspace_strain_proof *now =
+                first ? proof : fw_arena_one(arena, fw_workspace_strain_proof);
+            FW_NEED(now);
+            FW_TRY(one_strain(arena, q, s, s ? strain[k] : 0, now, whole));
+            if (!first) both(now, proof);
+            first = false;
+        }
     }
+    return FW_OK;
+}
+
+/* ---- what scenes state and required poses do not count ---- */
+
+static fw_status leave_out(fw_arena *arena, const char *what, const char *id, const char *scene,
+                           fw_workspace_result *result) {
+    FW_NEED(result->left_out = fw_arena_printf(
+                arena, "%s%s%s%s%s of scene %s", result->left_out ? result->left_out : "",
+                result->left_out ? ", " : "", what, id ? " " : "", id ? id : "", scene));
+    return FW_OK;
+}
+
+static bool bends(const fw_device_tendon *t) {
+    return t->neyelet > 2;
+}
+
+/* The list of docs/theory/workspace.md, from the other side: what is neither counted nor without force in a pose */
+static fw_status left_out(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                          fw_workspace_result *result) {
+    bool shaken = false, bent = false;
+    for (int i = 0; i < s->nbase; i++)
+        shaken = shaken || s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0;
+    if (shaken) FW_TRY(leave_out(arena, "base-motion", NULL, s->name, result));
+    for (int i = 0; i < s->ncontact; i++) {
+        const fw_device_contact_use *c = &s->contact[i];
+        const bool on_hinge = c->joint >= 0 && c->joint < FW_SIX && c->joint < m->npin;
+        const bool rides = c->joint == FW_NONE && (c->body_a >= 5 || c->body_b >= 5);
+        if (on_hinge)
+            FW_TRY(leave_out(arena, "contact of hinge", m->pin[c->joint].id, s->name, result));
+        if (rides) FW_TRY(leave_out(arena, "contact", c->id, s->name, result));
+    }
+    for (int i = 0; i < s->ntendon; i++)
+        bent = bent || bends(&s->tendon[i]);
+    for (int i = 0; i < s->npart; i++) {
+        const fw_device_scene_part *p = &s->part[i];
+        const bool eyelets = strcmp(p->element, "eyelet-friction") == 0;
+        if (!eyelets || (bent && fw_device_scene_part_number(p, "coefficient") > 0))
+            FW_TRY(leave_out(arena, p->element, NULL, s->name, result));
+    }
+    if (fw_effects_softened(m, s) != 0 && (m->nspring > 0 || fw_workspace_scene_gives(m, s)))
+        FW_TRY(leave_out(arena, "what temperature does to the modulus", NULL, s->name, result));
     return FW_OK;
 }
 
@@ -434,34 +556,38 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_works
     const char *held = NULL;
     if (known) FW_TRY(fw_workspace_six_bar_foreign_joint(arena, m, &held));
     for (int i = 0; i < m->device->nworkspace; i++) {
-        const fw_device_workspace_box *asked = &m->device->workspace[i];
-        if (!fw_device_in_flow(asked->flow, m->variant->flow)) continue;
+        const fw_device_workspace_box *of = &m->device->workspace[i];
+        if (!fw_device_in_flow(of->flow, m->variant->flow)) continue;
         if (!known) {
-            fw_diag_error(diags, 200, asked->place,
+            fw_diag_error(diags, 200, of->place,
                           "a required workspace needs the six-bar's inverse kinematics: describe "
                           "the mechanism with <six-bar>, or state the motion as a scene");
             return FW_INPUT;
         }
         if (held)
-            return fw_diag_error(diags, 200, asked->place,
+            return fw_diag_error(diags, 200, of->place,
                                  "%s holds or drives the six-bar, so that its platform cannot take "
                                  "every pose of a required workspace: remove the <workspace> and "
                                  "state the motion as a scene, or remove the joint",
                                  held);
         result->required = true;
         in_flow[i] = true;
-        FW_TRY(
-            one_box(arena, &k, provable ? loop : NULL, kept, asked, &proof[i], result, &whole[i]));
+        FW_TRY(one_box(arena, &k, provable ? loop : NULL, kept, of, &proof[i], result, &whole[i]));
         if (whole[i] && provable && m->nhinge > 0) {
-            const fw_workspace_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
-                                           {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
-            FW_TRY(all_strains(arena, m, loop, kept, &box, &strain[i], result));
+            const fw_workspace_box3 box = {{of->x_min_m, of->y_min_m, of->phi_min_rad},
+                                           {of->x_max_m, of->y_max_m, of->phi_max_rad}};
+            const required_box q = {
+                .m = m, .loop = loop, .kept = kept, .box = &box, .result = result};
+            FW_TRY(all_strains(arena, &q, &strain[i], &whole[i]));
         }
         if (!whole[i] && result->reachable) {
             result->reachable = false;
             result->fail_box = i;
         }
     }
+    for (int i = 0; i < m->device->nscene && result->required; i++)
+        if (fw_device_in_flow(m->device->scene[i].flow, m->variant->flow))
+            FW_TRY(left_out(arena, m, &m->device->scene[i], result));
     result->certified = result->certified && result->required && result->reachable;
     return FW_OK;
 }

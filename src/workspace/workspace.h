@@ -57,14 +57,17 @@ typedef struct fw_workspace_strain_proof {
     bool proved;                   /* else from samples */
     double strain[FW_SIX];         /* 0 where there is no flexure */
     double force_N[FW_SIX];        /* no pose has a larger joint force; of samples the largest */
+    double rub_Nm[FW_SIX];         /* and no larger torque of dry friction */
     fw_workspace_strain_extreme most[FW_SIX];
     const char *tree;
     long boxes;
     int leaves;
+    const struct fw_workspace_strain_proof
+        *also; /* by what is given in another scene; NULL: no more */
 } fw_workspace_strain_proof;
 
 /* Joint forces on second bodies, N, world, (n x 6 x 2): in the corners of the box by every grip, and at the worst pose of
-   every hinge by its own */
+   every hinge by its own; of friction with every choice of its signs */
 fw_status fw_workspace_forces(fw_arena *arena, const fw_workspace_strain_proof *proof,
                               const double low[3], const double high[3], double **force_N, int *n);
 /* what holds the pose that strains the hinge most */
@@ -77,6 +80,7 @@ typedef struct fw_workspace_load { /* of one hinge, the worst over all required 
     double x_m, y_m, phi_rad;      /* where it is nearly reached, and there: */
     double angle_rad, force_N;
     double most_N;        /* certified: no required pose has a larger joint force */
+    double rub_Nm;        /* certified: nor a larger torque of dry friction in this hinge */
     double over_rotation; /* strain over that of the rotation alone */
     /* relative: what poses with hinges that drift and give were found to have beyond `strain`, or
        less; of both together what these may add besides (HUGE_VAL: nothing bounds it), and take away */
@@ -101,6 +105,9 @@ typedef struct fw_workspace_result {
     double badly;
     /* acts on the six-bar with a force that poses do not tell; NULL: nothing does */
     const char *unknown;
+    /* what scenes state that may strain hinges in a required pose, and that is not counted there; NULL: nothing */
+    const char *left_out;
+    const char *presses_itself; /* friction that has no bound there: the scene's name; NULL: none */
     fw_workspace_load load[FW_SIX];
     fw_workspace_peak peak[FW_SIX];
 } fw_workspace_result;

@@ -467,6 +467,31 @@ class Study(unittest.TestCase):
         self.assertEqual([worst["worst_least"]["value"], worst["worst_largest"]["value"]], sorted(ends))
 
     @only_all
+    def test_why_a_device_could_not_be_judged_is_its_own(self):
+        """near pull-in: those behind one that is not known had its reason in study.csv, and the reason was none"""
+        leaf = '<flexure id="a" kind="leaf" length="400 um" width="6 um" fillet="6 um"/>'
+        pins = "".join(f'<revolute id="{id}" a="{a}" a-x="{ax} mm" a-y="{ay} mm" b="{b}" b-x="{bx} mm" b-y="{by} mm" hinge="a" axis="{axis} deg"/>'
+                       for id, a, ax, ay, b, bx, by, axis in (("A", "ground", 0, 0, "r", 0, -0.7, 0), ("B", "r", 0, 0.7, "c", -0.6, 0, 0),
+                                                              ("C", "c", 0.6, 0, "s", 0, 0.7, 180), ("D", "s", 0, -0.7, "ground", 1.2, 0, 180)))
+        path = self.write(
+            '<device xmlns="urn:flexwright:device:1" name="near"><parameter name="volts" value="42 V" min="1 V" max="100 V"/>'
+            '<material ref="silicon-100" youngs-modulus="169 GPa" strength="1.5 GPa" thickness="50 um"/><limits safety-factor="1"/>'
+            f'<flow ref="silicon-on-glass"/>{leaf}<mechanism><body id="r" x="0 mm" y="0.7 mm" width="120 um"/>'
+            f'<body id="c" x="0.6 mm" y="1.4 mm" width="160 um"/><body id="s" x="1.2 mm" y="0.7 mm" width="120 um"/>{pins}</mechanism>'
+            '<scene name="drive" duration="5 ms"><comb-drive id="P" kind="plate" on="r" x="-60 um" y="0.1 mm" direction="180 deg" '
+            'gap="8 um" length="300 um" voltage="volts" law="ramp" rise="4 ms"/><material-damping loss-factor="0.05"/></scene></device>',
+            "near.xml")
+        file = self.write(study("near", "yield", '<uncertain what="volts" mean="47 V" sd="0.8 V"/>', path, samples=300), "near-study.xml")
+        done = run("study", file, "-o", self.place / "near", "--jobs", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.place / "near/study.csv", newline="") as text:
+            rows = list(csv.DictReader(text))
+        lost = [r for r in rows if r["state"] == "failed"]
+        self.assertGreater(len(lost), 0)
+        self.assertTrue(all("pulls in at" in r["why"] for r in lost), lost)
+        self.assertTrue(all(r["why"] == "" for r in rows if r["state"] != "failed"))
+
+    @only_all
     def test_a_yield_of_one_uncertain_load_is_that_of_its_limit(self):
         """U rises with the load, so a device fails where the load is beyond the one that uses the limit up"""
         path = self.write(ONE_LEAF, "one.xml")

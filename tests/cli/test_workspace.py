@@ -204,6 +204,82 @@ class Judged(InTemporary):
         self.assertAlmostEqual(judged(scene='<gravity gy="-9.81 m/s^2"/>')[1], plain, delta=0.002)
         self.assertGreater(max(judged(scene=f'<gravity gy="{g} m/s^2"/>')[1] for g in (-98100, 98100)), 1.2 * plain)
 
+    def judged_in(self, scene, mechanism=""):
+        device = self.here / "in-scene.xml"
+        device.write_text(scaled(1, 1).replace("</six-bar>", f"</six-bar>{mechanism}").replace("<workspace", f'<scene name="held" duration="1 us">{scene}</scene><workspace'))
+        return json.loads(run("check", device, "--json", "--advice", "none", "--corners", "none").stdout)
+
+    def test_friction_of_hinges(self):
+        """takes a torque of either sign in each: more than a third above what holds the pose without, and said"""
+        torques = "".join(f'<torque on="{body}" value="1 nN mm"/>' for body in ("AB", "EF", "CD"))
+
+        def rubs(preload, hinges="ABCDEF", radius=100):
+            return "".join(f'<friction on="{h}" coefficient="0.5" radius="{radius} um" preload="{preload} mN"/>' for h in hinges)
+
+        def most(verdict):
+            return {h["id"]: h["utilisation"] for h in verdict["hinges"]}
+
+        plain, last = most(self.judged_in(torques)), None
+        for preload in (0, 4, 40):
+            verdict = self.judged_in(torques + rubs(preload))
+            now = most(verdict)
+            for hinge, used in now.items():
+                self.assertGreater(used, (last or plain)[hinge])
+            last = now
+            held = [a["actuation"] for a in verdict["workspace"]["actuation"]]
+            self.assertTrue(all("; against it friction of hinges A, B, C, D, E, F in scene held" in a for a in held), held)
+        self.assertGreater(max(last.values()), 1.3 * max(plain.values()))
+        self.assertNotEqual(verdict["verdict"], "accept")
+        for h in verdict["hinges"]:  # of all ways to a pose: from below, too
+            self.assertLess(h["utilisation_band"][0], h["utilisation"])
+        one = most(self.judged_in(torques + rubs(40, "A")))
+        self.assertTrue(all(plain[h] - 1e-3 < one[h] < last[h] for h in plain))
+        jammed = self.judged_in(torques + rubs(1, radius=5000))
+        self.assertIn("FW-D711", {r["code"] for r in jammed["reasons"]})
+        self.assertEqual(jammed["verdict"], "inconclusive")
+
+    def test_heat_moves_the_ground(self):
+        """a layer that grows on its carrier: required poses have hinges turned further, and the scene is named"""
+        heat = '<temperature change="{} K" expansion="17 ppm/K" substrate-expansion="3 ppm/K" modulus-change="0 ppm/K"/>'
+        cold = self.judged_in(heat.format(0))
+        for kelvin in (200, -200):
+            hot = self.judged_in(heat.format(kelvin))
+            for before, after in zip(cold["hinges"], hot["hinges"]):  # it is cold, too, before it is hot
+                self.assertGreater(after["utilisation"], before["utilisation"] - 1e-3)
+            if kelvin > 0:
+                continue
+            turned = [abs(b["peak_angle_rad"] / a["peak_angle_rad"]) for a, b in zip(cold["hinges"], hot["hinges"])]
+            self.assertGreater(max(turned), 1.01)
+            worst = max(zip(cold["hinges"], hot["hinges"]), key=lambda both: both[1]["utilisation"] / both[0]["utilisation"])
+            self.assertGreater(worst[1]["utilisation"], 1.02 * worst[0]["utilisation"])
+            self.assertTrue(any("the growth of the layer on its carrier in scene held" in a["actuation"]
+                                for a in hot["workspace"]["actuation"]))
+
+    def test_what_is_not_drawn_between_links_has_no_place(self):
+        """a cable from link to link, whose frames nobody states: `(nan, nan) um` was said"""
+        device = self.here / "cable.xml"
+        text = re.sub(r' (mass|inertia)="[^"]*"', "", GALLERY.read_text())
+        device.write_text(text.replace("</six-bar>", '</six-bar><mechanism><spring id="s1" a="AB" b="DE" stiffness="300 N/m" '
+                                               'length="1.9 mm" cable="yes"/></mechanism>'))
+        said = run("check", device, "--advice", "none", "--corners", "none")
+        self.assertIn("cable s1 is not drawn", " ".join(said.stderr.split()))
+        self.assertNotIn("nan", said.stdout + said.stderr)
+
+    def test_what_required_poses_do_not_count(self):
+        """is named, and nothing is accepted for which it may matter"""
+        torque = '<torque on="AB" value="1 nN mm"/>'
+        rider = ('<mechanism><body id="R" x="1.5 mm" y="3.5 mm" mass="1 ug" inertia="1 ug mm^2"/><revolute id="r" a="CD" a-y="0.325 mm" '
+                 'b="R" b-y="-0.3 mm"/></mechanism>')
+        for scene, told in (("", None), ('<base-motion ax="1 m/s^2"/>', "base-motion of scene held"),
+                            ('<contact id="k" a="ground" b="R" side="outside" distance="9 um" stiffness="1 N/m"/>', "contact k of scene held"),
+                            ('<initial body="CD" vx="1 nm/s"/>', None)):
+            verdict = self.judged_in(torque + scene, mechanism=rider if 'b="R"' in scene else "")
+            said = [r["text"] for r in verdict["reasons"] if r["code"] == "FW-D710"]
+            self.assertEqual(len(said), 1 if told else 0, (scene, verdict["reasons"]))
+            if told:
+                self.assertIn(told, said[0])
+                self.assertNotEqual(verdict["verdict"], "accept")
+
     def test_thin_layers_may_tip(self):
         """the same strain at any thickness, but forces across go with its cube and those in the plane with it"""
         device = self.here / "thin.xml"

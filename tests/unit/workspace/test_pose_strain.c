@@ -30,6 +30,7 @@ typedef struct loaded_six_bar {
     fw_device_comb comb;
     fw_device_spring spring[3];
     fw_device_contact_use contact[2];
+    fw_device_friction_use friction[6];
 } loaded_six_bar;
 
 static void flexures(loaded_six_bar *d, bool drawn) {
@@ -231,15 +232,16 @@ static void resist(const loaded_six_bar *d, const still_pose *s, system15 a) {
     }
 }
 
-/* forces of the joints on their second bodies; false: a tendon or an electrode would push */
-static bool hold_still(const loaded_six_bar *d, const fw_workspace_hold *hold,
-                       const fw_workspace_grip *grip, const still_pose *s, double force[12]) {
+/* forces of the joints on their second bodies, which take the torques `rub` besides; false: a tendon or an electrode would
+   push */
+static bool rub_still(const loaded_six_bar *d, const fw_workspace_hold *hold, const fw_workspace_grip *grip,
+                      const still_pose *s, const double rub[6], double force[12]) {
     system15 a = {{0}};
     double x[15];
     for (int b = 0; b < 5; b++)
         for (int end = 0; end < 2; end++) {
             int i = b + end;
-            double sign = end ? -1 : 1, m = d->f.pin[i].stiffness_Nm_per_rad * s->theta[i];
+            double sign = end ? -1 : 1, m = d->f.pin[i].stiffness_Nm_per_rad * s->theta[i] + rub[i];
             a[3 * b][2 * i] += sign, a[3 * b + 1][2 * i + 1] += sign;
             a[3 * b + 2][2 * i] -= 1e3 * sign * s->pin[i].y;
             a[3 * b + 2][2 * i + 1] += 1e3 * sign * s->pin[i].x;
@@ -253,6 +255,11 @@ static bool hold_still(const loaded_six_bar *d, const fw_workspace_hold *hold,
     for (int k = 0; k < 3; k++)
         if (hold->actuator[grip->actuator[k]].pulls && x[12 + k] < 0) return false;
     return true;
+}
+
+static bool hold_still(const loaded_six_bar *d, const fw_workspace_hold *hold,
+                       const fw_workspace_grip *grip, const still_pose *s, double force[12]) {
+    return rub_still(d, hold, grip, s, (const double[6]){0}, force);
 }
 
 /* eq. 1 and 2 of docs/theory/verdict.md */
@@ -422,6 +429,113 @@ static void bounds_hold_against_what_is_given(void **state) {
 }
 
 /* what the scenes have is used, and what they lack comes from the platform */
+/* ---- friction ---- */
+
+/* forces where hinges rub with these signs, each by as much as its joint force presses */
+static bool rub_with(const loaded_six_bar *d, const fw_workspace_hold *hold, const fw_workspace_grip *grip,
+                     const still_pose *s, const int sign[6], double force[12]) {
+    double rub[6] = {0};
+    bool holds = false;
+    for (int round = 0; round < 10; round++) {
+        holds = rub_still(d, hold, grip, s, rub, force);
+        for (int i = 0; i < 6; i++) {
+            const fw_device_friction_use *u = &d->friction[i];
+            const double press = u->preload_N + hypot(force[2 * i], force[2 * i + 1]);
+            rub[i] = sign[i] * fmax(u->coefficient, u->static_coefficient) * u->radius_m * press;
+        }
+    }
+    return holds;
+}
+
+/* the platform comes to the pose along v: signs by the angles a little way back */
+static void come_from(const loaded_six_bar *d, const double pose[3], const still_pose *s, int sign[6]) {
+    const double by = 1e-4;
+    const double from[3] = {pose[0] - by * between(-1e-3, 1e-3), pose[1] - by * between(-1e-3, 1e-3),
+                            pose[2] - by * between(-1, 1)};
+    still_pose before;
+    assert_true(stand(d, from, &before));
+    for (int i = 0; i < 6; i++)
+        sign[i] = s->theta[i] < before.theta[i] ? -1 : 1;
+}
+
+/* No signs strain a hinge above the bound, and the largest is near it, but for what all torques are taken to press
+   together; ways to the worst pose strain it as much as is said
+   to be reached, and one of them nearly as much as that. */
+static void friction_of_either_sign(void **state) {
+    (void)state;
+    seed = 23;
+    double added = 0;
+    int count = test_fewest(test_cases(7, 5), 3), sharp = 0, of = 0;
+    for (int n = 0; n < count; n++) {
+        loaded_six_bar d = {0};
+        const double scale = n % 2 ? 0.45 : 1;
+        const int kind = n == 2 ? TENDONS : n % 2 ? TORQUE_AND_FORCE : NO_SCENE;
+        const bool pulls = kind == TENDONS; /* beyond where these let go nothing is near the bound */
+        make(&d, scale, true, kind);
+        d.f.device.scene = &d.scene, d.f.device.nscene = 1;
+        d.scene.friction = d.friction, d.scene.nfriction = 6;
+        for (int i = 0; i < 6; i++)
+            d.friction[i] = (fw_device_friction_use){
+                .revolute = i, .joint = FW_NONE, .coefficient = 0.3, .static_coefficient = i % 2 ? 0.5 : (double)NAN,
+                .radius_m = between(20e-6, 80e-6) * scale, .preload_N = between(0, 4e-3) / scale};
+        fw_workspace_loop loop;
+        assert_true(fw_workspace_loop_set_up(&d.f.mechanism, &loop));
+        const fw_workspace_box3 box = {{-60e-6 * scale, -40e-6 * scale, -0.03}, {70e-6 * scale, 30e-6 * scale, 0.04}};
+        fw_arena *arena = fw_arena_new(0);
+        fw_workspace_hold hold, bare;
+        fw_workspace_strain_proof proof, without;
+        fw_workspace_proof_end end;
+        assert_int_equal(fw_workspace_hold_of(arena, &d.f.mechanism, &loop, &box, NULL, &hold), FW_OK);
+        bare = hold;
+        assert_int_equal(fw_workspace_hold_given(arena, &d.f.mechanism, &d.scene, &hold), FW_OK);
+        assert_true(hold.rubs && hold.ngiven == 0);
+        assert_int_equal(fw_workspace_certify_strain(arena, &bare, &box, 2e-3, 20000, &without, &end), FW_OK);
+        assert_int_equal(end, FW_PROVED);
+        assert_int_equal(fw_workspace_certify_strain(arena, &hold, &box, 2e-3, 20000, &proof, &end), FW_OK);
+        assert_int_equal(end, FW_PROVED);
+        for (int i = 0; i < 6; i++) {
+            double most = 0, reached = 0, pose[3];
+            fw_workspace_load load;
+            still_pose s;
+            int sign[6];
+            double force[12];
+            assert_int_equal(fw_workspace_load_of(arena, &hold, &d.f.mechanism, &proof, i, &(fw_workspace_give){0}, &load),
+                             FW_OK);
+            added = fmax(added, proof.strain[i] / without.strain[i] - 1);
+            for (int k = 0; k < 8; k++) {
+                for (int c = 0; c < 3; c++)
+                    pose[c] = k == 0 ? proof.most[i].pose[c] : box.lo[c] + unit() * (box.hi[c] - box.lo[c]);
+                assert_true(stand(&d, pose, &s));
+                for (int g = 0; g < hold.ngrip; g++)
+                    for (int p = 0; p < 64; p++) {
+                        for (int j = 0; j < 6; j++)
+                            sign[j] = p >> j & 1 ? 1 : -1;
+                        if (!rub_with(&d, &hold, &hold.grip[g], &s, sign, force)) continue;
+                        most = fmax(most, strain(&d, &s, i, force + 2 * i));
+                        assert_true(hypot(force[2 * i], force[2 * i + 1]) <= proof.force_N[i] * (1 + 1e-9));
+                    }
+            }
+            for (int c = 0; c < 3; c++)
+                pose[c] = proof.most[i].pose[c];
+            assert_true(stand(&d, pose, &s));
+            for (int k = 0; k < 300; k++) {
+                come_from(&d, pose, &s, sign);
+                if (!rub_with(&d, &hold, &hold.grip[proof.most[i].grip], &s, sign, force)) continue;
+                reached = fmax(reached, strain(&d, &s, i, force + 2 * i));
+            }
+            if (!(most <= proof.strain[i]) || (!pulls && !(most >= 0.95 * proof.strain[i])))
+                fail_msg("case %d hinge %d: %.9g sampled, %.9g proved", n, i, most, proof.strain[i]);
+            const double said = load.strain - load.error;
+            if (!pulls && !(reached <= said * (1 + 1e-4)))
+                fail_msg("case %d hinge %d: %.9g reached, %.9g said", n, i, reached, said);
+            sharp += !pulls && reached >= 0.99 * said, of += !pulls;
+        }
+        fw_arena_free(arena);
+    }
+    assert_true(added > 0.2);
+    if (!(sharp > of * 9 / 10)) fail_msg("%d of %d are reached", sharp, of);
+}
+
 static void grips_of_the_scenes(void **state) {
     (void)state;
     static const struct {
@@ -610,6 +724,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_are_sharp),
         cmocka_unit_test(bounds_hold_against_what_is_given),
+        cmocka_unit_test(friction_of_either_sign),
         cmocka_unit_test(grips_of_the_scenes),
         cmocka_unit_test(force_nearly_along_an_axis),
         cmocka_unit_test(samples_agree_with_the_proof),
