@@ -131,7 +131,6 @@ double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dyna
 /* body_loads.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     double *to);
-
 /* body_loads.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
 fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene);
 
