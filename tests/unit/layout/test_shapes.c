@@ -441,7 +441,7 @@ static void necks_close_nothing(void **state) {
     drawn across = draw(UNDER(BAR(-700, 450, -700, 283) BAR(-707, 290, 707, 290)), NO_TETHER);
     assert_int_equal(said(&across, 702), 1);
     for (size_t i = 0; i < across.diags.count; i++) {
-        double x, y;
+        double x, y = 0.0;
         const char *at = strstr(across.diags.item[i].message, ", at (");
         if (across.diags.item[i].number != 702) continue;
         assert_int_equal(across.diags.item[i].severity, FW_WARNING);
