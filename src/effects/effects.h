@@ -444,11 +444,10 @@ typedef struct fw_effects_growth {
     double ground, ground_per_s; /* strain of the ground's points against the layer, and its rate */
     double grown, grown_per_s;   /* of the layer's own lengths */
 } fw_effects_growth;
-/* Strain of the ground's points against the layer, by all heat and stress of a scene: how many values bound it (0: it is
-   none; 1: it stays; 2: its least and its most, from before anything is warm to the largest changes of the scene) */
-int fw_effects_ground_strains(const fw_mechanism *mechanism, const fw_device_scene *scene,
-                              double strain[2]);
-/* its part by stress; and the largest relative change of the modulus by heat */
+/* Strain of the ground's points against the layer: by all heat of a scene its least and its most, from before anything is warm
+   to the largest changes; by stress, which stays; and the largest relative change of the modulus by heat */
+void fw_effects_heat_strains(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                             double strain[2]);
 double fw_effects_stress_strain(const fw_mechanism *mechanism, const fw_device_scene *scene);
 double fw_effects_softened(const fw_mechanism *mechanism, const fw_device_scene *scene);
 static inline bool fw_effects_has_growth(const fw_effects_loads *loads) {

@@ -56,8 +56,8 @@ static double softening(const fw_mechanism *m, const fw_device_temperature *t) {
     return has_hinge(m) ? stated_or(t->modulus_change_per_K, m, true) * t->change_K : 0;
 }
 
-int fw_effects_ground_strains(const fw_mechanism *m, const fw_device_scene *s, double strain[2]) {
-    double low = fw_effects_stress_strain(m, s), high = low;
+void fw_effects_heat_strains(const fw_mechanism *m, const fw_device_scene *s, double strain[2]) {
+    double low = 0, high = 0;
     enum { SAMPLES = 256 };
     for (int i = 0; i < s->ntemperature; i++) {
         const fw_device_temperature *t = &s->temperature[i];
@@ -78,7 +78,6 @@ int fw_effects_ground_strains(const fw_mechanism *m, const fw_device_scene *s, d
         low += fmin(one * least, one * most), high += fmax(one * least, one * most);
     }
     strain[0] = low, strain[1] = high;
-    return high > low ? 2 : high != 0 ? 1 : 0;
 }
 
 double fw_effects_softened(const fw_mechanism *m, const fw_device_scene *s) {

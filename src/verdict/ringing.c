@@ -490,7 +490,7 @@ fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *
    about that equilibrium. Out: of every hinge what it rests at and what modes ring by, over the most that it was bent by in the
    scene. The swings of the mode that bends it most carry those of the others. Range: small motions about q_rest; no more than
    all of the peak. No equilibrium: all of it, by the least that damps any mode. Cost: modes of the scene. Test:
-   test_judging.py, test_what_rings_on_behind_a_scene_is_counted */
+   test_limits.py, test_what_rings_on_behind_a_scene_is_counted */
 
 enum { MODES_AFTER = 8 }; /* of one hinge, those that bend it most */
 

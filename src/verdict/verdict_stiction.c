@@ -18,17 +18,16 @@ typedef struct device {
     fw_mechanism_plates rigid, soft;
     double *across[2], *beside, *firm; /* compliances: rigid, soft; in the plane, soft, rigid */
     bool held;                         /* in the plane */
-    double down_m, up_m;         /* what weight and stress do at rest across the plane, at most */
-    double *alone_N_per_m;       /* (nbody) in the plane: what each bears as a rigid one, or more */
-    const fw_verdict_hung *hung; /* (nbody) */
+    double down_m, up_m; /* what weight and stress do at rest across the plane, at most */
+    double *alone_N_per_m, plates_N_per_m; /* (nbody) in the plane, each rigid; across it, all */
+    const fw_verdict_hung *hung;           /* (nbody) */
 } device;
 
 /* of walls: a tension of which nothing is known any closer, 20 times that of water */
 static const double wall_enough_N_per_m = 3;
 /* a crystal along other directions than the closed form's, shear: a strip beside a wall is known to */
 static const double strip_error = 0.2;
-/* of a gap: nearer is a touch; what weight and stress close at rest is said from there on */
-static const double touch_share = 0.02;
+static const double touch_share = 0.02; /* of a gap: nearer is a touch; less of it is not told */
 
 static const char *body_name(const fw_mechanism *m, int body) {
     return body == FW_GROUND ? "what stands" : fw_text_name(m->body[body].id);
@@ -59,13 +58,12 @@ static void strips_below(const device *d, double gap_m, fw_verdict_pull *to) {
 }
 
 static fw_status hung_below(const device *d, double low_m, fw_verdict_pull *to) {
-    const double bodies = to->tension_N_per_m[0];
     for (int b = 0; b < d->m->nbody; b++) {
-        const double both =
-            fw_verdict_hung_pulled(&d->hung[b], low_m, d->down_m, d->rigid.error, bodies);
-        const char *part;
-        if (!(both < to->tension_N_per_m[0])) continue;
-        FW_NEED(part = fw_arena_printf(d->arena, "what hangs over of %s", body_name(d->m, b)));
+        const char *part = body_name(d->m, b);
+        const double both = fw_verdict_hung_pulled(&d->hung[b], low_m, d->down_m, d->rigid.error,
+                                                   d->plates_N_per_m);
+        if (both < 0.5 * d->plates_N_per_m)
+            FW_NEED(part = fw_arena_printf(d->arena, "what hangs over of %s", part));
         keep_lower(to, both, part, NULL);
     }
     return FW_OK;
@@ -84,6 +82,7 @@ static fw_status pull_at_rest(device *d, double curvature_per_m, fw_mechanism_fa
                                 &s, &first));
     const int lost = first == FW_NONE ? FW_GROUND : face[first].body[0];
     if (0.5 * s / more < to->tension_N_per_m[0]) *body = lost;
+    d->plates_N_per_m = fmin(d->plates_N_per_m, 0.5 * s / more);
     keep_lower(to, 0.5 * s / more, body_name(d->m, lost), NULL);
     strips_below(d, fmax(low - down, 1e-9), to);
     d->down_m = fmax(d->down_m, down);
@@ -107,6 +106,7 @@ static fw_status pull_below(device *d, fw_verdict_pull *to) {
     to->known = true;
     to->gap_m = below->m;
     to->tension_N_per_m[1] = 0;
+    d->plates_N_per_m = HUGE_VAL;
     FW_TRY(fw_mechanism_faces_below(d->arena, soft_of(d), fmax(below->low_m, 1e-9), &face, &n));
     FW_TRY(pull_at_rest(d, 0, face, n, to, &body));
     for (int i = 0; i < m->device->nscene; i++) {

@@ -431,7 +431,10 @@ static fw_status one_strain(fw_arena *arena, const required_box *q, const fw_dev
 
 /* how a scene gives: nothing at all, or with the ground at these strains */
 static int ways_of(const fw_mechanism *m, const fw_device_scene *s, double strain[2]) {
-    int n = fw_effects_ground_strains(m, s, strain);
+    fw_effects_heat_strains(m, s, strain);
+    const double stress = fw_effects_stress_strain(m, s);
+    strain[0] += stress, strain[1] += stress;
+    int n = strain[1] > strain[0] ? 2 : strain[1] != 0 ? 1 : 0;
     if (n == 0 && fw_workspace_scene_gives(m, s)) n = 1, strain[0] = 0;
     return n;
 }

@@ -867,7 +867,7 @@ class Probe(unittest.TestCase):
             elif abs(goes) > 1e-6:
                 shares[probe].append(off / abs(goes))
             else:
-                self.assertLess(abs(off), 0.05e-6)  # of blows that come again, wherever it stands
+                self.assertLess(abs(off), 0.1e-6)  # of blows that come again, wherever it stands, and what hangs over bends by some 0.07 um
         for probe, found in shares.items():
             self.assertGreater(len(found), 1)
             self.assertGreater(min(found), 1e-3)
@@ -892,7 +892,7 @@ class Probe(unittest.TestCase):
         found, verdict = self.required(bounds)
         self.assertEqual([r["verdict"] for r in found], expected)
         motion = {p["id"]: p for p in verdict["probes"] if p["scene"] == "close"}
-        said = [r["text"] for r in verdict["reasons"] if r["code"] == "FW-D330"]
+        said = [r["text"] for r in verdict["reasons"] if r["code"] in ("FW-D330", "FW-D639")]  # the latter where what hangs over alone decides
         self.assertEqual(len(said), sum(d != "accept" for d in expected))
         for ((probe, measure), least, most), r in zip(bounds, found):
             value, (low, high) = r["value"], r["band"]

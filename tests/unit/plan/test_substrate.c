@@ -5,6 +5,7 @@
    modulus is stated, so that the pins of silicon are where they are drawn. */
 #include "plan/plan.h"
 #include "plan/stages.h"
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include "test.h"
 #include <math.h>
@@ -127,7 +128,11 @@ static void a_strip_comes_down_first(void **state) {
     variant.drying = (fw_mechanism_drying){.how = FW_DRIED_CALM, .words = "nothing"};
     fw_mechanism m = *built;
     m.variant = &variant;
-    fw_verdict_variant_verdict v = {.variant = &variant, .mechanism = &m};
+    const fw_verdict_hung stiff = {.bears_N_per_m = HUGE_VAL}; /* and nothing of them hangs over */
+    fw_verdict_hung hung[3] = {stiff, stiff, stiff};
+    fw_verdict_out_of_plane flat = {.hung = hung};
+    fw_verdict_variant_verdict v = {.variant = &variant, .mechanism = &m, .out_of_plane = &flat};
+    assert_int_equal(m.nbody, 3);
     assert_int_equal(fw_verdict_stiction_judge(plan->arena, &m, false, &v), FW_OK);
     assert_non_null(v.stiction);
     const double E = 150e9, w = 6e-6, h = 40e-6, L = 1.3e-3, g = v.variant->below.low_m, EI = E * w * h * h * h / 12;
