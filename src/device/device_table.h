@@ -143,4 +143,9 @@ typedef struct fw_device_path {
 bool fw_device_path_find(fw_xml_element *root, const char *path, fw_xml_element **found,
                          fw_device_path *out);
 
+/* sentence of a point of a body */
+#define FW_POINT_OF_BODY                                                                           \
+    "Point in the body's frame, whose origin is the centroid of what is drawn of a link or "       \
+    "platform without mass."
+
 #endif

@@ -58,12 +58,8 @@ static const fw_xml_attribute_row probe_rows[] = {
      .sentence =
          "Body that carries the point, or that turns. A point goes against the substrate, also "
          "where heat or stress makes the layer longer."},
-    {"x", PLACE, .fallback = "0 mm",
-     .sentence = "Point in the body's frame, whose origin is the centroid of what is drawn of a "
-                 "link or platform without mass."},
-    {"y", PLACE, .fallback = "0 mm",
-     .sentence = "Point in the body's frame, whose origin is the centroid of what is drawn of a "
-                 "link or platform without mass."},
+    {"x", PLACE, .fallback = "0 mm", .sentence = FW_POINT_OF_BODY},
+    {"y", PLACE, .fallback = "0 mm", .sentence = FW_POINT_OF_BODY},
     {"direction", TURN, .fallback = "the size of the vector",
      .sentence = "From the world's x axis; of an opening in the frame of a. Stiffness and "
                  "compliance need it."},

@@ -13,12 +13,8 @@ static const fw_xml_attribute_row scene_rows[] = {
 };
 static const fw_xml_attribute_row force_rows[] = {
     {"on", REF(FW_SPACE_BODY), REQUIRED, .sentence = "Body that it pulls."},
-    {"x", PLACE, .fallback = "0 mm",
-     .sentence = "Point in the body's frame, whose origin is the centroid of what is drawn of a "
-                 "link or platform without mass."},
-    {"y", PLACE, .fallback = "0 mm",
-     .sentence = "Point in the body's frame, whose origin is the centroid of what is drawn of a "
-                 "link or platform without mass."},
+    {"x", PLACE, .fallback = "0 mm", .sentence = FW_POINT_OF_BODY},
+    {"y", PLACE, .fallback = "0 mm", .sentence = FW_POINT_OF_BODY},
     {"fx", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's x axis."},
     {"fy", D_FORCE, .fallback = "0 uN", .sentence = "Along the world's y axis."},
 };

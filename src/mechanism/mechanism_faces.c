@@ -251,17 +251,14 @@ static fw_status look_from(const fw_mechanism *m, const fw_mechanism_walls *w, i
    200 um whose normals are within 45 degrees of each other; liquid over 15 um of an edge at once. Cost: rays times the
    walls of a few bins. Test: test_mechanism_pull.c */
 fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *m,
-                                    fw_mechanism_face **face, int *nface,
-                                    fw_mechanism_strip_beside *strip) {
-    fw_mechanism_walls w;
+                                    const fw_mechanism_walls *w, fw_mechanism_face **face,
+                                    int *nface, fw_mechanism_strip_beside *strip) {
     fw_mechanism_faces to = {.arena = arena};
     *face = NULL, *nface = 0;
     for (int k = 0; k < m->nhinge; k++)
         strip[k] = (fw_mechanism_strip_beside){.gap_m = HUGE_VAL, .piece = FW_NONE};
-    FW_TRY(fw_mechanism_walls_take(arena, m, &w));
-    if (w.nwall == 0) return FW_OK;
-    for (int i = 0; i < w.nwall; i++)
-        FW_TRY(look_from(m, &w, i, fw_layout_walls_m(m->layout), &to, strip));
+    for (int i = 0; i < w->nwall; i++)
+        FW_TRY(look_from(m, w, i, fw_layout_walls_m(m->layout), &to, strip));
     *face = to.face, *nface = (int)to.count;
     return FW_OK;
 }

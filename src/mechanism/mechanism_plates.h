@@ -152,16 +152,6 @@ fw_status fw_mechanism_faces_below(fw_arena *arena, const fw_mechanism_plates *p
 fw_status fw_mechanism_faces_rest(fw_arena *arena, const fw_mechanism_plates *plates,
                                   double curvature_per_m, double gap_m, double more,
                                   fw_mechanism_face *face, int n, double *down, double *up);
-/* Walls that stand opposite each other, seen along the normals of what moves: bodies (one face for each two walls), and
-   strips of flexures. As fabricated where the layout says so. */
-typedef struct fw_mechanism_strip_beside { /* of hinge k */
-    double gap_m; /* the least of the middle half of its strip; HUGE_VAL: nothing is beside it */
-    fw_geometry_vec2 at;
-    int piece;
-} fw_mechanism_strip_beside;
-fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *mechanism,
-                                    fw_mechanism_face **face, int *nface,
-                                    fw_mechanism_strip_beside *strip);
 /* ---- mechanism_walls.c: all that stands on the carrier, edge by edge, and rays from one to another ---- */
 
 typedef struct fw_mechanism_wall {
@@ -186,6 +176,16 @@ fw_status fw_mechanism_walls_take(fw_arena *arena, const fw_mechanism *mechanism
 int fw_mechanism_walls_look(const fw_mechanism_walls *walls, int own, fw_geometry_vec2 p,
                             fw_geometry_vec2 n, double *gap);
 
+/* Walls that stand opposite each other, seen along the normals of what moves: bodies (one face for each two walls), and
+   strips of flexures. As fabricated where the layout says so. */
+typedef struct fw_mechanism_strip_beside { /* of hinge k */
+    double gap_m; /* the least of the middle half of its strip; HUGE_VAL: nothing is beside it */
+    fw_geometry_vec2 at;
+    int piece;
+} fw_mechanism_strip_beside;
+fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *mechanism,
+                                    const fw_mechanism_walls *walls, fw_mechanism_face **face,
+                                    int *nface, fw_mechanism_strip_beside *strip);
 /* What of a body is slender, and bends towards what stands beside it: of every such wall whose liquid pulls it there at less
    than enough_N_per_m, s that it bears, to 1 % below it */
 typedef struct fw_mechanism_limb {
@@ -194,7 +194,7 @@ typedef struct fw_mechanism_limb {
         body[2]; /* of the layout: its own, and what faces it; FW_GROUND: what stands, or a flexure */
     bool limbs; /* what faces it bends as well */
 } fw_mechanism_limb;
-fw_status fw_mechanism_limbs_beside(fw_arena *arena, const fw_mechanism *mechanism,
+fw_status fw_mechanism_limbs_beside(const fw_mechanism *mechanism, const fw_mechanism_walls *walls,
                                     double enough_N_per_m, fw_mechanism_limb **limb, int *nlimb);
 /* A strip clamped at both ends, s (1 + more)/(gap that is left) over its width: the largest s */
 double fw_mechanism_strip_pull_in(double bend_Nm2, double length_m, double width_m, double gap_m,

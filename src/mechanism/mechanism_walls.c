@@ -168,15 +168,15 @@ typedef enum limb_kind { LIMB_NONE, LIMB_FREE, LIMB_CLAMPED, LIMB_PINNED, LIMB_T
 typedef enum end_kind { END_ROOT, END_TIP, END_HINGE } end_kind;
 
 typedef struct run {
-    int first, last; /* fw_mechanism_walls */
+    int first, last; /* walls */
     double length_m, thick_m;
     limb_kind kind;
-    double root_m,
-        reach_m; /* of LIMB_FREE: where its root is along it, and how far it reaches from there: < 0: back */
+    /* where along it the limb begins, at its root where one end is free, and how far it reaches from there: < 0: back */
+    double root_m, reach_m;
 } run;
 
 typedef struct runs {
-    fw_mechanism_walls *w;
+    const fw_mechanism_walls *w;
     int *next, *before, *of; /* (nwall) wall after and before it, FW_NONE; its run */
     double *at_m;            /* (nwall) where it begins along its run */
     bool *hole;              /* (nwall) of a release hole */
@@ -273,7 +273,7 @@ static void take_run(runs *r, int first) {
     r->nrun++;
 }
 
-static fw_status take_runs(fw_mechanism_walls *w, runs *r) {
+static fw_status take_runs(const fw_mechanism_walls *w, runs *r) {
     const size_t n = (size_t)w->nwall;
     *r = (runs){.w = w};
     FW_NEED(r->next = fw_arena_array(w->arena, int, 3 * n));
@@ -320,7 +320,8 @@ static double behind(const runs *r, const station *s, double most_m, int *opposi
     return HUGE_VAL;
 }
 
-static fw_status put_stations(const runs *r, const run *of, station **out, int *n) {
+/* thick: with what lies behind them */
+static fw_status put_stations(const runs *r, const run *of, bool thick, station **out, int *n) {
     const fw_mechanism_walls *w = r->w;
     const double step = fmin(FW_MECHANISM_RAYS_m, of->length_m / 8),
                  most = fmin(reach_m, of->length_m / slender);
@@ -344,7 +345,7 @@ static fw_status put_stations(const runs *r, const run *of, station **out, int *
                            .normal = normal,
                            .x_m = r->at_m[k] + (i + 0.5) * length / parts,
                            .length_m = length / parts};
-            s->thick_m = behind(r, s, most, &s->opposite);
+            if (thick) s->thick_m = behind(r, s, most, &s->opposite);
         }
         if (k == of->last) break;
     }
@@ -516,7 +517,7 @@ static fw_status pull_limb(const fw_mechanism *m, const runs *r, int own, double
     fw_mechanism_faces to = {.arena = arena};
     station *s;
     int n, first;
-    FW_TRY(put_stations(r, &r->run[own], &s, &n));
+    FW_TRY(put_stations(r, &r->run[own], false, &s, &n));
     for (int i = 0; i < n; i++)
         FW_TRY(put_facing(m, r, own, &s[i], fw_layout_walls_m(m->layout), &p, &to));
     *out = (fw_mechanism_limb){.tension_N_per_m = HUGE_VAL};
@@ -545,24 +546,23 @@ static fw_status pull_limb(const fw_mechanism *m, const runs *r, int own, double
 
 /* In: the layout in the drawn pose, as made; enough: a tension (s) of which nothing is known any closer. Out: of every limb that something
    pulls at a lesser tension than those before it. */
-fw_status fw_mechanism_limbs_beside(fw_arena *arena, const fw_mechanism *m, double enough_N_per_m,
-                                    fw_mechanism_limb **limb, int *nlimb) {
-    fw_mechanism_walls w;
+fw_status fw_mechanism_limbs_beside(const fw_mechanism *m, const fw_mechanism_walls *w,
+                                    double enough_N_per_m, fw_mechanism_limb **limb, int *nlimb) {
+    fw_arena *arena = w->arena;
     runs r;
     station *s;
     int n;
     *limb = NULL, *nlimb = 0;
-    FW_TRY(fw_mechanism_walls_take(arena, m, &w));
-    if (w.nwall == 0) return FW_OK;
-    FW_TRY(take_runs(&w, &r));
+    if (w->nwall == 0) return FW_OK;
+    FW_TRY(take_runs(w, &r));
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < r.nrun; i++) {
             run *of = &r.run[i];
-            const fw_layout_piece *piece = &m->layout->piece[w.wall[of->first].piece];
+            const fw_layout_piece *piece = &m->layout->piece[w->wall[of->first].piece];
             fw_mark mark = fw_arena_mark(arena);
             if (pass ? of->kind != LIMB_TIPS : of->length_m < shortest_m) continue;
             if (piece->role == FW_ROLE_TETHER || piece->role == FW_ROLE_FRAME) continue;
-            FW_TRY(put_stations(&r, of, &s, &n));
+            FW_TRY(put_stations(&r, of, true, &s, &n));
             if (pass == 0)
                 measure(&r, of, s, n);
             else

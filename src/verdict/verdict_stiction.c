@@ -21,10 +21,10 @@ typedef struct device {
     double down_m, up_m; /* what weight and stress do at rest across the plane, at most */
     double *alone_N_per_m, plates_N_per_m; /* (nbody) in the plane, each rigid; across it, all */
     const fw_verdict_hung *hung;           /* (nbody) */
+    fw_mechanism_walls walls;
 } device;
 
-/* of walls: a tension of which nothing is known any closer, 20 times that of water */
-static const double wall_enough_N_per_m = 3;
+static const double wall_enough_N_per_m = 3; /* 20 times that of water: not known any closer */
 /* a crystal along other directions than the closed form's, shear: a strip beside a wall is known to */
 static const double strip_error = 0.2;
 static const double touch_share = 0.02; /* of a gap: nearer is a touch; less of it is not told */
@@ -45,7 +45,6 @@ static void keep_lower(fw_verdict_pull *to, double tension, const char *a, const
     to->a = a, to->b = b;
 }
 
-/* strips between their ends, clamped */
 static void strips_below(const device *d, double gap_m, fw_verdict_pull *to) {
     const fw_mechanism *m = d->m;
     for (int k = 0; k < m->nhinge; k++) {
@@ -204,7 +203,7 @@ static fw_status limbs_beside(device *d, const fw_mechanism_face *face, int n,
                  enough = times * fmin(wall_enough_N_per_m, to->tension_N_per_m[0]);
     fw_mechanism_limb *limb;
     int nlimb;
-    FW_TRY(fw_mechanism_limbs_beside(d->arena, m, 2 * more * enough, &limb, &nlimb));
+    FW_TRY(fw_mechanism_limbs_beside(m, &d->walls, 2 * more * enough, &limb, &nlimb));
     for (int i = 0; i < nlimb; i++) {
         double share = 2 * more / limb[i].tension_N_per_m, alone = 0;
         for (int k = 0; k < 2; k++) {
@@ -232,7 +231,8 @@ static fw_status pull_beside(device *d, fw_verdict_pull *to) {
     if (!d->held || !m->layout || !m->layout->drawn) return FW_OK;
     FW_NEED(d->alone_N_per_m = fw_arena_array(d->arena, double, (size_t)m->nbody));
     FW_NEED(strip = fw_arena_array(d->arena, fw_mechanism_strip_beside, (size_t)m->nhinge));
-    FW_TRY(fw_mechanism_faces_beside(d->arena, m, &face, &n, strip));
+    FW_TRY(fw_mechanism_walls_take(d->arena, m, &d->walls));
+    FW_TRY(fw_mechanism_faces_beside(d->arena, m, &d->walls, &face, &n, strip));
     FW_NEED(room = fw_arena_array(d->arena, fw_mechanism_face, (size_t)n));
     to->known = true;
     strips_beside(d, strip, to);

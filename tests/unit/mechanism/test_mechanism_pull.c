@@ -254,6 +254,12 @@ static void put_wall(fw_arena *arena, fw_layout_piece *p, int body, double x0, d
         FW_OK);
 }
 
+static fw_status seen_beside(rig *r, fw_mechanism_face **face, int *n, fw_mechanism_strip_beside *strip) {
+    fw_mechanism_walls w;
+    fw_status status = fw_mechanism_walls_take(r->arena, &r->m, &w);
+    return status == FW_OK ? fw_mechanism_faces_beside(r->arena, &r->m, &w, face, n, strip) : status;
+}
+
 /* a plate of 100 um x 60 um, at its right a wall 5 um away that reaches 30 um of it, above it nothing but far away */
 static void walls(void **state) {
     (void)state;
@@ -270,7 +276,7 @@ static void walls(void **state) {
     fw_mechanism_strip_beside none[1];
     int n;
     double area = 0, turn = 0;
-    assert_int_equal(fw_mechanism_faces_beside(r.arena, &r.m, &face, &n, none), FW_OK);
+    assert_int_equal(seen_beside(&r, &face, &n, none), FW_OK);
     for (int i = 0; i < n; i++) {
         assert_relative(face[i].gap_m, 5e-6, 1e-9);
         assert_int_equal(face[i].body[1], FW_GROUND);
@@ -284,10 +290,10 @@ static void walls(void **state) {
                 near_half); /* below: pulled at y > 0 along x it turns clockwise */
     /* walls that recede by 0.5 um each; and others that come nearer */
     layout.edge_m = -0.5e-6;
-    assert_int_equal(fw_mechanism_faces_beside(r.arena, &r.m, &face, &n, none), FW_OK);
+    assert_int_equal(seen_beside(&r, &face, &n, none), FW_OK);
     assert_relative(face[0].gap_m, 6e-6, 1e-9);
     layout.edge_m = 1e-6;
-    assert_int_equal(fw_mechanism_faces_beside(r.arena, &r.m, &face, &n, none), FW_OK);
+    assert_int_equal(seen_beside(&r, &face, &n, none), FW_OK);
     assert_relative(face[0].gap_m, 3e-6, 1e-9);
     fw_arena_free(r.arena);
 }
@@ -349,7 +355,9 @@ static double least_of_limbs(rig *r, fw_layout_piece *piece, int n, bool *both) 
     int count;
     double least = HUGE_VAL;
     r->m.layout = &layout;
-    assert_int_equal(fw_mechanism_limbs_beside(r->arena, &r->m, 1e3, &limb, &count), FW_OK);
+    fw_mechanism_walls w;
+    assert_int_equal(fw_mechanism_walls_take(r->arena, &r->m, &w), FW_OK);
+    assert_int_equal(fw_mechanism_limbs_beside(&r->m, &w, 1e3, &limb, &count), FW_OK);
     for (int i = 0; i < count; i++)
         if (limb[i].tension_N_per_m < least)
             least = limb[i].tension_N_per_m, *both = limb[i].limbs;
