@@ -303,8 +303,8 @@ static fw_status hang(fw_verdict_tree *t, const fw_mechanism *m, double mass_kg,
     return FW_OK;
 }
 
-fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                              int body, const fw_verdict_arm *arm, fw_verdict_hung *hung) {
+static fw_status overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout, int body,
+                          const fw_verdict_arm *arm, fw_verdict_hung *hung) {
     const fw_device_material *of = &m->variant->material;
     const double nu = of->poisson.unknown ? 0.3 : of->poisson.value,
                  crystal = 1.6; /* of silicon's shear moduli, along and across its axes */
@@ -314,11 +314,15 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
                          .shear_Pa = of->youngs.value / (2 * (1 + nu)) /
                                      (fw_device_material_is_crystal(of) ? crystal : 1)};
     if (!(m->shape[body].area_m2 > 0) || !(t.youngs_Pa > 0) || !(t.depth_m > 0)) return FW_OK;
-    fw_arena *own = fw_arena_part(arena, 0);
-    FW_NEED(own);
-    fw_status status = fw_verdict_tree_new(own, m, layout, body, arm, &t);
-    if (status == FW_OK && t.nline > 0) status = hang(&t, m, m->body[body].mass_kg, hung);
-    fw_arena_free(own);
+    FW_TRY(fw_verdict_tree_new(arena, m, layout, body, arm, &t));
+    return t.nline > 0 ? hang(&t, m, m->body[body].mass_kg, hung) : FW_OK;
+}
+
+fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                              int body, const fw_verdict_arm *arm, fw_verdict_hung *hung) {
+    const fw_mark mark = fw_arena_mark(arena); /* cells of the body before take no fresh pages */
+    const fw_status status = overhang(arena, m, layout, body, arm, hung);
+    fw_arena_rewind(arena, mark);
     return status;
 }
 
@@ -327,6 +331,20 @@ fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *m, const fw_
     FW_NEED(*hung = fw_arena_array(arena, fw_verdict_hung, (size_t)m->nbody));
     for (int b = 0; b < m->nbody; b++)
         FW_TRY(fw_verdict_overhang(arena, m, m->layout, b, arm, &(*hung)[b]));
+    return FW_OK;
+}
+
+/* It is most of what a verdict costs out of the plane. Where nobody reads it, it still has a say by weight over a carrier, and where
+   scenes are shaken or weigh in the plane. */
+fw_status fw_verdict_hung_says(fw_arena *arena, const fw_mechanism *m, bool *says) {
+    const fw_device *d = m->device;
+    *says = m->variant->below.known && !m->variant->below.open;
+    for (int i = 0; i < d->nscene && !*says; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
+        *says = s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0 || s->nbase > 0;
+        if (!*says) FW_TRY(fw_verdict_is_shaken(arena, m, i, says));
+    }
     return FW_OK;
 }
 
@@ -389,6 +407,7 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
     const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
     const fw_verdict_bending *b = saw ? &saw->bending : NULL;
     const fw_device_scene *s = &m->device->scene[scene];
+    const fw_verdict_hung *hung = v->out_of_plane->hung;
     const double sudden = 2, hardly_m = 1e-9;
     double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
     fw_mechanism_load_end *end;
@@ -400,7 +419,7 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
         shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
                   fw_quantity_law_largest(s->base[i].law, s->duration_s);
     for (int i = 0; i < m->nbody; i++)
-        to[i] = shaken > 0 ? v->out_of_plane->hung[i].in_plane_s2 * shaken : 0;
+        to[i] = shaken > 0 && hung ? hung[i].in_plane_s2 * shaken : 0;
     FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
     FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
     FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
@@ -449,7 +468,8 @@ fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v
         m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
     double worst = 1;
     int body = FW_NONE;
-    for (int i = 0; limit && v->motion[scene] && i < m->nbody; i++) {
+    const bool counts = limit && v->motion[scene] && v->out_of_plane->hung;
+    for (int i = 0; counts && i < m->nbody; i++) {
         const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
         const double share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
                              (limit->allowable_Pa / m->device->safety_factor);
@@ -515,7 +535,7 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
     const fw_mechanism *m = v->mechanism;
     double *to = fw_arena_array(arena, double, (size_t)m->nbody);
     FW_NEED(to);
-    if (!v->out_of_plane || !v->out_of_plane->hung) return FW_OK;
+    if (!v->out_of_plane) return FW_OK;
     for (int i = 0; i < m->device->nscene; i++) {
         FW_TRY(fw_verdict_shaken_bears(arena, v, i));
         FW_TRY(fw_verdict_bends_in_plane(arena, v, i, to));

@@ -15,6 +15,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { SUBROWS = 16, MARGIN = 3 };
 /* of a cell: nothing; what bears; at an edge, and as wide as it is filled; a gap between two that is too narrow for it */
@@ -77,6 +78,16 @@ static void cross_subrows(const fw_verdict_tree *t, int *n, crossed *x) {
     }
 }
 
+/* A row of cells has that of its subrows together, each an integer by how it differs from the cell before: the sum is over cells
+   once. */
+static void sum_row(float *row, const float *more, int n) {
+    float whole = 0;
+    for (int i = 0; i < n; i++) {
+        whole += more[i];
+        row[i] = fminf((row[i] + whole) / SUBROWS, 1);
+    }
+}
+
 /* how much of every cell is material: along rows exactly, across by subrows */
 static fw_status fill_cells(fw_verdict_tree *t) {
     const int rows = t->ny * SUBROWS;
@@ -86,15 +97,24 @@ static fw_status fill_cells(fw_verdict_tree *t) {
     for (int k = 0; k < rows; k++)
         all += n[k], n[k] = all - n[k];
     crossed *x = fw_arena_raw(t->arena, ((size_t)all + 1) * sizeof *x);
+    float *more = fw_arena_raw(t->arena, (size_t)t->nx * sizeof *more);
     FW_NEED(x);
+    FW_NEED(more);
     cross_subrows(t, n, x); /* n[k]: where the next row begins */
     for (int k = 0; k < rows; k++) {
         const int first = k > 0 ? n[k - 1] : 0;
         float *row = t->full + (size_t)(k / SUBROWS) * (size_t)t->nx;
-        qsort(x + first, (size_t)(n[k] - first), sizeof *x, by_piece);
-        for (int i = first; i + 1 < n[k]; i += 2)
-            for (int j = (int)x[i].x; j < x[i + 1].x; j++)
-                row[j] += (float)((fmin(x[i + 1].x, j + 1) - fmax(x[i].x, j)) / SUBROWS);
+        if (k % SUBROWS == 0) memset(more, 0, (size_t)t->nx * sizeof *more);
+        if (n[k] - first > 2) qsort(x + first, (size_t)(n[k] - first), sizeof *x, by_piece);
+        for (int i = first; i + 1 < n[k]; i += 2) {
+            const double from = fmin(x[i].x, x[i + 1].x), to = fmax(x[i].x, x[i + 1].x);
+            const int a = (int)from, b = (int)to;
+            row[a] += (float)(fmin(to, a + 1) - from);
+            if (b == a) continue;
+            row[b] += (float)(to - b);
+            more[a + 1]++, more[b]--;
+        }
+        if (k % SUBROWS == SUBROWS - 1) sum_row(row, more, t->nx);
     }
     return FW_OK;
 }
@@ -107,21 +127,22 @@ static bool parts_two(const float *full, int step) {
 
 fw_status fw_verdict_tree_lay(fw_verdict_tree *t, fw_geometry_box box, double cell) {
     t->cell = cell, t->whole_m2 = 0, t->nlist = 0;
+    t->near = (int)(0.2 * t->depth_m / cell);
     t->box = (fw_geometry_box){box.x0 - MARGIN * cell, box.y0 - MARGIN * cell, box.x1, box.y1};
     t->nx = 2 * MARGIN + 1 + (int)((box.x1 - box.x0) / cell);
     t->ny = 2 * MARGIN + 1 + (int)((box.y1 - box.y0) / cell);
     const size_t n = (size_t)t->nx * (size_t)t->ny;
     FW_NEED(t->full = fw_arena_array(t->arena, float, n));
     FW_NEED(t->kind = fw_arena_array(t->arena, unsigned char, n));
-    FW_NEED(t->step = fw_arena_array(t->arena, int, n));
-    FW_NEED(t->came = fw_arena_array(t->arena, int, n));
-    FW_NEED(t->part = fw_arena_array(t->arena, int, n));
-    FW_NEED(t->list = fw_arena_array(t->arena, int, n));
+    FW_NEED(t->step = fw_arena_raw(t->arena, n * sizeof *t->step));
+    FW_NEED(t->came = fw_arena_raw(t->arena, n * sizeof *t->came));
+    FW_NEED(t->part = fw_arena_raw(t->arena, n * sizeof *t->part));
+    FW_NEED(t->list = fw_arena_raw(t->arena, n * sizeof *t->list));
     FW_TRY(fill_cells(t));
     for (int j = 0; j < t->ny; j++)
         for (int i = 0; i < t->nx; i++) {
             const int at = j * t->nx + i;
-            const float full = t->full[at] = fminf(t->full[at], 1);
+            const float full = t->full[at];
             t->whole_m2 += cell * cell * (double)full;
             if (i < 2 || j < 2 || i >= t->nx - 2 || j >= t->ny - 2 || full < 0.01F) continue;
             const bool gap =
@@ -133,16 +154,23 @@ fw_status fw_verdict_tree_lay(fw_verdict_tree *t, fw_geometry_box box, double ce
 
 /* ---- steps and parts ---- */
 
-static const int aside_x[8] = {1, -1, 0, 0, 1, 1, -1, -1}, aside_y[8] = {0, 0, 1, -1, 1, -1, 1, -1};
+/* Of a cell's neighbours: where they are, and the two that a corner lies between. Arrays and sizes are the tree's; a function's
+   own, since what it writes might be them. */
+typedef struct beside {
+    int to[8], x[8], y[8];
+} beside;
 
-static int beside(const fw_verdict_tree *t, int at, int k) {
-    return at + aside_x[k] + aside_y[k] * t->nx;
+static beside beside_of(const fw_verdict_tree *t) {
+    static const int x[8] = {1, -1, 0, 0, 1, 1, -1, -1}, y[8] = {0, 0, 1, -1, 1, -1, 1, -1};
+    beside b;
+    for (int d = 0; d < 8; d++)
+        b.x[d] = x[d], b.y[d] = y[d] * t->nx, b.to[d] = b.x[d] + b.y[d];
+    return b;
 }
 
 /* no corner is cut */
-static bool hangs_together(const fw_verdict_tree *t, int at, int k) {
-    return k < 4 ||
-           (t->kind[at + aside_x[k]] == BEARS && t->kind[at + aside_y[k] * t->nx] == BEARS);
+static bool hangs_together(const unsigned char *kind, const beside *b, int d) {
+    return d < 4 || (kind[b->x[d]] == BEARS && kind[b->y[d]] == BEARS);
 }
 
 static void begin_at(fw_verdict_tree *t, fw_geometry_vec2 p) {
@@ -162,43 +190,52 @@ static void begin_at(fw_verdict_tree *t, fw_geometry_vec2 p) {
 
 /* from the cells that hold: to those beside, and to all around, by turns */
 static void spread_out(fw_verdict_tree *t) {
-    for (int k = 1, from = 0; from < t->nlist; k++)
-        for (const int end = t->nlist; from < end; from++)
-            for (int d = 0; d < (k % 2 ? 4 : 8); d++) {
-                const int at = t->list[from], to = beside(t, at, d);
-                if (t->kind[to] != BEARS || t->step[to] < INT_MAX || !hangs_together(t, at, d))
+    const beside b = beside_of(t);
+    const unsigned char *kind = t->kind;
+    int *step = t->step, *came = t->came, *list = t->list, n = t->nlist;
+    for (int k = 1, from = 0; from < n; k++)
+        for (const int end = n, most = k % 2 ? 4 : 8; from < end; from++) {
+            const int at = list[from];
+            for (int d = 0; d < most; d++) {
+                const int to = at + b.to[d];
+                if (kind[to] != BEARS || step[to] < INT_MAX || !hangs_together(kind + at, &b, d))
                     continue;
-                t->step[to] = k, t->came[to] = at;
-                t->list[t->nlist++] = to;
+                step[to] = k, came[to] = at;
+                list[n++] = to;
             }
+        }
+    t->nlist = n;
 }
 
 /* what is nearer to what holds it than a fifth of the layer's thickness is held, whatever width it begins with */
-static int level_of(const fw_verdict_tree *t, int at) {
-    const int beyond = t->step[at] - (int)(0.2 * t->depth_m / t->cell);
-    return beyond > 0 ? (beyond + 1) / 2 : 0;
+static int level_of(int step, int near) {
+    return step > near ? (step - near + 1) / 2 : 0;
 }
 
 /* the cells of a new part, from one of them on; room: of cells */
-static void gather(fw_verdict_tree *t, int first, int *room) {
-    int n = 0, most = 0;
-    const int own = t->n++, level = level_of(t, first);
+static void gather(fw_verdict_tree *t, const beside *b, int first, int *room) {
+    const unsigned char *kind = t->kind;
+    const int *step = t->step, near = t->near;
+    int *part = t->part, n = 0, most = 0;
+    const int own = t->n++, level = level_of(step[first], near);
     t->at[own] = (fw_verdict_tree_part){.level = level, .before = FW_NONE};
-    t->part[first] = own, room[n++] = first;
-    for (int i = 0; i < n; i++)
+    part[first] = own, room[n++] = first;
+    for (int i = 0; i < n; i++) {
+        const int at = room[i];
         for (int d = 0; d < 8; d++) {
-            const int to = beside(t, room[i], d);
-            if (t->kind[to] != BEARS || t->part[to] != FW_NONE || t->step[to] == INT_MAX ||
-                level_of(t, to) != level || !hangs_together(t, room[i], d))
+            const int to = at + b->to[d];
+            if (part[to] != FW_NONE || kind[to] != BEARS || step[to] == INT_MAX ||
+                level_of(step[to], near) != level || !hangs_together(kind + at, b, d))
                 continue;
-            t->part[to] = own, room[n++] = to;
+            part[to] = own, room[n++] = to;
         }
+    }
     for (int i = 0; i < n && level > 0; i++) { /* on what most of it came from */
-        const int from = t->came[room[i]], on = t->part[from];
+        const int from = t->came[room[i]], on = part[from];
         if (on == own || on == t->at[own].before) continue;
         int came = 0;
         for (int k = 0; k < n; k++)
-            came += t->part[t->came[room[k]]] == on;
+            came += part[t->came[room[k]]] == on;
         if (came > most) most = came, t->at[own].before = on;
     }
 }
@@ -215,17 +252,20 @@ static void weigh(fw_verdict_tree *t, int at, int own, bool wide) {
 }
 
 /* what bears nothing hangs on what is nearest to it; cells at an edge are of its width */
-static void take_rest(fw_verdict_tree *t) {
-    for (int i = 0; i < t->nlist; i++) {
-        const int at = t->list[i];
+static void take_rest(fw_verdict_tree *t, const beside *b) {
+    const unsigned char *kind = t->kind;
+    int *part = t->part, *list = t->list, n = t->nlist;
+    for (int i = 0; i < n; i++) {
+        const int at = list[i];
         for (int d = 0; d < 8; d++) {
-            const int to = beside(t, at, d);
-            if (t->kind[to] == EMPTY || t->part[to] != FW_NONE || t->kind[to] == BEARS) continue;
-            t->part[to] = t->part[at];
-            weigh(t, to, t->part[to], t->kind[at] == BEARS && t->kind[to] == AT_EDGE);
-            t->list[t->nlist++] = to;
+            const int to = at + b->to[d];
+            if (kind[to] == BEARS || kind[to] == EMPTY || part[to] != FW_NONE) continue;
+            part[to] = part[at];
+            weigh(t, to, part[to], kind[at] == BEARS && kind[to] == AT_EDGE);
+            list[n++] = to;
         }
     }
+    t->nlist = n;
 }
 
 /* How long and wide parts are, and how they run. What spreads around what holds it by half a right angle or more is in what
@@ -279,12 +319,13 @@ static fw_status make_parts(fw_verdict_tree *t) {
     FW_NEED(t->at = fw_arena_array(t->arena, fw_verdict_tree_part, cells + 1));
     int *room = fw_arena_array(t->arena, int, cells + 1);
     FW_NEED(room);
+    const beside b = beside_of(t);
     t->n = 0, t->reached_m2 = 0;
     for (int i = 0; i < t->nlist; i++)
-        if (t->part[t->list[i]] == FW_NONE) gather(t, t->list[i], room);
+        if (t->part[t->list[i]] == FW_NONE) gather(t, &b, t->list[i], room);
     for (int i = 0; i < t->nlist; i++)
         weigh(t, t->list[i], t->part[t->list[i]], true);
-    take_rest(t);
+    take_rest(t, &b);
     FW_TRY(measure_parts(t));
     FW_NEED(t->f = fw_arena_alloc(t->arena, (size_t)t->n, sizeof *t->f));
     FW_NEED(t->u = fw_arena_alloc(t->arena, (size_t)t->n, sizeof *t->u));

@@ -115,8 +115,8 @@ typedef struct fw_verdict_tree {
     bool *hole; /* (nline) lines of release holes */
     struct fw_verdict_held *held;
     fw_geometry_box box;
-    int nline, nx, ny, nlist, n, nhinge;
-    double cell, left; /* left: what release holes leave of a width */
+    int nline, nx, ny, nlist, n, nhinge, near; /* near: steps to what is held, level_of */
+    double cell, left;                         /* left: what release holes leave of a width */
     double whole_m2, reached_m2;
     double depth_m, youngs_Pa, shear_Pa;
     float *full;
@@ -146,6 +146,7 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
                               fw_verdict_hung *hung);
 fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_verdict_arm *arm, fw_verdict_hung **hung); /* (nbody) */
+fw_status fw_verdict_hung_says(fw_arena *arena, const fw_mechanism *mechanism, bool *says);
 /* arms of bodies on several hinges: all of a body on one hinge hangs over */
 fw_status fw_verdict_shared_arms(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, fw_verdict_arm **shared);

@@ -545,7 +545,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     FW_NEED(bodies = fw_arena_array(arena, double, (size_t)device->nscene));
     for (int i = 0; i < device->nscene; i++)
         bodies[i] = fw_verdict_bending_share(v->motion[i]);
-    FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, diags, v));
+    FW_TRY(fw_verdict_out_of_plane_judge(arena, m, brief, options->bounded, diags, v));
     FW_TRY(fw_verdict_detune(arena, m, bodies, &options->motion, &fw_verdict_required_of_scenes,
                              brief, diags, v));
     fw_verdict_bent_leaves_open(v, 0);

@@ -21,7 +21,7 @@ typedef struct fw_verdict_plates { /* rigid bodies; bodies that give as much as 
     double
         hangs, /* what bodies hang over and bend by their own weight, the most of any, m per m/s2 */
         hangs_mode;        /* and 1/omega^2 of the slowest mode of that */
-    fw_verdict_hung *hung; /* (nbody) */
+    fw_verdict_hung *hung; /* (nbody); NULL: nobody asks for it */
 } both;
 
 /* ---- who asks ---- */
@@ -38,8 +38,6 @@ bool fw_verdict_out_of_plane_asked(const fw_mechanism *m) {
     }
     return false;
 }
-
-/* ---- modes ---- */
 
 static fw_status put_modes(fw_arena *arena, const both *is, fw_verdict_out_of_plane *out) {
     const fw_mechanism_plates *p = &is->rigid;
@@ -227,10 +225,12 @@ static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags
 /* ---- all of it ---- */
 
 static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
-                         both *to) {
+                         bool lean, both *to) {
     fw_verdict_arm *shared;
-    FW_TRY(fw_verdict_overhangs(arena, m, arm, &to->hung));
-    for (int b = 0; b < m->nbody; b++) {
+    bool asked = !lean || fw_verdict_out_of_plane_asked(m);
+    if (!asked) FW_TRY(fw_verdict_hung_says(arena, m, &asked));
+    if (asked) FW_TRY(fw_verdict_overhangs(arena, m, arm, &to->hung));
+    for (int b = 0; asked && b < m->nbody; b++) {
         to->hangs = fmax(to->hangs, to->hung[b].across_s2);
         to->hangs_mode = fmax(to->hangs_mode, to->hung[b].across_mode_s2);
     }
@@ -549,7 +549,7 @@ static fw_status judge_unsaid(fw_arena *arena, const fw_device_scene *s,
 }
 
 fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, bool brief,
-                                        fw_diags *diags, fw_verdict_variant_verdict *v) {
+                                        bool lean, fw_diags *diags, fw_verdict_variant_verdict *v) {
     const fw_device *d = m->device;
     both *is;
     fw_verdict_out_of_plane *out;
@@ -559,7 +559,7 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     if (!tips && !fw_verdict_out_of_plane_asked(m)) return FW_OK;
     FW_NEED(v->out_of_plane = out = fw_arena_one(arena, fw_verdict_out_of_plane));
     FW_NEED(out->plates = is = fw_arena_one(arena, both));
-    FW_TRY(prepare(arena, m, v->arm, is));
+    FW_TRY(prepare(arena, m, v->arm, brief || lean, is));
     out->why = is->rigid.why;
     out->hung = is->hung;
     FW_NEED(out->scene = fw_arena_array(arena, fw_verdict_across, (size_t)d->nscene));

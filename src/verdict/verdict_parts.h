@@ -85,9 +85,9 @@ fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
 
 /* a scene acts across the plane, or a mode there is asked for */
 bool fw_verdict_out_of_plane_asked(const fw_mechanism *mechanism);
-/* after the scenes were run: v->out_of_plane, and reasons of v. brief: only where something asks for it */
+/* v->out_of_plane, and reasons of v. brief: only where something asks. lean: nobody reads what hangs over (body_hung.c) */
 fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *mechanism, bool brief,
-                                        fw_diags *diags, fw_verdict_variant_verdict *v);
+                                        bool lean, fw_diags *diags, fw_verdict_variant_verdict *v);
 /* once hinges were judged in the plane: what they bear across it by weight and shocks */
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v);
 /* Across the plane as checks of a search over what a flow makes: ln of what tips in each scene, and of what hinges bear
