@@ -2,6 +2,7 @@
 /* Time laws of no particular process: a stated time, a constant rate, an expression, a laboratory's
    table. And of resist: spinning, water that comes back after the bake, dose of light, exposure in parts. */
 #include "process/process_law.h"
+#include "base/text.h"
 #include "quantity/quantity.h"
 #include <math.h>
 #include <string.h>
@@ -96,16 +97,21 @@ bool fw_process_table_between(const double *pairs, int n, double x, double *y, c
 }
 
 /* t = table(value), piecewise linear between a laboratory's own pairs, never beyond them, and
-   within [shortest, longest]: a displacement deposit is thin before and dissolves again after.
+   within [shortest, longest], as the window about it is (fw_process_law_window): a displacement deposit is thin before and
+   dissolves again after.
    Test: test_law.c, table. */
 static fw_status table_time(fw_process_law_call *call, const double *x, double *result) {
     if (!fw_process_table_between(x + FIRST, PAIRS, x[VALUE], result, &call->why)) return FW_INPUT;
-    if ((!isnan(x[SHORTEST]) && *result < x[SHORTEST]) ||
-        (!isnan(x[LONGEST]) && *result > x[LONGEST])) {
-        call->why = "the time from the table is outside the shortest to longest allowed";
-        return FW_INPUT;
-    }
-    return FW_OK;
+    const bool brief = *result < x[SHORTEST]; /* no number is not above or below any */
+    if (!brief && !(*result > x[LONGEST])) return FW_OK;
+    char time[32], limit[32];
+    call->why =
+        fw_arena_printf(call->arena, "the time from the table, %s s, is %s allowed, %s s",
+                        fw_number_text(time, sizeof time, *result, 4),
+                        brief ? "below the shortest" : "above the longest",
+                        fw_number_text(limit, sizeof limit, x[brief ? SHORTEST : LONGEST], 4));
+    FW_NEED(call->why);
+    return FW_INPUT;
 }
 
 #define PAIR(need, i)                                                                              \

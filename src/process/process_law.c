@@ -253,10 +253,20 @@ static fw_status unusable(fw_arena *arena, const fw_process_law_use *use, const 
     return add_text(arena, &answer->missing, &answer->nmissing, list.data);
 }
 
+static double told(const fw_process_law_use *use, const char *name) {
+    for (int i = 0; i < use->nargument; i++)
+        if (strcmp(use->argument[i].name, name) == 0 && !use->argument[i].q->unknown)
+            return use->argument[i].q->value;
+    return (double)NAN;
+}
+
 fw_status fw_process_law_evaluate(fw_arena *arena, const fw_process_law_use *use,
                                   fw_process_law_answer *answer) {
     input in;
-    *answer = (fw_process_law_answer){.status = FW_MEASURED, .u_status = FW_MEASURED};
+    *answer = (fw_process_law_answer){.status = FW_MEASURED,
+                                      .u_status = FW_MEASURED,
+                                      .shortest = told(use, "shortest"),
+                                      .longest = told(use, "longest")};
     FW_TRY(missing(arena, use, answer));
     if (answer->nmissing > 0) return FW_OK;
     collect(use, &in);
@@ -286,8 +296,8 @@ fw_status fw_process_law_evaluate(fw_arena *arena, const fw_process_law_use *use
     return FW_OK;
 }
 
-/* first look t (1 - k u), clear by t (1 + k u), stop = clear by (1 + overrun); u relative.
-   k 2 (about 95 %). Source: docs/theory/process.md. Test: test_law.c, window. */
+/* first look t (1 - k u), clear by t (1 + k u), stop = clear by (1 + overrun); u relative. None is outside of the shortest and
+   longest time that the step is allowed. k 2 (about 95 %). Source: docs/theory/process.md. Test: test_law.c, window. */
 void fw_process_law_window(const fw_process_law_answer *answer, double k, double overrun,
                            fw_process_time *time) {
     *time = (fw_process_time){.computable = answer->computable,
@@ -301,9 +311,10 @@ void fw_process_law_window(const fw_process_law_answer *answer, double k, double
     if (!answer->computable) return;
     time->nominal_s = answer->value;
     time->relative_uncertainty = answer->value > 0.0 ? answer->uncertainty / answer->value : 0.0;
-    time->first_look_s = fmax(0.0, answer->value - k * answer->uncertainty);
-    time->clear_by_s = answer->value + k * answer->uncertainty;
-    time->stop_s = time->clear_by_s * (1.0 + overrun);
+    /* fmax and fmin take the number where the other is none */
+    time->first_look_s = fmax(fmax(0.0, answer->value - k * answer->uncertainty), answer->shortest);
+    time->clear_by_s = fmin(answer->value + k * answer->uncertainty, answer->longest);
+    time->stop_s = fmin(time->clear_by_s * (1.0 + overrun), answer->longest);
 }
 
 const fw_process_argument *fw_process_law_wide(const fw_process_law_use *use,

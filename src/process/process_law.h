@@ -60,6 +60,7 @@ typedef struct fw_process_law_call {
 typedef struct fw_process_law_answer {
     bool computable;
     double value, uncertainty;         /* SI, standard */
+    double shortest, longest;          /* what the law is told that it may be; NAN: nothing */
     fw_quantity_value_status status;   /* worst of the inputs */
     fw_quantity_value_status u_status; /* of the inputs' uncertainties that count */
     const char **missing;              /* (nmissing) */

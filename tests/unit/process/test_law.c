@@ -378,10 +378,19 @@ static void lab_table(void **state) {
     fw_process_law_answer a = answer_of("table", "", "", g, 9, NULL);
     assert_relative(a.value, 240.0, 1e-12);
     assert_relative(a.uncertainty, 18.0, 1e-6); /* slope 600 s/um */
+    fw_process_time time; /* what is too long by then is stopped then: t + k u is 276 s */
+    fw_process_law_window(&a, 2.0, 0.1, &time);
+    assert_relative(time.first_look_s, 204.0, 1e-9);
+    assert_relative(time.clear_by_s, 270.0, 1e-12);
+    assert_relative(time.stop_s, 270.0, 1e-12);
+    fw_process_law_window(&a, 8.0, 0.0, &time);
+    assert_relative(time.first_look_s, 120.0, 1e-12);
     given later[9];
     memcpy(later, g, sizeof g);
     later[0].value = 0.38; /* 4.8 min: after the longest */
-    assert_false(answer_of("table", "", "", later, 9, NULL).computable);
+    a = answer_of("table", "", "", later, 9, NULL);
+    assert_false(a.computable);
+    assert_non_null(strstr(a.missing[0], "288 s, is above the longest allowed, 270 s"));
     later[0].value = 0.3;
     later[3].value = 0.05; /* does not rise */
     assert_false(answer_of("table", "", "", later, 9, NULL).computable);
