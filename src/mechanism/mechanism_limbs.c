@@ -401,10 +401,10 @@ static int partner(pair *p, int of) {
     return p->n++;
 }
 
-/* Of a limb of many stations a face is added to the one beside it, at its middle place and gap: a forty-eighth of both sides in one */
+/* Of a limb of many stations a face is added to the one beside it, at its middle place and gap: a twenty-fourth of both sides in one */
 static bool goes_with(const fw_mechanism_faces *to, const fw_mechanism_face *face, int stations) {
     fw_mechanism_face *f = to->count > 0 ? &to->face[to->count - 1] : NULL;
-    const double most = stations / 48.0 * face->area_m2, alike = 1.1;
+    const double most = stations / 24.0 * face->area_m2, alike = 1.1;
     if (!f || f->body[1] != face->body[1] || f->area_m2 + face->area_m2 > most ||
         fmax(f->gap_m, face->gap_m) > alike * fmin(f->gap_m, face->gap_m) ||
         vec_distance(f->at, face->at) > 4 * FW_MECHANISM_RAYS_m)
