@@ -45,7 +45,7 @@ struct fw_recipe_asrun;
 fw_status fw_cli_check_head(fw_arena *arena, fw_diags *diags, const char *file, bool begun,
                             const struct fw_recipe_asrun *run);
 
-/* ---- cli_deck.c: input decks of the continuum level for a person's own solver ---- */
+/* ---- cli_hinge.c: input decks of the continuum level for a person's own solver ---- */
 
 /* Into DIRECTORY, made when it is not there, for every flow of the plan (the plan is loaded):
    hinge-ID[-FLOW].inp       unit loads on each flexure

@@ -186,13 +186,63 @@ typedef struct fw_mechanism_strip_beside { /* of hinge k */
 fw_status fw_mechanism_faces_beside(fw_arena *arena, const fw_mechanism *mechanism,
                                     const fw_mechanism_walls *walls, fw_mechanism_face **face,
                                     int *nface, fw_mechanism_strip_beside *strip);
+/* Sections of the material along its outlines (mechanism_walls.c), for what is slender between two of its walls (mechanism_limbs.c) */
+
+typedef struct fw_mechanism_station { /* of a wall */
+    int wall, chain;
+    fw_geometry_vec2 at, normal;
+    double length_m, thick_m, gap_m;
+    int back, opposite; /* station at its back; wall across its gap. FW_NONE: nothing is there */
+    int limb, node;     /* innermost that bends with it; FW_NONE: it is stiff */
+} fw_mechanism_station;
+
+typedef struct fw_mechanism_chain { /* of walls, from where the outline is held, or once round */
+    int first, count, begin; /* stations; the one where it begins: nothing that hangs lies across */
+    bool closed;
+} fw_mechanism_chain;
+
+typedef struct fw_mechanism_section {
+    int chain, lo,
+        hi; /* what is from the one to the other along the chain, from its begin on, hangs on it */
+    int at, parent, heir, branches; /* at: its station */
+    double thick_m, long_m;         /* long: to its farthest tip */
+    bool slender, stands;           /* stands: it hangs on nothing */
+    int limb, node;
+    fw_geometry_vec2 middle;
+} fw_mechanism_section;
+
+typedef struct fw_mechanism_sections {
+    const fw_mechanism_walls *w;
+    const fw_mechanism *m;
+    int *next, *before; /* (nwall) FW_NONE */
+    bool *hole;         /* (nwall) of a release hole */
+    int *first;         /* (nwall) station; FW_NONE: it has none */
+    fw_mechanism_station *station;
+    fw_mechanism_chain *chain;
+    fw_mechanism_section *section; /* as they lie in one another, from the outermost on */
+    int nstation, nchain, nsection;
+} fw_mechanism_sections;
+fw_status fw_mechanism_sections_take(const fw_mechanism *mechanism, const fw_mechanism_walls *walls,
+                                     fw_mechanism_sections *sections);
+/* place of a station along its chain, and back; where a point of a wall belongs to; middle of what lies behind a station */
+int fw_mechanism_sections_place(const fw_mechanism_sections *sections, int station);
+int fw_mechanism_sections_station(const fw_mechanism_sections *sections, int chain, int place);
+int fw_mechanism_sections_nearest(const fw_mechanism_sections *sections, int wall,
+                                  fw_geometry_vec2 at);
+fw_geometry_vec2 fw_mechanism_sections_middle(const fw_mechanism_sections *sections,
+                                              const fw_mechanism_station *station);
+void fw_mechanism_sections_across(const fw_mechanism_sections *sections,
+                                  fw_mechanism_station *station);
+
 /* What of a body is slender, and bends towards what stands beside it: of every such wall whose liquid pulls it there at less
    than enough_N_per_m, s that it bears, to 1 % below it */
 typedef struct fw_mechanism_limb {
     double tension_N_per_m, gap_m;
     int piece[2],
         body[2]; /* of the layout: its own, and what faces it; FW_GROUND: what stands, or a flexure */
-    bool limbs; /* what faces it bends as well */
+    bool limbs;          /* what faces it bends as well */
+    fw_geometry_vec2 at; /* where it meets first */
+    int limb[2], order;  /* limb: numbers, FW_NONE: what faces it is stiff */
 } fw_mechanism_limb;
 fw_status fw_mechanism_limbs_beside(const fw_mechanism *mechanism, const fw_mechanism_walls *walls,
                                     double enough_N_per_m, fw_mechanism_limb **limb, int *nlimb);

@@ -189,6 +189,7 @@ static void slopes(const pulled *p, double s) {
             double *at = p->a + (size_t)(3 * row) * n + 3 * column;
             for (size_t k = 0; k < 3; k++, at += n) {
                 const double pushed = by * to->by[side / 2][k];
+                if (pushed == 0) continue; /* limbs have one coordinate each */
                 at[0] += pushed * over[0], at[1] += pushed * over[1], at[2] += pushed * over[2];
             }
         }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which walls stand opposite each other, and limbs: what of a body is slender, and bends towards the wall beside it.
+/* Which walls stand opposite each other, and sections of the material between two walls of its own.
    Theory: docs/theory/stiction.md */
 #include "base/constants.h"
 #include "geometry/segment.h"
@@ -11,7 +11,7 @@
 
 static const double reach_m =
                         200e-6, /* a liquid between walls further apart pulls next to nothing */
-    first_m = 25e-6;            /* most rays, those across a release hole or a slot, end before */
+    least_side_m = 25e-6;       /* of a bin */
 enum { BINS = 512 };            /* along the longer side of the box, at most */
 
 static bool solid_of(const fw_layout_piece *p, int nbody, int *solid) {
@@ -84,7 +84,7 @@ static fw_status sort_walls(fw_mechanism_walls *w) {
         w->box = i ? fw_box_join(w->box, box) : box;
     }
     const double width = w->box.x1 - w->box.x0, height = w->box.y1 - w->box.y0;
-    w->side_m = fmax(first_m, fmax(width, height) / BINS);
+    w->side_m = fmax(least_side_m, fmax(width, height) / BINS);
     w->nx = 1 + (int)(width / w->side_m);
     w->ny = 1 + (int)(height / w->side_m);
     size_t n = (size_t)w->nx * (size_t)w->ny;
@@ -101,33 +101,40 @@ static fw_status sort_walls(fw_mechanism_walls *w) {
     return FW_OK;
 }
 
-/* the nearest wall that the ray from p along the unit vector n meets within reach, and how far away; -1: none */
-static int look_within(const fw_mechanism_walls *w, int own, fw_geometry_vec2 p, fw_geometry_vec2 n,
-                       double reach, double *gap) {
-    const fw_geometry_box box = box_of(p, vec_along(p, reach, n));
-    const range r = bins_of(w, &box);
-    int found = -1;
-    *gap = reach;
-    for (int j = r.j0; j <= r.j1; j++)
-        for (int i = r.i0; i <= r.i1; i++)
-            for (int k = w->begin[j * w->nx + i]; k < w->begin[j * w->nx + i + 1]; k++) {
-                const fw_mechanism_wall *to = &w->wall[w->in[k]];
-                fw_geometry_vec2 along = vec_sub(to->b, to->a), off = vec_sub(to->a, p);
-                double det = vec_cross(n, along),
-                       beside = vec_cross(off, n); /* 0 to det within it */
-                if (det > 0 ? beside < 0 || beside > det : beside > 0 || beside < det) continue;
-                if (w->in[k] == own || det == 0) continue;
-                double t = vec_cross(off, along) / det;
-                if (t > 0 && t < *gap) *gap = t, found = w->in[k];
-            }
-    return found;
+static bool is_in(const range *r, int i, int j) {
+    return i >= r->i0 && i <= r->i1 && j >= r->j0 && j <= r->j1;
 }
 
-/* near the wall first: what is found there is the nearest of all */
+/* of the walls of a bin, one that the ray meets before *gap */
+static void look_in(const fw_mechanism_walls *w, int of, int own, fw_geometry_vec2 p,
+                    fw_geometry_vec2 n, int *found, double *gap) {
+    for (int k = w->begin[of]; k < w->begin[of + 1]; k++) {
+        const fw_mechanism_wall *to = &w->wall[w->in[k]];
+        fw_geometry_vec2 along = vec_sub(to->b, to->a), off = vec_sub(to->a, p);
+        double det = vec_cross(n, along), beside = vec_cross(off, n); /* 0 to det within it */
+        if (det > 0 ? beside < 0 || beside > det : beside > 0 || beside < det) continue;
+        if (w->in[k] == own || det == 0) continue;
+        double t = vec_cross(off, along) / det;
+        if (t > 0 && t < *gap) *gap = t, *found = w->in[k];
+    }
+}
+
+/* along the ray from bin to bin: what is found before the next one is the nearest of all */
 int fw_mechanism_walls_look(const fw_mechanism_walls *w, int own, fw_geometry_vec2 p,
                             fw_geometry_vec2 n, double *gap) {
-    int found = look_within(w, own, p, n, first_m, gap);
-    return found >= 0 ? found : look_within(w, own, p, n, reach_m, gap);
+    range last = {1, 0, 1, 0};
+    int found = -1;
+    *gap = reach_m;
+    for (double from = 0; from < *gap; from += w->side_m) {
+        const fw_geometry_box box =
+            box_of(vec_along(p, from, n), vec_along(p, fmin(from + w->side_m, reach_m), n));
+        const range r = bins_of(w, &box);
+        for (int j = r.j0; j <= r.j1; j++)
+            for (int i = r.i0; i <= r.i1; i++)
+                if (!is_in(&last, i, j)) look_in(w, j * w->nx + i, own, p, n, &found, gap);
+        last = r;
+    }
+    return found;
 }
 
 fw_status fw_mechanism_walls_take(fw_arena *arena, const fw_mechanism *m, fw_mechanism_walls *w) {
@@ -147,53 +154,16 @@ fw_status fw_mechanism_faces_add(fw_mechanism_faces *to, const fw_mechanism_face
     return FW_OK;
 }
 
-/* ---- limbs ----
-   What of a body, or of what stands, is slender between two walls of its own bends towards what stands beside it: fingers, bars,
-   jaws. A wall that goes straight on (within 20 degrees) is a run; with t(x) of material behind it, and what its ends do, it is a
-   beam of one coordinate, the deflection u of its tip or middle, with the shape phi of an even load:
+/* ---- sections of the material, for mechanism_limbs.c ----
+   Along its outlines, one for each 15 um of a wall: the line to the wall at its back. One whose ends are of one outline cuts off what
+   lies between them, which hangs on it where no hinge is there, and of two such parts the smaller one. Of two that cross the thicker
+   one is left out, so that sections lie in one another. Cost: a ray for two stations. Test: test_mechanism_pull.c */
 
-     K = kappa E h t^3/(12 L^3),   1/t^3 = sum of weight/t(x)^3 over sum of weight,   from the tip x^3, else 1
+typedef fw_mechanism_station station;
+typedef fw_mechanism_chain chain;
+typedef fw_mechanism_section section;
 
-     at one end   phi = z^2 (6 - 4 z + z^2)/3,   kappa = 3       z = x/L from the root
-     at both      phi = 16 z^2 (1 - z)^2,        kappa = 192     into something wider
-     at both      phi = sin(pi z),               kappa = 48      where hinges are, or it turns a corner
-
-   kappa is that of a force at the place of u, the least of any load: an even pull finds it 6 % stiffer. A run ends free where its
-   outline comes round to the wall behind it within twice the thickness, and clamped where it turns to the outside.
-   What pulls a run is the liquid before it alone, with what faces it bending as well, each by one coordinate.
-   Error: beams, of runs more than three times as long as wide; 12 % of a pair of cantilevers. What bends round a corner is seen
-   leg by leg. Cost: rays as above, and fw_mechanism_pull_in of some coordinates a run. Test: test_mechanism_pull.c */
-
-typedef enum limb_kind { LIMB_NONE, LIMB_FREE, LIMB_CLAMPED, LIMB_PINNED, LIMB_TIPS } limb_kind;
-typedef enum end_kind { END_ROOT, END_TIP, END_HINGE } end_kind;
-
-typedef struct run {
-    int first, last; /* walls */
-    double length_m, thick_m;
-    limb_kind kind;
-    /* where along it the limb begins, at its root where one end is free, and how far it reaches from there: < 0: back */
-    double root_m, reach_m;
-} run;
-
-typedef struct runs {
-    const fw_mechanism_walls *w;
-    int *next, *before, *of; /* (nwall) wall after and before it, FW_NONE; its run */
-    double *at_m;            /* (nwall) where it begins along its run */
-    bool *hole;              /* (nwall) of a release hole */
-    run *run;
-    int nrun;
-} runs;
-
-static const double corner_rad = 0.2, turned_rad = 0.35, round_m = 200e-6, /* of a release hole */
-    slender = 3, shortest_m = 20e-6;
-
-static double direction(const fw_mechanism_wall *w) {
-    return atan2(w->b.y - w->a.y, w->b.x - w->a.x);
-}
-
-static double turn(const fw_mechanism_walls *w, int from, int to) {
-    return fw_geometry_angle_near(direction(&w->wall[to]) - direction(&w->wall[from]), 0);
-}
+static const double round_m = 200e-6; /* of a release hole */
 
 typedef struct begin {
     fw_geometry_vec2 at;
@@ -207,14 +177,14 @@ static int by_place(const void *a, const void *b) {
     return (p->wall > q->wall) - (p->wall < q->wall);
 }
 
-static fw_status link_walls(runs *r) {
+static fw_status link_walls(fw_mechanism_sections *r) {
     const fw_mechanism_walls *w = r->w;
     const size_t n = (size_t)w->nwall;
     begin *order;
     FW_NEED(order = fw_arena_array(w->arena, begin, n));
     for (size_t i = 0; i < n; i++) {
         order[i] = (begin){w->wall[i].a, (int)i};
-        r->next[i] = r->before[i] = r->of[i] = FW_NONE;
+        r->next[i] = r->before[i] = r->first[i] = FW_NONE;
     }
     qsort(order, n, sizeof *order, by_place);
     for (size_t i = 0; i < n; i++) {
@@ -237,7 +207,7 @@ static fw_status link_walls(runs *r) {
 }
 
 /* closed chains that go round clockwise, and are short */
-static void find_holes(const runs *r) {
+static void find_holes(const fw_mechanism_sections *r) {
     const fw_mechanism_walls *w = r->w;
     for (int i = 0; i < w->nwall; i++) {
         double round = 0, area = 0;
@@ -256,327 +226,246 @@ static void find_holes(const runs *r) {
     }
 }
 
-static void take_run(runs *r, int first) {
-    const fw_mechanism_walls *w = r->w;
-    run *to = &r->run[r->nrun];
-    double turned = 0;
-    *to = (run){.first = first, .last = first};
-    for (int k = first; k != FW_NONE && r->of[k] == FW_NONE; k = r->next[k]) {
-        if (k != first) {
-            const double by = turn(w, r->before[k], k);
-            turned += by;
-            if (fabs(by) > corner_rad || fabs(turned) > turned_rad) break;
-        }
-        r->of[k] = r->nrun, r->at_m[k] = to->length_m, to->last = k;
-        to->length_m += vec_distance(w->wall[k].a, w->wall[k].b);
-    }
-    r->nrun++;
+/* ---- stations ---- */
+
+static int stations_of(const fw_mechanism_wall *w) {
+    const double length = vec_distance(w->a, w->b);
+    const int least = length > FW_MECHANISM_RAYS_m ? 4 : 1,
+              n = 1 + (int)(length / FW_MECHANISM_RAYS_m);
+    return n > least ? n : least;
 }
 
-static fw_status take_runs(const fw_mechanism_walls *w, runs *r) {
-    const size_t n = (size_t)w->nwall;
-    *r = (runs){.w = w};
-    FW_NEED(r->next = fw_arena_array(w->arena, int, 3 * n));
-    r->before = r->next + n, r->of = r->before + n;
-    FW_NEED(r->at_m = fw_arena_array(w->arena, double, n));
-    FW_NEED(r->hole = fw_arena_array(w->arena, bool, n));
-    FW_NEED(r->run = fw_arena_array(w->arena, run, n));
-    FW_TRY(link_walls(r));
-    find_holes(r);
-    for (int i = 0; i < w->nwall; i++)
-        if (r->before[i] == FW_NONE || fabs(turn(w, r->before[i], i)) > corner_rad) take_run(r, i);
-    for (int i = 0; i < w->nwall; i++)
-        if (r->of[i] == FW_NONE) take_run(r, i);
-    return FW_OK;
+int fw_mechanism_sections_nearest(const fw_mechanism_sections *r, int wall, fw_geometry_vec2 p) {
+    const fw_mechanism_wall *w = &r->w->wall[wall];
+    const fw_geometry_vec2 along = vec_sub(w->b, w->a);
+    const int n = stations_of(w),
+              k = (int)(n * vec_dot(vec_sub(p, w->a), along) / vec_dot(along, along));
+    return r->first[wall] == FW_NONE ? FW_NONE : r->first[wall] + (k < 0 ? 0 : k >= n ? n - 1 : k);
 }
 
-typedef struct station { /* of a run */
-    int wall, opposite;  /* opposite: the wall at its back; FW_NONE: it is not slender there */
-    fw_geometry_vec2 at, normal;
-    double x_m, length_m, thick_m;
-} station;
+static fw_geometry_vec2 out_of(const fw_mechanism_wall *w) {
+    const fw_geometry_vec2 along = vec_unit(vec_sub(w->b, w->a));
+    return (fw_geometry_vec2){along.y, -along.x};
+}
 
-/* Material behind a wall, holes left out; HUGE_VAL: more than `most_m`, or something else begins there */
-static double behind(const runs *r, const station *s, double most_m, int *opposite) {
+/* Material behind a wall, holes left out, to a wall that faces away from it */
+static void look_back(const fw_mechanism_sections *r, station *s) {
     enum { HOLES = 20 };
     const fw_mechanism_walls *w = r->w;
     fw_geometry_vec2 p = s->at, in = vec_scale(-1, s->normal);
     int own = s->wall;
-    double sum = 0, t;
-    *opposite = FW_NONE;
+    double t;
     for (int k = 0; k < HOLES; k++) {
-        int hit = look_within(w, own, p, in, most_m, &t);
-        if (hit < 0 || w->wall[hit].solid != w->wall[s->wall].solid) break;
-        sum += t;
+        const int hit = fw_mechanism_walls_look(w, own, p, in, &t);
+        if (hit < 0 || w->wall[hit].solid != w->wall[s->wall].solid) return;
+        s->thick_m += t;
+        p = vec_along(p, t, in);
         if (!r->hole[hit]) {
-            *opposite = hit;
-            return sum;
+            if (vec_dot(out_of(&w->wall[hit]), in) > FW_MECHANISM_FACING)
+                s->back = fw_mechanism_sections_nearest(r, hit, p);
+            return;
         }
-        p = vec_along(p, t, in);
-        own = look_within(w, hit, p, in, most_m, &t);
-        if (own < 0 || !r->hole[own]) break;
+        own = fw_mechanism_walls_look(w, hit, p, in, &t);
+        if (own < 0 || !r->hole[own]) return;
         p = vec_along(p, t, in);
     }
-    return HUGE_VAL;
 }
 
-/* thick: with what lies behind them */
-static fw_status put_stations(const runs *r, const run *of, bool thick, station **out, int *n) {
+void fw_mechanism_sections_across(const fw_mechanism_sections *r, station *s) {
+    const int hit = fw_mechanism_walls_look(r->w, s->wall, s->at, s->normal, &s->gap_m);
+    if (hit < 0 || vec_dot(out_of(&r->w->wall[hit]), s->normal) > -FW_MECHANISM_FACING) return;
+    s->opposite = hit;
+    s->gap_m = fmax(s->gap_m - fw_layout_walls_m(r->m->layout), 1e-9);
+}
+
+static bool is_left_out(const fw_mechanism_sections *r, int wall) {
+    const fw_layout_piece *p = &r->m->layout->piece[r->w->wall[wall].piece];
+    return r->hole[wall] || p->role == FW_ROLE_TETHER || p->role == FW_ROLE_FRAME ||
+           vec_same(r->w->wall[wall].a, r->w->wall[wall].b);
+}
+
+static void take_chain(fw_mechanism_sections *r, int from, bool closed) {
     const fw_mechanism_walls *w = r->w;
-    const double step = fmin(FW_MECHANISM_RAYS_m, of->length_m / 8),
-                 most = fmin(reach_m, of->length_m / slender);
-    int stations = 0;
-    for (int k = of->first;; k = r->next[k]) {
-        stations += 1 + (int)(vec_distance(w->wall[k].a, w->wall[k].b) / step);
-        if (k == of->last) break;
+    chain *c = &r->chain[r->nchain];
+    *c = (chain){.first = r->nstation, .closed = closed};
+    for (int k = from; k != FW_NONE && r->first[k] == FW_NONE; k = r->next[k]) {
+        const int n = stations_of(&w->wall[k]);
+        const fw_geometry_vec2 along = vec_sub(w->wall[k].b, w->wall[k].a);
+        r->first[k] = r->nstation;
+        if (is_left_out(r, k)) continue;
+        for (int i = 0; i < n; i++)
+            r->station[r->nstation++] =
+                (station){.wall = k,
+                          .chain = r->nchain,
+                          .at = vec_along(w->wall[k].a, (i + 0.5) / n, along),
+                          .normal = out_of(&w->wall[k]),
+                          .length_m = vec_length(along) / n,
+                          .back = FW_NONE,
+                          .opposite = FW_NONE,
+                          .limb = FW_NONE};
     }
-    FW_NEED(*out = fw_arena_array(w->arena, station, (size_t)stations));
-    *n = 0;
-    for (int k = of->first;; k = r->next[k]) {
-        const fw_mechanism_wall *a = &w->wall[k];
-        const double length = vec_distance(a->a, a->b);
-        const int parts = 1 + (int)(length / step);
-        const fw_geometry_vec2 along = vec_sub(a->b, a->a),
-                               normal = {along.y / length, -along.x / length};
-        for (int i = 0; i < parts && length > 0; i++) {
-            station *s = &(*out)[(*n)++];
-            *s = (station){.wall = k,
-                           .at = vec_along(a->a, (i + 0.5) / parts, along),
-                           .normal = normal,
-                           .x_m = r->at_m[k] + (i + 0.5) * length / parts,
-                           .length_m = length / parts};
-            if (thick) s->thick_m = behind(r, s, most, &s->opposite);
-        }
-        if (k == of->last) break;
+    c->count = r->nstation - c->first;
+    r->nchain++;
+}
+
+static fw_status take_stations(fw_mechanism_sections *r) {
+    const fw_mechanism_walls *w = r->w;
+    const size_t n = (size_t)w->nwall;
+    size_t all = 0;
+    FW_NEED(r->next = fw_arena_array(w->arena, int, 3 * n));
+    r->before = r->next + n, r->first = r->before + n;
+    FW_NEED(r->hole = fw_arena_array(w->arena, bool, n));
+    FW_NEED(r->chain = fw_arena_array(w->arena, chain, n));
+    for (int i = 0; i < w->nwall; i++)
+        all += (size_t)stations_of(&w->wall[i]);
+    FW_NEED(r->station = fw_arena_array(w->arena, station, all));
+    FW_TRY(link_walls(r));
+    find_holes(r);
+    for (int i = 0; i < w->nwall; i++)
+        if (r->before[i] == FW_NONE) take_chain(r, i, false);
+    for (int i = 0; i < w->nwall; i++)
+        if (r->first[i] == FW_NONE) take_chain(r, i, true);
+    for (int i = 0; i < w->nwall; i++)
+        if (is_left_out(r, i)) r->first[i] = FW_NONE;
+    for (int i = 0; i < r->nstation; i++) {
+        station *s = &r->station[i];
+        if (s->back == FW_NONE) look_back(r, s);
+        if (!(s->thick_m + 2 * r->m->layout->edge_m > 0)) s->back = FW_NONE;
+        if (s->back != FW_NONE && r->station[s->back].back == FW_NONE)
+            r->station[s->back].back = i, r->station[s->back].thick_m = s->thick_m;
     }
+    for (int i = 0; i < r->nstation; i++)
+        r->station[i].thick_m += 2 * r->m->layout->edge_m;
     return FW_OK;
 }
 
-/* What becomes of a run beyond its last wall (forward) or its first one, where the wall at its back is of the run `back` */
-static end_kind end_of(const runs *r, const run *of, bool forward, const station *s) {
-    const fw_mechanism_walls *w = r->w;
-    double round = 0;
-    if (s->opposite == FW_NONE) return END_ROOT;
-    int from = forward ? of->last : of->first, to = forward ? r->next[from] : r->before[from];
-    const bool strip = w->wall[from].solid <= FW_MECHANISM_FLEXED;
-    if (to == FW_NONE) return strip ? END_ROOT : END_HINGE;
-    if ((forward ? turn(w, from, to) : turn(w, to, from)) < 0) return END_ROOT;
-    for (; to != FW_NONE && round <= 2 * s->thick_m; to = forward ? r->next[to] : r->before[to]) {
-        if (r->of[to] == r->of[s->opposite]) return END_TIP;
-        round += vec_distance(w->wall[to].a, w->wall[to].b);
+/* ---- sections ---- */
+
+int fw_mechanism_sections_place(const fw_mechanism_sections *r, int k) {
+    const chain *c = &r->chain[r->station[k].chain];
+    return (k - c->first - c->begin + c->count) % c->count;
+}
+
+int fw_mechanism_sections_station(const fw_mechanism_sections *r, int of, int place) {
+    const chain *c = &r->chain[of];
+    return c->first + (place + c->begin) % c->count;
+}
+
+fw_geometry_vec2 fw_mechanism_sections_middle(const fw_mechanism_sections *r, const station *s) {
+    return vec_scale(0.5, vec_add(s->at, r->station[s->back].at));
+}
+
+/* Of a chain: what hangs on each of its stations' sections, from `lo` on, `lo` + `n` the last; n 0: nothing. sum: (count + 1) of areas */
+static int hangs_on(const fw_mechanism_sections *r, const chain *c, const double *sum, int k,
+                    int *lo) {
+    const station *s = &r->station[c->first + k];
+    if (s->back == FW_NONE || s->back == c->first + k || r->station[s->back].chain != s->chain)
+        return 0;
+    const int back = s->back - c->first, i = k < back ? k : back, j = k < back ? back : k;
+    const double closes = vec_cross(r->station[c->first + j].at, r->station[c->first + i].at),
+                 inner = sum[j] - sum[i] + closes, outer = sum[c->count] - inner;
+    const bool in = !c->closed || (inner > 0 && !(outer > 0 && outer < inner));
+    *lo = in ? i : j;
+    return in ? j - i : c->count - (j - i);
+}
+
+static fw_status take_sections(fw_mechanism_sections *r, int of) {
+    chain *c = &r->chain[of];
+    const size_t n = (size_t)c->count;
+    double *sum;
+    int *covers, lo, long_;
+    FW_NEED(sum = fw_arena_array(r->w->arena, double, n + 1));
+    FW_NEED(covers = fw_arena_array(r->w->arena, int, 2 * n + 2));
+    for (int k = 0; k < c->count; k++)
+        sum[k + 1] = sum[k] + vec_cross(r->station[c->first + k].at,
+                                        r->station[c->first + (k + 1) % c->count].at);
+    for (int k = 0; k < c->count; k++)
+        if ((long_ = hangs_on(r, c, sum, k, &lo)) > 0) covers[lo + 1]++, covers[lo + long_ + 1]--;
+    for (int k = 1; k < 2 * c->count + 2; k++)
+        covers[k] += covers[k - 1];
+    int best = 0;
+    for (int k = 1; c->closed && k < c->count; k++)
+        if (covers[k] + covers[k + c->count] < covers[best] + covers[best + c->count]) best = k;
+    for (int k = 0; k < c->count; k++) {
+        const station *s = &r->station[c->first + k];
+        if ((long_ = hangs_on(r, c, sum, k, &lo)) == 0) continue;
+        const int from = (lo - best + c->count) % c->count;
+        if (from + long_ < c->count)
+            r->section[r->nsection++] = (section){.chain = of,
+                                                  .lo = from,
+                                                  .hi = from + long_,
+                                                  .at = c->first + k,
+                                                  .parent = FW_NONE,
+                                                  .heir = FW_NONE,
+                                                  .limb = FW_NONE,
+                                                  .thick_m = s->thick_m,
+                                                  .middle = fw_mechanism_sections_middle(r, s)};
     }
-    return END_HINGE;
-}
-
-/* thickness of a beam of even width that gives as much */
-static double even_thickness(const run *of, const station *s, int n) {
-    double sum = 0, all = 0;
-    for (int i = 0; i < n; i++) {
-        const double z = (s[i].x_m - of->root_m) / of->reach_m, t = s[i].thick_m;
-        if (z < 0 || z > 1) continue;
-        const double weight = s[i].length_m * (of->kind == LIMB_FREE ? pow(1 - z, 3) : 1);
-        all += weight, sum += weight / (t * t * t);
-    }
-    return sum > 0 ? cbrt(all / sum) : HUGE_VAL;
-}
-
-/* What is more than four times as thick as the thinnest place at an end of a run holds it there. */
-static void measure(const runs *r, run *of, const station *s, int n) {
-    const double holds = 4;
-    double least = HUGE_VAL;
-    int i = 0, k = n - 1;
-    for (int j = 0; j < n; j++)
-        least = fmin(least, s[j].thick_m);
-    of->kind = LIMB_NONE;
-    if (!isfinite(least)) return;
-    while (s[i].thick_m > holds * least)
-        i++;
-    while (s[k].thick_m > holds * least)
-        k--;
-    const end_kind first = i > 0 ? END_ROOT : end_of(r, of, false, &s[0]),
-                   last = k < n - 1 ? END_ROOT : end_of(r, of, true, &s[n - 1]);
-    of->root_m = s[i].x_m - 0.5 * s[i].length_m;
-    of->reach_m = s[k].x_m + 0.5 * s[k].length_m - of->root_m;
-    if (first == END_TIP && last == END_TIP)
-        of->kind = LIMB_TIPS;
-    else if (first == END_TIP)
-        of->kind = LIMB_FREE, of->root_m += of->reach_m, of->reach_m *= -1;
-    else if (last == END_TIP)
-        of->kind = LIMB_FREE;
-    else
-        of->kind = first == END_ROOT && last == END_ROOT ? LIMB_CLAMPED : LIMB_PINNED;
-    of->thick_m = even_thickness(of, s, n);
-    if (of->kind != LIMB_TIPS && !(slender * of->thick_m < fabs(of->reach_m))) of->kind = LIMB_NONE;
-}
-
-/* Of what is free at both ends on this side something holds the other side: the longest limb there is its own as well */
-static void measure_tips(const runs *r, run *of, const station *s, int n) {
-    const fw_mechanism_walls *w = r->w;
-    const run *best = NULL;
-    const fw_geometry_vec2 start = w->wall[of->first].a,
-                           along = vec_unit(vec_sub(w->wall[of->last].b, start));
-    of->kind = LIMB_NONE;
-    for (int i = 0; i < n; i++) {
-        const run *back = s[i].opposite == FW_NONE ? NULL : &r->run[r->of[s[i].opposite]];
-        if (!back || back->kind != LIMB_FREE) continue;
-        if (!best || fabs(back->reach_m) > fabs(best->reach_m)) best = back;
-    }
-    if (!best) return;
-    const fw_geometry_vec2 root =
-        best->reach_m > 0 ? w->wall[best->first].a : w->wall[best->last].b;
-    of->kind = LIMB_FREE, of->thick_m = best->thick_m;
-    of->root_m = vec_dot(vec_sub(root, start), along), of->reach_m = -best->reach_m;
-}
-
-static double shape_at(const run *of, double x_m) {
-    double z = (x_m - of->root_m) / of->reach_m;
-    if (!(z > 0)) return 0;
-    z = fmin(z, 1);
-    switch (of->kind) {
-    case LIMB_FREE:
-        return z * z * (6 - 4 * z + z * z) / 3;
-    case LIMB_CLAMPED:
-        return 16 * z * z * (1 - z) * (1 - z);
-    case LIMB_PINNED:
-        return sin(FW_PI * z);
-    case LIMB_NONE:
-    case LIMB_TIPS:
-        break;
-    }
-    return 0;
-}
-
-static double gives(const run *of, double youngs_Pa, double depth_m) {
-    const double L = fabs(of->reach_m),
-                 kappa = of->kind == LIMB_FREE      ? 3
-                         : of->kind == LIMB_CLAMPED ? 192
-                                                    : 48,
-                 t = of->thick_m;
-    return 12 * L * L * L / (kappa * youngs_Pa * depth_m * t * t * t);
-}
-
-/* ---- what pulls a limb ---- */
-
-enum {
-    PARTNERS = 8
-}; /* limbs that face one wall; what else faces it, and the rest of them, is as if it stood */
-
-typedef struct pair {
-    int limb[1 + PARTNERS], n;
-} pair;
-
-static int partner(pair *p, int limb) {
-    for (int i = 0; i < p->n; i++)
-        if (p->limb[i] == limb) return i;
-    if (p->n > PARTNERS) return FW_NONE;
-    p->limb[p->n] = limb;
-    return p->n++;
-}
-
-static fw_status put_facing(const fw_mechanism *m, const runs *r, int own, const station *s,
-                            double come_m, pair *p, fw_mechanism_faces *to) {
-    const fw_mechanism_walls *w = r->w;
-    const double phi = shape_at(&r->run[own], s->x_m), depth = m->variant->thickness_m;
-    double gap;
-    const int hit = phi > 0 ? fw_mechanism_walls_look(w, s->wall, s->at, s->normal, &gap) : -1;
-    if (hit < 0) return FW_OK;
-    const fw_mechanism_wall *b = &w->wall[hit];
-    const fw_geometry_vec2 back = vec_unit(vec_sub(b->b, b->a)), out = {back.y, -back.x};
-    if (vec_dot(out, s->normal) > -FW_MECHANISM_FACING) return FW_OK;
-    gap = fmax(gap - come_m, 1e-9);
-    fw_mechanism_face face = {.body = {0, FW_GROUND},
-                              .by = {{phi, 0, 0}},
-                              .area_m2 = s->length_m * depth,
-                              .gap_m = gap,
-                              .more = gap / depth,
-                              .at = s->at,
-                              .normal = s->normal,
-                              .piece = {w->wall[s->wall].piece, b->piece}};
-    const int other = r->of[hit];
-    if (other != own && r->run[other].kind != LIMB_NONE) {
-        const fw_geometry_vec2 met = vec_along(s->at, gap, s->normal);
-        face.body[1] = partner(p, other);
-        if (face.body[1] != FW_NONE)
-            face.by[1][0] =
-                shape_at(&r->run[other], r->at_m[hit] + vec_dot(vec_sub(met, b->a), back));
-        else
-            face.body[1] = FW_GROUND;
-    }
-    return fw_mechanism_faces_add(to, &face);
-}
-
-static int solid_shown(int solid) {
-    return solid <= FW_MECHANISM_FLEXED ? FW_GROUND : solid;
-}
-
-static fw_status pull_limb(const fw_mechanism *m, const runs *r, int own, double enough_N_per_m,
-                           fw_mechanism_limb *out) {
-    fw_arena *arena = r->w->arena;
-    const fw_mechanism_walls *w = r->w;
-    pair p = {.limb = {own}, .n = 1};
-    fw_mechanism_faces to = {.arena = arena};
-    station *s;
-    int n, first;
-    FW_TRY(put_stations(r, &r->run[own], false, &s, &n));
-    for (int i = 0; i < n; i++)
-        FW_TRY(put_facing(m, r, own, &s[i], fw_layout_walls_m(m->layout), &p, &to));
-    *out = (fw_mechanism_limb){.tension_N_per_m = HUGE_VAL};
-    if (to.count == 0) return FW_OK;
-    double *c;
-    const size_t size = 3 * (size_t)p.n;
-    FW_NEED(c = fw_arena_array(arena, double, size *size));
-    for (size_t i = 0; i < (size_t)p.n; i++)
-        c[3 * i * size + 3 * i] =
-            gives(&r->run[p.limb[i]], m->variant->material.youngs.value, m->variant->thickness_m);
-    FW_TRY(fw_mechanism_pull_in(arena, c, (int)size, to.face, (int)to.count, FW_PULL_EACH,
-                                enough_N_per_m, &out->tension_N_per_m, &first));
-    if (first == FW_NONE) return FW_OK;
-    const fw_mechanism_face *at = &to.face[first];
-    out->gap_m = at->gap_m;
-    for (int k = 0; k < 2; k++) {
-        out->piece[k] = at->piece[k];
-        out->body[k] = FW_GROUND;
-    }
-    out->body[0] = solid_shown(w->wall[r->run[own].first].solid);
-    const fw_layout_piece *other = &m->layout->piece[at->piece[1]];
-    out->body[1] = other->body >= 0 && other->body < m->nbody ? other->body : FW_GROUND;
-    out->limbs = at->body[1] != FW_GROUND;
+    c->begin = best;
     return FW_OK;
 }
 
-/* In: the layout in the drawn pose, as made; enough: a tension (s) of which nothing is known any closer. Out: of every limb that something
-   pulls at a lesser tension than those before it. */
-fw_status fw_mechanism_limbs_beside(const fw_mechanism *m, const fw_mechanism_walls *w,
-                                    double enough_N_per_m, fw_mechanism_limb **limb, int *nlimb) {
-    fw_arena *arena = w->arena;
-    runs r;
-    station *s;
-    int n;
-    *limb = NULL, *nlimb = 0;
-    if (w->nwall == 0) return FW_OK;
-    FW_TRY(take_runs(w, &r));
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < r.nrun; i++) {
-            run *of = &r.run[i];
-            const fw_layout_piece *piece = &m->layout->piece[w->wall[of->first].piece];
-            fw_mark mark = fw_arena_mark(arena);
-            if (pass ? of->kind != LIMB_TIPS : of->length_m < shortest_m) continue;
-            if (piece->role == FW_ROLE_TETHER || piece->role == FW_ROLE_FRAME) continue;
-            FW_TRY(put_stations(&r, of, true, &s, &n));
-            if (pass == 0)
-                measure(&r, of, s, n);
+static int by_nest(const void *a, const void *b) {
+    const section *p = a, *q = b;
+    if (p->chain != q->chain) return p->chain < q->chain ? -1 : 1;
+    if (p->lo != q->lo) return p->lo < q->lo ? -1 : 1;
+    if (p->hi != q->hi) return p->hi > q->hi ? -1 : 1;
+    if (p->thick_m != q->thick_m) return p->thick_m < q->thick_m ? -1 : 1;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+static bool holds_other(const section *p, const section *q) {
+    return p->chain == q->chain && p->lo <= q->lo && q->hi <= p->hi;
+}
+
+/* of two that cross, or hold the same, the thinner one is kept */
+static fw_status nest_sections(fw_mechanism_sections *r) {
+    int *stack, top = 0, n = 0;
+    FW_NEED(stack = fw_arena_array(r->w->arena, int, (size_t)r->nsection + 1));
+    qsort(r->section, (size_t)r->nsection, sizeof *r->section, by_nest);
+    for (int i = 0; i < r->nsection; i++) {
+        section *s = &r->section[i];
+        bool kept = true;
+        while (top > 0 && kept) {
+            section *t = &r->section[stack[top - 1]];
+            if (t->chain != s->chain || t->hi < s->lo) {
+                top--;
+                continue;
+            }
+            const bool same = t->lo == s->lo && t->hi == s->hi;
+            if (holds_other(t, s) && !same) break;
+            if (same || !(s->thick_m < t->thick_m))
+                kept = false;
             else
-                measure_tips(&r, of, s, n);
-            fw_arena_rewind(arena, mark);
+                t->at = FW_NONE, top--;
         }
-    FW_NEED(*limb = fw_arena_array(arena, fw_mechanism_limb, (size_t)r.nrun));
-    for (int i = 0; i < r.nrun; i++) {
-        fw_mark mark = fw_arena_mark(arena);
-        fw_mechanism_limb *to = &(*limb)[*nlimb];
-        if (r.run[i].kind == LIMB_NONE) continue;
-        FW_TRY(pull_limb(m, &r, i, enough_N_per_m, to));
-        fw_arena_rewind(arena, mark);
-        if (to->tension_N_per_m < enough_N_per_m) (*nlimb)++;
+        if (kept)
+            stack[top++] = i;
+        else
+            s->at = FW_NONE;
+    }
+    for (int i = 0; i < r->nsection; i++)
+        if (r->section[i].at != FW_NONE) r->section[n++] = r->section[i];
+    r->nsection = n, top = 0;
+    for (int i = 0; i < n; i++) {
+        while (top > 0 && !holds_other(&r->section[stack[top - 1]], &r->section[i]))
+            top--;
+        r->section[i].parent = top > 0 ? stack[top - 1] : FW_NONE;
+        stack[top++] = i;
     }
     return FW_OK;
+}
+
+fw_status fw_mechanism_sections_take(const fw_mechanism *m, const fw_mechanism_walls *w,
+                                     fw_mechanism_sections *r) {
+    fw_arena *arena = w->arena;
+    *r = (fw_mechanism_sections){.w = w, .m = m};
+    FW_TRY(take_stations(r));
+    FW_NEED(r->section = fw_arena_array(arena, section, (size_t)r->nstation + 1));
+    for (int i = 0; i < r->nchain; i++) {
+        fw_mark mark = fw_arena_mark(arena);
+        if (r->chain[i].count > 0) FW_TRY(take_sections(r, i));
+        fw_arena_rewind(arena, mark);
+    }
+    return nest_sections(r);
 }

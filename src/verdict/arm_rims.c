@@ -4,6 +4,7 @@
 #include "base/constants.h"
 #include "base/sort.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -304,6 +305,15 @@ static const char *not_known(fw_arena *arena, const fw_verdict_stuck *s) {
         "%s%s touches in %s%s, and whether it comes free again is not known: %s%s; let it touch a "
         "bump (b is its centre, distance its radius), or leave it more room",
         FW_NAMED("contact", s->contact), FW_NAMED("scene", s->scene), s->why, opened);
+}
+
+const char *fw_verdict_limb_text(fw_arena *arena, const fw_layout *layout,
+                                 const fw_mechanism_limb *limb) {
+    char x[32], y[32];
+    return fw_arena_printf(arena, "a slender part of %s at (%s, %s) um",
+                           layout->piece[limb->piece[0]].label,
+                           fw_number_text(x, sizeof x, 1e6 * limb->at.x, 4),
+                           fw_number_text(y, sizeof y, 1e6 * limb->at.y, 4));
 }
 
 const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *s,

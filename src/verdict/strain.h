@@ -463,6 +463,11 @@ fw_status fw_verdict_tell_in_turn(fw_arena *arena, const fw_verdict_strain_monit
                                   struct fw_verdict_variant_verdict *v);
 fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
                                    struct fw_verdict_variant_verdict *v);
+/* arm_rims.c: what bends towards a wall beside it, and where in the drawing; NULL: FW_NOMEM */
+struct fw_mechanism_limb;
+const char *fw_verdict_limb_text(fw_arena *arena, const fw_layout *layout,
+                                 const struct fw_mechanism_limb *limb);
+
 /* arm_rims.c; low, high: over what is allowed, of the rims beside end i; of required poses (scene NULL) its low end is not
    known */
 fw_status fw_verdict_give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, double low,

@@ -195,17 +195,18 @@ static fw_status bears_alone(device *d, const fw_mechanism_face *face, int n, in
 }
 
 /* What is bent goes with what turns its bodies: shares of the tension add up at most (Dunkerley). What bears more than ten
-   times as much as what gives way first is left out. */
+   times as much as what gives way first is left out; bodies bear at least what is known before. */
 static fw_status limbs_beside(device *d, const fw_mechanism_face *face, int n,
                               fw_mechanism_face *room, fw_verdict_pull *to) {
     const fw_mechanism *m = d->m;
-    const double more = 1 + strip_error, times = 10,
-                 enough = times * fmin(wall_enough_N_per_m, to->tension_N_per_m[0]);
+    const double more = 1 + strip_error, times = 10, least = to->tension_N_per_m[0],
+                 enough = times * fmin(wall_enough_N_per_m, least);
     fw_mechanism_limb *limb;
-    int nlimb;
+    int nlimb; /* the least first */
     FW_TRY(fw_mechanism_limbs_beside(m, &d->walls, 2 * more * enough, &limb, &nlimb));
     for (int i = 0; i < nlimb; i++) {
         double share = 2 * more / limb[i].tension_N_per_m, alone = 0;
+        if (!(1 / (share + 1 / least) < to->tension_N_per_m[0])) break;
         for (int k = 0; k < 2; k++) {
             const int body = limb[i].body[k];
             if (body == FW_GROUND || limb[i].body[0] == limb[i].body[1]) continue;
@@ -214,10 +215,11 @@ static fw_status limbs_beside(device *d, const fw_mechanism_face *face, int n,
         }
         if (!(1 / (share + alone) < to->tension_N_per_m[0])) continue;
         const char *own = m->layout->piece[limb[i].piece[0]].label,
-                   *other = m->layout->piece[limb[i].piece[1]].label, *part;
-        FW_NEED(part = fw_arena_printf(d->arena, "a slender part of %s", own));
+                   *other = m->layout->piece[limb[i].piece[1]].label,
+                   *part = fw_verdict_limb_text(d->arena, m->layout, &limb[i]);
         keep_lower(to, 1 / (share + alone), part,
-                   strcmp(own, other) == 0 ? "another part of it" : other);
+                   strcmp(own, other) ? other : "another part of it");
+        FW_NEED(part);
         to->gap_m = limb[i].gap_m;
     }
     return FW_OK;
@@ -452,8 +454,6 @@ static fw_status stuck(device *d, fw_verdict_stiction *to, fw_verdict_variant_ve
     return FW_OK;
 }
 
-/* ---- all of it ---- */
-
 static const char *remedy(fw_arena *arena, const fw_verdict_pull *p) {
     char most[32], by[32];
     return fw_arena_printf(
@@ -501,7 +501,7 @@ static fw_status judge_below(fw_arena *arena, const fw_mechanism *m, fw_verdict_
                v);
 }
 
-/* which walls are wet on one side alone is chance: a row of walls that dries evenly may stand */
+/* which walls are wet on one side alone is chance: a row that dries evenly may stand */
 static fw_status judge_beside(fw_arena *arena, const fw_mechanism *m, fw_verdict_stiction *to,
                               fw_verdict_variant_verdict *v) {
     const fw_verdict_pull *p = &to->beside;
@@ -514,9 +514,8 @@ static fw_status judge_beside(fw_arena *arena, const fw_mechanism *m, fw_verdict
                fw_arena_printf(
                    arena,
                    "the liquid of %s may pull %s and %s together across the gap of %s um between "
-                   "them, where one "
-                   "side of it stays wet longer (elastocapillary number %s at least, 1 is wanted); "
-                   "%s",
+                   "them, where one side of it stays wet longer (elastocapillary number %s at "
+                   "least, 1 is wanted); %s",
                    m->variant->drying.words, p->a, p->b,
                    fw_number_text(gap, sizeof gap, 1e6 * p->gap_m, 3),
                    fw_number_text(low, sizeof low, p->number[0], 3), help),

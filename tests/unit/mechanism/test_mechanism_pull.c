@@ -453,7 +453,7 @@ static void fingers_mesh(void **state) {
         }
         const double s = least_of_limbs(&r, piece, 2, &both), exact = meshed(overlap[k]);
         assert_true(both);
-        assert_true(s > 0.8 * exact && s < 1.02 * exact);
+        assert_true(s > 0.85 * exact && s < 1.005 * exact);
         fw_arena_free(r.arena);
     }
 }
@@ -475,8 +475,8 @@ static void webs(void **state) {
             {-100e-6, BAR},   {0, BAR},       {0, 0},             {-100e-6, 0}};
         fw_geometry_outline o = fw_geometry_outline_start(r.arena, at[0]);
         for (int i = 1; i < 12; i++)
-            if (!flush || (i != 2 && i != 3 && i != 4 && i != 5))
-                fw_geometry_outline_line(&o, at[i], 0);
+            if (!flush || (i != 2 && i != 3 && i != 4 && i != 5)) /* hinges hold both heads */
+                fw_geometry_outline_line(&o, at[i], i == 1 || i == 7 ? FW_SEGMENT_JOINT : 0);
         piece[0] =
             (fw_layout_piece){.role = FW_ROLE_STRUCTURE, .body = 0, .joint = FW_NONE, .label = "w"};
         assert_int_equal(fw_geometry_outline_close(&o, &piece[0].contour), FW_OK);
@@ -484,9 +484,293 @@ static void webs(void **state) {
                  BAR - 1e-6);
         const double s = least_of_limbs(&r, piece, 2, &both);
         assert_false(both);
-        assert_true(s > (flush ? 0.8 : 0.92) * exact && s < 1.01 * exact);
+        assert_true(s > 0.8 * exact && s < 1.01 * exact);
         fw_arena_free(r.arena);
     }
+}
+
+/* ---- limbs with steps, bumps and heads ---- */
+
+enum { CUTS = 90 };
+
+typedef struct cut { /* a place of a beam, from its root on */
+    fw_geometry_vec2 at, normal;
+    double length_m, thick_m, gap_m; /* gap: HUGE_VAL: nothing is there */
+} cut;
+
+/* sections before both places bend by what is in the middle of each: of beams that are held at one end, or at both */
+static void compliance(const cut *x, int n, bool clamped, double g[CUTS][CUTS]) {
+    static double c[CUTS][2];
+    double f[2][2] = {{0}};
+    const fw_geometry_vec2 end = vec_along(x[n - 1].at, 0.5 * x[n - 1].length_m,
+                                           (fw_geometry_vec2){x[n - 1].normal.y, -x[n - 1].normal.x});
+    memset(c, 0, sizeof c);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            g[i][j] = 0;
+    for (int k = 0; k < n; k++) {
+        const double by = 12 * x[k].length_m / (E * H * pow(x[k].thick_m, 3));
+        const double e[2] = {vec_cross(vec_sub(end, x[k].at), x[n - 1].normal), 1};
+        for (int i = 0; i < n; i++) {
+            const double share = k < i ? 1 : k == i ? 0.5 : 0,
+                         mi = vec_cross(vec_sub(x[i].at, x[k].at), x[i].normal);
+            for (int j = 0; j < n; j++)
+                g[i][j] += by * share * (k < j ? 1 : k == j ? 0.5 : 0) * mi *
+                           vec_cross(vec_sub(x[j].at, x[k].at), x[j].normal);
+            c[i][0] += by * share * mi * e[0], c[i][1] += by * share * mi * e[1];
+        }
+        for (int i = 0; i < 4; i++)
+            f[i / 2][i % 2] += by * e[i / 2] * e[i % 2];
+    }
+    const double det = f[0][0] * f[1][1] - f[0][1] * f[1][0];
+    for (int i = 0; i < n && clamped; i++)
+        for (int j = 0; j < n; j++)
+            g[i][j] -= (c[i][0] * (f[1][1] * c[j][0] - f[0][1] * c[j][1]) +
+                        c[i][1] * (f[0][0] * c[j][1] - f[1][0] * c[j][0])) /
+                       det;
+}
+
+/* s at which a beam is lost, or (times 2) a beam and its mirror image: every place of it is solved for */
+static double beam_lost(const cut *x, int n, int times, bool clamped) {
+    static double g[CUTS][CUTS];
+    double low = 1e-6, high = 1e3;
+    compliance(x, n, clamped, g);
+    while (high > 1.003 * low) {
+        const double s = sqrt(low * high);
+        double u[CUTS] = {0}, f[CUTS];
+        bool holds = true;
+        for (int round = 0; round < 600 && holds; round++) {
+            for (int i = 0; i < n; i++) {
+                f[i] = isfinite(x[i].gap_m) ? s * (1 + x[i].gap_m / H) * H * x[i].length_m /
+                                                  (x[i].gap_m - times * u[i])
+                                            : 0;
+            }
+            for (int i = 0; i < n && holds; i++) {
+                u[i] = 0;
+                for (int j = 0; j < n; j++)
+                    u[i] += g[i][j] * f[j];
+                holds = !isfinite(x[i].gap_m) || times * u[i] < 0.9 * x[i].gap_m;
+            }
+        }
+        if (holds)
+            low = s;
+        else
+            high = s;
+    }
+    return low;
+}
+
+typedef struct stretch { /* of a bar: its length, and where its sides are, from the middle between two */
+    double length, inner, outer;
+} stretch;
+
+static fw_geometry_vec2 turned(double x, double y, double angle) {
+    return (fw_geometry_vec2){1e-6 * (x * cos(angle) - y * sin(angle)),
+                              1e-6 * (x * sin(angle) + y * cos(angle))};
+}
+
+static double lengths(const stretch *s, int n) {
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += s[i].length;
+    return sum;
+}
+
+/* one side of a bar from y on, up or down; to x = sign * side */
+static void put_side(fw_geometry_outline *o, const stretch *s, int n, double sign, bool inner, bool up,
+                     double angle, double y0) {
+    for (int i = 0; i < n; i++) {
+        const stretch *at = &s[up ? i : n - 1 - i];
+        const double low = y0 + lengths(s, (int)(at - s)), high = low + at->length,
+                     x = sign * (inner ? at->inner : at->outer);
+        fw_geometry_outline_line(o, turned(x, up ? low : high, angle), 0);
+        fw_geometry_outline_line(o, turned(x, up ? high : low, angle), 0);
+    }
+}
+
+/* two bars that are mirror images of each other, from one foot; um */
+static void put_pair(fw_arena *arena, fw_layout_piece *p, const stretch *s, int n, double angle) {
+    fw_geometry_outline o = fw_geometry_outline_start(arena, turned(-150, 0, angle));
+    *p = (fw_layout_piece){.role = FW_ROLE_STRUCTURE, .body = 0, .joint = FW_NONE, .label = "pair"};
+    fw_geometry_outline_line(&o, turned(-150, -200, angle), 0);
+    fw_geometry_outline_line(&o, turned(150, -200, angle), 0);
+    fw_geometry_outline_line(&o, turned(150, 0, angle), 0);
+    put_side(&o, s, n, 1, false, true, angle, 0);
+    put_side(&o, s, n, 1, true, false, angle, 0);
+    put_side(&o, s, n, -1, true, true, angle, 0);
+    put_side(&o, s, n, -1, false, false, angle, 0);
+    assert_int_equal(fw_geometry_outline_close(&o, &p->contour), FW_OK);
+}
+
+/* the same, cut across in the middle of the first stretch into three pieces that share those cuts */
+static void put_split(fw_arena *arena, fw_layout_piece *p, const stretch *of, int n, double angle) {
+    stretch s[4] = {of[0], of[0]};
+    s[0].length *= 0.5, s[1].length *= 0.5;
+    for (int k = 1; k < n; k++)
+        s[k + 1] = of[k];
+    n++;
+    put_pair(arena, &p[0], s, 1, angle);
+    for (int k = 0; k < 2; k++) {
+        const double sign = k ? -1 : 1;
+        fw_geometry_outline o =
+            fw_geometry_outline_start(arena, turned(sign * s[1].inner, s[0].length, angle));
+        p[1 + k] = p[0];
+        if (k)
+            put_side(&o, s + 1, n - 1, sign, true, true, angle, s[0].length);
+        put_side(&o, s + 1, n - 1, sign, false, !k, angle, s[0].length);
+        if (!k)
+            put_side(&o, s + 1, n - 1, sign, true, false, angle, s[0].length);
+        assert_int_equal(fw_geometry_outline_close(&o, &p[1 + k].contour), FW_OK);
+    }
+    const double cut_y = 1e-6 * s[0].length;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < p[k].contour.count; i++) {
+            fw_geometry_segment *at = &p[k].contour.segment[i];
+            const double a = vec_dot(at->a, turned(0, 1e6, angle)), b = vec_dot(at->b, turned(0, 1e6, angle));
+            if (fabs(a - cut_y) < 1e-10 && fabs(b - cut_y) < 1e-10)
+                at->flags |= FW_SEGMENT_JOINT | FW_SEGMENT_THROUGH;
+        }
+}
+
+static double pair_lost(const stretch *s, int n) {
+    static cut x[CUTS];
+    const double all = lengths(s, n), step = all / CUTS;
+    double end = s[0].length;
+    for (int i = 0, k = 0; i < CUTS; i++) {
+        const double y = (i + 0.5) * step;
+        while (y > end)
+            end += s[++k].length;
+        x[i] = (cut){{0, 1e-6 * y}, {-1, 0}, 1e-6 * step, 1e-6 * (s[k].outer - s[k].inner),
+                     s[k].inner < 90 ? 2e-6 * s[k].inner : HUGE_VAL};
+    }
+    return beam_lost(x, CUTS, 2, false);
+}
+
+/* Bars with a bump of either side, with steps, heads and a thin root bear no more than beams that are solved place by place,
+   nine tenths of it; none of them bears more than the plain bar where it adds nothing but a bump; however they are turned, mirrored
+   (both of a pair are), or cut into pieces. Bars with a bump were said to bear ten times as much, heads five hundred times */
+static void steps_bumps_and_heads(void **state) {
+    (void)state;
+    static const struct {
+        stretch s[3];
+        int n;
+        bool plain; /* but for a bump: it bears no more than the first */
+    } of[] = {
+        {{{300, 10, 20}, {400, 10, 20}}, 2, true},
+        {{{341, 10, 20}, {18, 7, 20}, {341, 10, 20}}, 3, true},   /* a bump in front */
+        {{{341, 10, 20}, {18, 10, 28}, {341, 10, 20}}, 3, true},  /* at its back */
+        {{{350, 10, 20}, {350, 10, 22}}, 2, true},                /* a step by a tenth */
+        {{{350, 10, 20}, {350, 9, 21}}, 2, true},
+        {{{670, 10, 20}, {30, 10, 50}}, 2, true},                 /* a head at the back of its tip */
+        {{{400, 33, 39}, {60, 6, 66}}, 2, false},                 /* heads on stems */
+        {{{140, 10, 16}, {360, 10, 50}}, 2, false},               /* thin roots */
+        {{{345, 10, 20}, {10, 13, 17}, {345, 10, 20}}, 3, false}, /* a notch */
+        {{{80, 10, 40}, {620, 10, 20}}, 2, false},                /* a thick root */
+    };
+    double plain = 0;
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        const double angle[3] = {0, FW_PI / 2, 37 * FW_PI / 180}, exact = pair_lost(of[k].s, of[k].n);
+        double first = 0;
+        if (k == 0) plain = exact;
+        for (int i = 0; i < 6; i++) {
+            rig r;
+            fw_layout_piece piece[3];
+            bool both;
+            rig_new(&r, 0, 100e-6, 100e-6);
+            if (i < 3)
+                put_pair(r.arena, &piece[0], of[k].s, of[k].n, angle[i]);
+            else
+                put_split(r.arena, piece, of[k].s, of[k].n, angle[i - 3]);
+            const double s = least_of_limbs(&r, piece, i < 3 ? 1 : 3, &both);
+            if (i == 0) first = s;
+            assert_true(both);
+            assert_true(s < exact && s > 0.9 * exact);
+            assert_true(!of[k].plain || s < 1.05 * plain);
+            assert_relative(s, first, 0.01);
+            fw_arena_free(r.arena);
+        }
+    }
+}
+
+/* A web that hinges hold at both ends, with a bump of 3 um in the middle of the wall that faces another one, was taken for its
+   two halves. Where they hold one end alone it is a bar with a head */
+static void a_web_with_a_bump(void **state) {
+    (void)state;
+    static cut x[CUTS];
+    const double step = BAR / CUTS, head = 150e-6, high = 3e-6, wide = 20e-6, half = 0.5 * BAR;
+    for (int i = 0; i < CUTS; i++) {
+        const double y = (i + 0.5) * step;
+        const bool on = fabs(y - half) < 0.5 * wide;
+        x[i] = (cut){{0, y}, {1, 0}, step, THICK + (on ? high : 0), BESIDE + 2e-6 - (on ? high : 0)};
+    }
+    for (int one_end = 0; one_end < 2; one_end++) {
+        rig r;
+        fw_layout_piece piece[2];
+        bool both;
+        rig_new(&r, 0, 100e-6, 100e-6);
+        const fw_geometry_vec2 at[12] = {{-100e-6, -head},
+                                         {THICK, -head},
+                                         {THICK, half - 0.5 * wide},
+                                         {THICK + high, half - 0.5 * wide},
+                                         {THICK + high, half + 0.5 * wide},
+                                         {THICK, half + 0.5 * wide},
+                                         {THICK, BAR + head},
+                                         {-100e-6, BAR + head},
+                                         {-100e-6, BAR},
+                                         {0, BAR},
+                                         {0, 0},
+                                         {-100e-6, 0}};
+        fw_geometry_outline o = fw_geometry_outline_start(r.arena, at[0]);
+        for (int i = 1; i < 12; i++)
+            fw_geometry_outline_line(&o, at[i], i == 1 || (i == 7 && !one_end) ? FW_SEGMENT_JOINT : 0);
+        piece[0] =
+            (fw_layout_piece){.role = FW_ROLE_STRUCTURE, .body = 0, .joint = FW_NONE, .label = "w"};
+        assert_int_equal(fw_geometry_outline_close(&o, &piece[0].contour), FW_OK);
+        put_wall(r.arena, &piece[1], FW_GROUND, THICK + BESIDE + 2e-6, 1e-6, THICK + 60e-6, BAR - 1e-6);
+        const double s = least_of_limbs(&r, piece, 2, &both), exact = beam_lost(x, CUTS, 1, !one_end);
+        assert_false(both);
+        assert_true(s < exact && s > 0.8 * exact);
+        fw_arena_free(r.arena);
+    }
+}
+
+static void put_arc(fw_geometry_outline *o, double radius, double from, double to) {
+    for (int i = 0; i <= 30; i++) {
+        const double angle = from + (to - from) * i / 30;
+        fw_geometry_outline_line(o, (fw_geometry_vec2){radius * cos(angle), radius * sin(angle)}, 0);
+    }
+}
+
+/* A bar that goes round by 80 degrees beside a wall that does; as far as it was straight alone was it seen */
+static void bars_go_round(void **state) {
+    (void)state;
+    static cut x[CUTS];
+    rig r;
+    fw_layout_piece piece[2];
+    bool both;
+    const double R = 500e-6, t = 8e-6, gap = 10e-6, round = 80 * FW_PI / 180, in = R - 0.5 * t, out = R + 0.5 * t;
+    rig_new(&r, 0, 100e-6, 100e-6);
+    fw_geometry_outline o = fw_geometry_outline_start(r.arena, (fw_geometry_vec2){in - 200e-6, 0});
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){in - 200e-6, -200e-6}, 0);
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){out, -200e-6}, 0);
+    put_arc(&o, out, 0, round);
+    put_arc(&o, in, round, 0);
+    piece[0] = (fw_layout_piece){.role = FW_ROLE_STRUCTURE, .body = 0, .joint = FW_NONE, .label = "b"};
+    assert_int_equal(fw_geometry_outline_close(&o, &piece[0].contour), FW_OK);
+    o = fw_geometry_outline_start(r.arena, (fw_geometry_vec2){out + gap, 0});
+    fw_geometry_outline_line(&o, (fw_geometry_vec2){out + 150e-6, 0}, 0);
+    put_arc(&o, out + 150e-6, 0.01, round);
+    put_arc(&o, out + gap, round, 0.01);
+    piece[1] = piece[0], piece[1].body = FW_GROUND;
+    assert_int_equal(fw_geometry_outline_close(&o, &piece[1].contour), FW_OK);
+    for (int i = 0; i < CUTS; i++) {
+        const double angle = (i + 0.5) * round / CUTS, c = cos(angle), s = sin(angle);
+        x[i] = (cut){{R * c, R * s}, {c, s}, R * round / CUTS, t, gap};
+    }
+    const double s = least_of_limbs(&r, piece, 2, &both), exact = beam_lost(x, CUTS, 1, false);
+    assert_false(both);
+    assert_true(s < exact && s > 0.85 * exact);
+    fw_arena_free(r.arena);
 }
 
 /* ---- at rest ---- */
@@ -545,6 +829,9 @@ int main(void) {
         cmocka_unit_test(bars_bend),
         cmocka_unit_test(fingers_mesh),
         cmocka_unit_test(webs),
+        cmocka_unit_test(steps_bumps_and_heads),
+        cmocka_unit_test(a_web_with_a_bump),
+        cmocka_unit_test(bars_go_round),
         cmocka_unit_test(gaps_at_rest),
         cmocka_unit_test(undersides),
     };
