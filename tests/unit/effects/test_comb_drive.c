@@ -284,7 +284,7 @@ static void test_compiled(void **state) {
     const fw_effects_comb_element *d = fw_effects_comb_of(r.e);
     assert_near(d->depth_m, 50e-6, 0);
     assert_near(d->length_m, 120e-6, 1e-20);
-    assert_relative(fw_effects_comb_fringe(d), 1.5 * fw_effects_comb_edge(4e-6, 8e-6, NULL) * 4e-6 / 50e-6, 1e-13);
+    assert_relative(fw_effects_comb_fringe(d, NULL), 1.5 * fw_effects_comb_edge(4e-6, 8e-6, NULL) * 4e-6 / 50e-6, 1e-13);
     assert_true(r.e->size_N_per_m > 0 && r.e->force_N > 0 && !r.e->works && !r.e->dissipates);
     const fw_effect_entry *entry = NULL;
     for (int i = 0; i < r.ledger.count; i++)

@@ -279,7 +279,7 @@ static void whole_plates(void **state) {
         double slope[3], got = 1e6 * fw_effects_comb_capacitance(&e, here, slope, NULL);
         assert_true(got / c > 1 - at[i].share && got / c < 1);
         assert_true(slope[0] / pull > 0.97 && slope[0] / pull < 1);
-        assert_true(slope[0] * (1 + fw_effects_comb_fringe(&e)) > pull);
+        assert_true(slope[0] * (1 + fw_effects_comb_fringe(&e, NULL)) > pull);
         assert_true(l * h / (g * g) / pull < 1 - 4 * (1 - slope[0] / pull));
     }
     fw_arena_free(r.arena);
