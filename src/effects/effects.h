@@ -530,6 +530,7 @@ double fw_effects_comb_edge(double gap_m, double width_m, double slope[2]);
 double fw_effects_plate_edge(double gap_m, double width_m, double depth_m, double slope[2]);
 /* the same at one end of a plate of this length against a longer one, over eps0 and depth */
 double fw_effects_plate_end(double gap_m, double width_m, double length_m, double slope[2]);
+double fw_effects_plate_corners(const fw_effects_comb_element *c); /* F, as drawn */
 /* Of a finger's tip beside one gap, at a distance from the other comb's root: what the root adds to its capacitance over eps0
    and depth; and by which overlap, in gaps, it is as if longer against a motion across. slope: first and second derivative by
    the distance. */
