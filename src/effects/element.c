@@ -452,7 +452,7 @@ const char *fw_effects_comb_out_of_range(const fw_effects_comb_element *c) {
     if (deep < 0.5) return "the gap is wider than twice the depth of its fingers";
     if (wide < 0.05 || wide > 12)
         return "its fingers are narrower than a twentieth of its gap, or wider than 12 gaps";
-    if (c->overlap_m < 0.3 * c->gap_m) return "its fingers overlap by less than 0.3 of its gap";
+    if (c->overlap_m < 0.5 * c->gap_m) return "its fingers overlap by less than half of its gap";
     return NULL;
 }
 
