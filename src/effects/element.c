@@ -453,6 +453,7 @@ const char *fw_effects_comb_out_of_range(const fw_effects_comb_element *c) {
     if (wide < 0.05 || wide > 12)
         return "its fingers are narrower than a twentieth of its gap, or wider than 12 gaps";
     if (c->overlap_m < 0.5 * c->gap_m) return "its fingers overlap by less than half of its gap";
+    if (c->length_m < 1.5 * c->gap_m) return "its fingers are shorter than one and a half gaps";
     return NULL;
 }
 

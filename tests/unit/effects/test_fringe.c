@@ -176,6 +176,7 @@ static void ends_aside(void **state) {
         for (int k = 0; k < 3; k++) {
             const fw_effects_comb_tips tip = fw_effects_comb_tips_of(g * 1e-6, w * 1e-6, 20);
             if (ov + away[k] < 1.5 * g) continue; /* FW-D715 */
+            if (ov + away[k] < 1.5 * g) continue; /* FW-D715 */
             const double d = away[k], y = 2, more = 1 / (g - y) + 1 / (g + y) - 2 / g;
             double by[2], b = fw_effects_comb_tip_aside(&tip, d * 1e-6, by);
             const double want = (cell(w, g, ov, d, y, 0) - cell(w, g, ov, d, 0, 0)) / more;
