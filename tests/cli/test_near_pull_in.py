@@ -242,7 +242,7 @@ class Tips(unittest.TestCase):
             self.assertEqual(found["kind"], "fold")
             self.assertTrue(square < found["voltage_V"] < 1.15 * square, (away, found["voltage_V"]))
             # square tips are within what may be missing
-            self.assertLess(found["voltage_V"] / (1 + found["fringe"]) ** 0.5, 1.055 * square)
+            self.assertLess(found["voltage_V"] / (1 + found["fringe"]) ** 0.5, 1.06 * square)
         self.assertEqual(said_of(STAGE % (aligned(10), ""), "volts=30 V", command="statics").get("verdict"), None)
         said = said_of(STAGE % (aligned(10), ""), "volts=30 V")
         self.assertEqual(said["verdict"], "reject", said["reasons"])
