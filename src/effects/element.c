@@ -430,21 +430,6 @@ double fw_effects_comb_fringe(const fw_effects_comb_element *c, const double *pl
     return -g * g * ((left + 0.5) * by[0] / c->depth_m + left * 2 * end[0] / c->length_m);
 }
 
-/* Half of what the long edges add, where something stands near or below; of ends and corners 3 %, and what wide bodies behind
-   a plate add, up to 8 %, is less than that half. Without edges all of what they add is missing. */
-double fw_effects_comb_capacitance_off(const fw_effects_comb_element *c, const double place[3]) {
-    const bool comb = c->kind == FW_ELECTRODES_COMB;
-    const double all = fw_effects_comb_capacitance(c, place, NULL, NULL),
-                 left = c->edge ? 0.5 : 1.5;
-    const double edges =
-        comb ? 2 * c->edge_F_per_m *
-                   (c->tip.edge_m * ((c->overlap_m + place[0]) / c->gap_m + 3 * c->tip.ends))
-             : c->edge_F_per_m * c->length_m *
-                   fw_effects_plate_edge(fmax(c->gap_m - place[0], 1e-3 * c->gap_m), c->width_m,
-                                         c->depth_m, NULL);
-    return 0.03 + left * edges / all;
-}
-
 const char *fw_effects_comb_out_of_range(const fw_effects_comb_element *c) {
     const double wide = c->width_m / c->gap_m, deep = c->depth_m / c->gap_m;
     if (c->kind == FW_ELECTRODES_PLATE)

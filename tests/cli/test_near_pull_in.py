@@ -115,10 +115,11 @@ class Followed(unittest.TestCase):
     """A path of equilibria that is smooth is followed to where it turns, however little its softest motion is pushed on the way."""
 
     def test_a_plate_and_a_comb_on_one_arm(self):
-        # rigid bodies on eight beam elements a leaf, with these electrodes, lose their stability at 28.97 V
+        # rigid bodies on eight beam elements a leaf, with these electrodes, lose their stability at 28.97 V without ends of fingers,
+        # which add (B^3/(6 g^3) + b B^2/g^2)/(B^3/(6 g^3)) = 1.23 to what the comb turns its rotor by, and 1.08 aside
         pull = said_of(ON_AN_ARM, command="statics")["pull_in"][0]
         self.assertNotEqual(pull["kind"], "none", pull["why"])
-        self.assertLess(abs(pull["voltage_V"] / 1.2 - 28.97), 0.03)
+        self.assertTrue(0.96 < pull["voltage_V"] / 1.2 / 28.97 < 0.985, pull["voltage_V"] / 1.2)
 
 
 def clamp(*drives):
