@@ -19,7 +19,7 @@
 
    Inputs SI. Range: |gap change| <= 95 % of the gap at both ends, the fingers engaged and no nearer to
    the root than a fifth of the gap; small tilts (sin theta = theta). Left out: fringe fields (an effect of their own,
-   fringe_field.c, which sets edge and end). Cost about 1700 instructions. Source: parallel plates piecewise, W. C. Tang et al.,
+   fringe_field.c, which sets edge and end). Cost about 3700 instructions. Source: parallel plates piecewise, W. C. Tang et al.,
    Sens. Actuators A 21 (1990) 328; R. Legtenberg et al., J. Micromech. Microeng. 6 (1996) 320 (side
    instability). Test: test_comb_drive.c. */
 #include "effects/effects.h"
@@ -499,7 +499,7 @@ const fw_effect_row fw_effect_comb_drive = {
     .called_for = called_for,
     .bound = bound,
     .add = add,
-    .cost = 2810,
+    .cost = 5360,
     .count = count,
     .kept = true,
     .describe = describe,
