@@ -243,6 +243,33 @@ static void check_comb(fw_device_reader *r, const fw_xml_record *record, const f
                       fw_xml_in_unit(b, c->length_m, "um"));
 }
 
+bool fw_device_same_comb(const fw_device_comb *p, const fw_device_comb *q) {
+    bool length = p->length_m == q->length_m || (isnan(p->length_m) && isnan(q->length_m));
+    return p->kind == q->kind && p->body_a == q->body_a && p->body_b == q->body_b &&
+           p->bx_m == q->bx_m && p->by_m == q->by_m && p->direction_rad == q->direction_rad &&
+           p->fingers == q->fingers && p->gap_m == q->gap_m && p->width_m == q->width_m && length &&
+           (p->kind == FW_ELECTRODES_PLATE || p->overlap_m == q->overlap_m);
+}
+
+/* One pair of electrodes has one voltage: of two, the field goes with the square of their sum, and two drives would pull by the
+   sum of their squares */
+static void check_alone(fw_device_scene_reader *s, const fw_xml_record *record,
+                        const fw_device_comb *c) {
+    for (int i = 0; i < s->scene->ncomb; i++) {
+        const fw_device_comb *other = &s->scene->comb[i];
+        if (c->voltage_V == 0 || other->voltage_V == 0 || !fw_device_same_comb(other, c)) continue;
+        fw_diag_error(s->r->diags, 714, record->element->place,
+                      "%s%s and %s%s are the same electrodes, and put two voltages between them in "
+                      "one scene: what is between "
+                      "them is one voltage, whose square pulls; put both into one comb-drive, "
+                      "whose law=\"expression\" says "
+                      "how the voltages add up over time",
+                      FW_NAMED("comb drive", fw_text_name(c->id)),
+                      FW_NAMED("comb drive", fw_text_name(other->id)));
+        return;
+    }
+}
+
 static fw_status build_comb(fw_device_scene_reader *s, int at) {
     const fw_xml_record *record = &s->r->xml.record[at];
     const char *kind = fw_xml_text_of(record, "kind"), *pad = fw_xml_text_of(record, "pad");
@@ -265,6 +292,7 @@ static fw_status build_comb(fw_device_scene_reader *s, int at) {
                         .pad_at_edge = pad && strcmp(pad, "edge") == 0,
                         .place = record->element->place};
     check_comb(s->r, record, &c);
+    check_alone(s, record, &c);
     FW_TRY(fw_device_time_law(s->r, record, &c.law));
     s->scene->comb[s->scene->ncomb++] = c;
     return FW_OK;

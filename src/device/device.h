@@ -225,10 +225,17 @@ typedef struct fw_device_comb {
 #define FW_EYELET_RING_M  30e-6
 #define FW_FINGER_WIDTH_M 8e-6
 #define FW_PLATE_BAR_M    40e-6 /* a plate and the bar behind fingers, across their face */
+#define FW_FINGER_TIP_M   3e-6  /* rounding of finger tips, within their length */
+#define FW_TIP_SHARE      0.4   /* of the width of fingers that are too narrow for that */
 
 static inline double fw_device_comb_width_m(const fw_device_comb *c) {
     if (c->width_m > 0) return c->width_m;
     return c->kind == FW_ELECTRODES_PLATE ? FW_PLATE_BAR_M : FW_FINGER_WIDTH_M;
+}
+/* the same electrodes, of one scene or of two: build_scenes.c */
+bool fw_device_same_comb(const fw_device_comb *p, const fw_device_comb *q);
+static inline double fw_device_comb_tip_m(double width_m) {
+    return width_m * FW_TIP_SHARE < FW_FINGER_TIP_M ? width_m * FW_TIP_SHARE : FW_FINGER_TIP_M;
 }
 
 typedef struct

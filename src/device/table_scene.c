@@ -142,7 +142,9 @@ static const fw_xml_attribute_row comb_rows[] = {
      .sentence = "comb: of every finger, of rotor and stator. Changes the mask, the rotor's "
                  "mass and the field at the fingers' edges."},
     {"depth", THICKNESS, .fallback = "thickness of the device layer",
-     .sentence = "Of the electrodes, across the wafer."},
+     .sentence = "Of the electrodes, across the wafer. Masks draw them through all of the layer, "
+                 "and what is made is "
+                 "judged: another depth is warned of."},
     {"voltage", D_VOLTAGE, RANGE(-1e4, 1e4, "gaps of micrometres break down far below 10 kV"),
      .sentence =
          "Between rotor and stator, times the law; the force goes with its square. 0 V drives "

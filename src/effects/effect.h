@@ -24,7 +24,7 @@ fw_effects_torsion *fw_effects_loads_torsion(const fw_mechanism *mechanism, fw_e
 fw_effects_slide *fw_effects_loads_slide(fw_effects_loads *loads, int joint);
 /* How one drive may stand within the envelope, and how its forces push */
 typedef struct fw_effects_comb_reach {
-    double aside_m;          /* across it, both bodies against each other */
+    double aside_m, along_m; /* across it and along it, both bodies against each other */
     double tilt_rad, half_m; /* half of the length that faces the other */
     double square_V2, turns; /* of the voltage at most; of its square's law */
 } fw_effects_comb_reach;

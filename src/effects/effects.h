@@ -486,6 +486,17 @@ void fw_effects_loads_largest_force(const fw_mechanism *mechanism, const fw_effe
 
 /* What a comb drive's element holds, for those who look for pull-in. Physics: comb_drive.c. */
 
+/* Fingers' ends: what of their field goes with the distance of tips from the other comb's root, and what does not */
+typedef struct fw_effects_comb_tips {
+    double slot_m;        /* (width + 2 gap)/(2 pi), by which their field falls e times */
+    double back_m;        /* rounded tips are as if they stood so much farther from the root */
+    double face, term[3]; /* of the law of distance */
+    double ends; /* of one tip beside one gap: overlap over gap that it adds, far from a root */
+    double aside, less[3];   /* of the law of what ends add to the stiffness across */
+    double spread_m, edge_m; /* of the fingers across, root mean square; depth by which edges act */
+    double corners_F;        /* of plates: where edges and ends meet, as drawn */
+} fw_effects_comb_tips;
+
 typedef struct fw_effects_comb_element {
     fw_device_electrodes kind;
     double gap_m, overlap_m, length_m, depth_m; /* overlap of combs; length of fingers or plate */
@@ -495,6 +506,7 @@ typedef struct fw_effects_comb_element {
     double voltage_V;
     double width_m;      /* of the fingers; of a plate across its face */
     double edge_F_per_m; /* eps0 fingers */
+    fw_effects_comb_tips tip;
     /* the field at the edges of a gap and at an end, where it counts: fringe_field.c; else NULL */
     double (*edge)(const struct fw_effects_comb_element *c, double gap_m, double slope[2]);
     double (*end)(const struct fw_effects_comb_element *c, double gap_m, double slope[2]);
@@ -518,9 +530,24 @@ double fw_effects_comb_edge(double gap_m, double width_m, double slope[2]);
 double fw_effects_plate_edge(double gap_m, double width_m, double depth_m, double slope[2]);
 /* the same at one end of a plate of this length against a longer one, over eps0 and depth */
 double fw_effects_plate_end(double gap_m, double width_m, double length_m, double slope[2]);
-/* what the fringe fields that are not in it may add to the pull, relative, as drawn: what stands below or near changes
-   half of what the long edges do */
-double fw_effects_comb_fringe(const fw_effects_comb_element *c);
+double fw_effects_plate_corners(const fw_effects_comb_element *c); /* F, as drawn */
+/* Of a finger's tip beside one gap, at a distance from the other comb's root: what the root adds to its capacitance over eps0
+   and depth; and by which overlap, in gaps, it is as if longer against a motion across. slope: first and second derivative by
+   the distance. */
+fw_effects_comb_tips fw_effects_comb_tips_of(double gap_m, double width_m, int fingers);
+double fw_effects_comb_tip(const fw_effects_comb_tips *tip, double away_m, double slope[2]);
+double fw_effects_comb_tip_aside(const fw_effects_comb_tips *tip, double away_m, double slope[2]);
+/* that distance with the rotor at x, and the least of any finger at a tilt */
+double fw_effects_comb_away(const fw_effects_comb_element *c, double x_m, double tilt_rad);
+/* what tips add to the pull along, over that of parallel faces */
+double fw_effects_comb_tip_share(const fw_effects_comb_element *c, double away_m);
+/* what the fringe fields that are not in it may add to the pull, relative, as drawn (place NULL) or at a place: what stands
+   below or near changes half of what the long edges do, and tips are known less well */
+double fw_effects_comb_fringe(const fw_effects_comb_element *c, const double *place);
+/* of its capacitance at a place, relative, by what is not known of edges, ends and corners: more or less */
+double fw_effects_comb_capacitance_off(const fw_effects_comb_element *c, const double place[3]);
+/* why the formulas of edges and tips do not hold for what is drawn, a clause; NULL: they do */
+const char *fw_effects_comb_out_of_range(const fw_effects_comb_element *c);
 
 /* V up to which the fingers of a comb surely do not snap by themselves; infinite: it is no comb, or its material is not
    known. edges: the field there counts */

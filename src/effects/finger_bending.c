@@ -15,9 +15,10 @@ static double softest_Pa(const fw_device_material *of) {
 /* Fingers are cantilevers of length L in a field that pulls them to either side: per gap and length the energy is
    -kappa V^2 D^2/2 of what the gap changes by, kappa = eps0 (h/g^3 + F''/2). Where D is the sum of what two fingers bend,
    D^2 <= 2 (y_a^2 + y_b^2), and each has two gaps: 4 kappa V^2 < mu keeps all stable, mu the least eigenvalue of EI d4/ds4.
-   1/mu is at most the trace of the cantilever's answers, int s^3/(3 EI) ds = L^4/(12 EI):
+   1/mu is at most the trace of the cantilever's answers, int s^3/(3 EI) ds = L^4/(12 EI). Ends act as if the overlap were longer by
+   b g there (element.c): at the finger's own tip, and D from its root, where the tip of the other one is
 
-     V^2 = 12 EI/(4 kappa L^4),   12.36 in place of 12 where mu is exact
+     V^2 = 12 EI/(4 kappa (L^4 + 4 b g (L^3 + D^3))),   12.36 in place of 12 where mu is exact
 
    and beside a rotor that gives, 1/V^2 adds up at most (Dunkerley). In: SI, from the element, so as made in a verdict;
    out: V, a lower bound. Source: S. Dunkerley, Phil. Trans. A 185 (1894) 279. Theory: docs/theory/effects/comb-drive.md.
@@ -32,7 +33,8 @@ double fw_effects_comb_fingers_V(const fw_effects_comb_element *c, const fw_mech
                  bending = softest_Pa(&made->material) * c->depth_m * w * w * w / 12,
                  kappa = FW_VACUUM_PERMITTIVITY_F_PER_m *
                          (c->depth_m / (g * g * g) + (edges ? 0.5 * by[1] : 0));
-    return sqrt(3 * bending / (kappa * l2 * l2));
+    const double away = fmax(c->length_m - c->overlap_m, 0), ends = 4 * fmax(c->tip.aside, 0) * g;
+    return sqrt(3 * bending / (kappa * (l2 * l2 + ends * (l2 * c->length_m + away * away * away))));
 }
 
 static double share_of(const fw_effect_case *c, const fw_effects_comb_element *d,

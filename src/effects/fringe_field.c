@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The field at the edges of electrodes: every gap counts as deeper than the layer by F(gap) gap,
 
-     comb   C += eps0 N int [F(g - y - theta s) + F(g + y + theta s)] ds
+     comb   C += eps0 N int [F(g - y - theta s) + F(g + y + theta s)] ds, and of what ends of fingers have (comb_drive.c) 1.42 and 0.3 times F g/h
      plate  C += eps0 int F(g - x + theta s) ds + eps0 h [E(g - x - theta l/2) + E(g - x + theta l/2)]
 
    F of fingers is exact where they are deep against the gap and stand in open space; against boundary elements it is
@@ -31,10 +31,12 @@ static bool called_for(const fw_effect_case *c) {
     return fw_effects_comb_count(c) > 0;
 }
 
-/* what the edges add to the pull, over V^2/2: at a gap that the motion may come down to */
-static double pull_of(const fw_effects_comb_element *e, double gap_m) {
+/* what the edges add to the pull, over V^2/2: at a gap, or a distance of tips from the root, that the motion may come down to */
+static double pull_of(const fw_effects_comb_element *e, double gap_m, double away_m) {
     double by[2], end[2];
-    if (e->kind == FW_ELECTRODES_COMB) return 2 * e->edge_F_per_m * of_fingers(e, gap_m, NULL);
+    if (e->kind == FW_ELECTRODES_COMB)
+        return 2 * e->edge_F_per_m * e->tip.edge_m / e->gap_m *
+               (1 + 0.3 * fw_effects_comb_tip_share(e, away_m));
     of_plates(e, gap_m, by);
     of_ends(e, gap_m, end);
     return -e->edge_F_per_m * (e->length_m * by[0] + 2 * e->depth_m * end[0]);
@@ -43,8 +45,8 @@ static double pull_of(const fw_effects_comb_element *e, double gap_m) {
 /* of the pull of parallel faces, as drawn */
 static double share_of(const fw_effects_comb_element *e) {
     const double g = e->gap_m;
-    return pull_of(e, g) * (e->kind == FW_ELECTRODES_COMB ? 0.5 * g : g * g / e->length_m) /
-           e->face_Fm;
+    return pull_of(e, g, fmax(fw_effects_comb_away(e, 0, 0), 0.2 * g)) *
+           (e->kind == FW_ELECTRODES_COMB ? 0.5 * g : g * g / e->length_m) / e->face_Fm;
 }
 
 /* comb-drive has put in one element for each */
@@ -80,7 +82,9 @@ static bool lacks(const fw_effect_case *c, const fw_device_comb *from, double sq
         }
     const double half = 0.5 * (comb ? d.overlap_m + aside : d.length_m);
     if (!comb && !(aside + tilt * half < 0.95 * d.gap_m)) return false;
-    along = 0.5 * square_V2 * pull_of(&d, comb ? d.gap_m : d.gap_m - aside - tilt * half);
+    const double away = comb ? fw_effects_comb_away(&d, aside, tilt) : 1;
+    if (!(away > 0.2 * d.gap_m)) return false;
+    along = 0.5 * square_V2 * pull_of(&d, comb ? d.gap_m : d.gap_m - aside - tilt * half, away);
     if (comb) {
         fw_effects_comb_edge(d.gap_m, d.width_m, by);
         across =

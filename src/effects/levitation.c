@@ -94,9 +94,14 @@ static bool pulls(const fw_effect_case *c, const fw_device_comb *from, double sh
     if (!(left > 0.05 * g)) return false;
     double along, across = 0, couple;
     if (comb) {
-        along = at.square_V2 * (d.face_Fm * g / (left * (g + y)) +
-                                d.edge_F_per_m * fw_effects_comb_edge(g, d.width_m, NULL));
-        across = 2 * d.face_Fm / (left * left * left) * at.square_V2 * 2 * at.half_m * y;
+        const double away = fw_effects_comb_away(&d, at.along_m, at.tilt_rad);
+        if (!(away > 0.2 * g)) return false;
+        along =
+            at.square_V2 * (d.face_Fm * g / (left * (g + y)) + d.edge_F_per_m * d.tip.edge_m / g +
+                            (d.face_Fm + 0.3 * d.edge_F_per_m * d.tip.edge_m) *
+                                fw_effects_comb_tip_share(&d, away) / g);
+        across = 2 * d.face_Fm / (left * left * left) * at.square_V2 *
+                 (2 * at.half_m + 2 * d.tip.aside * g) * y;
         couple = at.half_m * across;
     } else {
         fw_effects_plate_edge(left, d.width_m, d.depth_m, by);

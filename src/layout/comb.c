@@ -8,11 +8,9 @@
 #include <string.h>
 
 static const double BACK_M = FW_PLATE_BAR_M; /* bar behind the fingers, plate, lead */
-static const double TIP_M = 3e-6;            /* rounding of finger tips, within their length */
-static const double TIP_SHARE = 0.4;  /* of the width of fingers that are too narrow for that */
-static const double PAD_M = 150e-6;   /* side of the part of a pad that is bonded */
-static const double STROKE_M = 5e-6;  /* of the letters on it */
-static const double MARGIN_M = 10e-6; /* around them */
+static const double PAD_M = 150e-6;          /* side of the part of a pad that is bonded */
+static const double STROKE_M = 5e-6;         /* of the letters on it */
+static const double MARGIN_M = 10e-6;        /* around them */
 static const double FREE_M = 60e-6;   /* of lead and pad from what moves, where there is room */
 static const double LEAST_M = 20e-6;  /* and where there is less */
 static const double LONGER_M = 10e-6; /* a stator's plate at either end, beyond the gap */
@@ -20,11 +18,11 @@ static const double BASE_M = 40e-6;   /* the base may be so much wider than its 
 enum { FINGERS_MOST = 100, LETTERS = 6 };
 
 double fw_layout_comb_tip(double width_m) {
-    return fmin(TIP_M, TIP_SHARE * width_m);
+    return fw_device_comb_tip_m(width_m);
 }
 
 double fw_layout_comb_width_shown(void) {
-    return fmax(fw_layout_rule.own_width_m, fw_layout_rule.own_tip_m / TIP_SHARE);
+    return fmax(fw_layout_rule.own_width_m, fw_layout_rule.own_tip_m / FW_TIP_SHARE);
 }
 
 /* Fingers along +x from a bar behind them, in the frame of the drive:
@@ -458,6 +456,6 @@ bool fw_layout_near_stator(const fw_layout_drawing *d, const fw_geometry_contour
 const fw_layout_electrode *fw_layout_electrode_of(const fw_layout *layout,
                                                   const fw_device_comb *comb) {
     for (int i = 0; i < layout->nelectrode; i++)
-        if (fw_layout_same_comb(layout->electrode[i].comb, comb)) return &layout->electrode[i];
+        if (fw_device_same_comb(layout->electrode[i].comb, comb)) return &layout->electrode[i];
     return NULL;
 }

@@ -408,7 +408,6 @@ fw_status fw_layout_show(fw_layout_drawing *d);
 /* ---- what finds no room, and that it is said ---- */
 fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item);
 /* one place of the drawing, whichever scenes it is in */
-bool fw_layout_same_comb(const fw_device_comb *p, const fw_device_comb *q);
 bool fw_layout_same_eyelet(const fw_device_eyelet *p, const fw_device_eyelet *q);
 
 /* ---- fingers of the frame that tethers are made of: where one may reach a body ---- */

@@ -33,7 +33,7 @@ static void plan_tendon(fw_layout_drawing *d, const fw_device_tendon *t) {
 
 static void plan_comb(fw_layout_drawing *d, const fw_device_comb *c) {
     for (int i = 0; i < d->ncomb; i++)
-        if (fw_layout_same_comb(d->comb[i].comb, c)) {
+        if (fw_device_same_comb(d->comb[i].comb, c)) {
             d->comb[i].at_edge = d->comb[i].at_edge || c->pad_at_edge;
             return;
         }

@@ -180,21 +180,13 @@ const char *fw_layout_missing_way(const fw_layout_missing *missing) {
     return missing->number == 130 || missing->narrow ? "; instead: " : "; nearest room: ";
 }
 
-bool fw_layout_same_comb(const fw_device_comb *p, const fw_device_comb *q) {
-    bool length = p->length_m == q->length_m || (isnan(p->length_m) && isnan(q->length_m));
-    return p->kind == q->kind && p->body_a == q->body_a && p->body_b == q->body_b &&
-           p->bx_m == q->bx_m && p->by_m == q->by_m && p->direction_rad == q->direction_rad &&
-           p->fingers == q->fingers && p->gap_m == q->gap_m && p->width_m == q->width_m && length &&
-           (p->kind == FW_ELECTRODES_PLATE || p->overlap_m == q->overlap_m);
-}
-
 bool fw_layout_same_eyelet(const fw_device_eyelet *p, const fw_device_eyelet *q) {
     return p->body == q->body && p->x_m == q->x_m && p->y_m == q->y_m;
 }
 
 static bool moves_scene(const fw_device_scene *s, const fw_layout_missing *m) {
     for (int i = 0; m->comb && i < s->ncomb; i++)
-        if (fw_layout_same_comb(&s->comb[i], m->comb)) return true;
+        if (fw_device_same_comb(&s->comb[i], m->comb)) return true;
     for (int t = 0; m->eyelet && t < s->ntendon; t++)
         for (int k = 0; k < s->tendon[t].neyelet; k++)
             if (fw_layout_same_eyelet(&s->tendon[t].eyelet[k], m->eyelet)) return true;

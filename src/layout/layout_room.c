@@ -72,7 +72,7 @@ static fw_status changed_scene(fw_arena *arena, const search *s, const change *c
     if (s->missing->comb && n > 0) {
         FW_NEED(scene->comb = fw_arena_grow(arena, scene->comb, n, n, sizeof *scene->comb));
         for (size_t i = 0; i < n; i++)
-            if (fw_layout_same_comb(&scene->comb[i], s->missing->comb))
+            if (fw_device_same_comb(&scene->comb[i], s->missing->comb))
                 change_comb(s, c, &scene->comb[i]);
     }
     n = (size_t)scene->ntendon;

@@ -346,3 +346,28 @@ fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i) {
                              FW_NAMED("driver", fw_text_name(from->id)));
     return FW_OK;
 }
+
+/* ---- electrodes ---- */
+
+/* Masks draw electrodes through all of the layer, whatever depth the file states: what is drawn and made is what acts
+   (fw_effects_comb_as_drawn), and a number that says otherwise is worth a word. Test: tests/cli/test_effects.py */
+fw_status fw_mechanism_tell_depths(const fw_mechanism_builder *b) {
+    const fw_device *d = b->device;
+    const double layer = b->variant->thickness_m;
+    char stated[32], made[32];
+    for (int i = 0; i < d->nscene; i++)
+        for (int k = 0; k < d->scene[i].ncomb; k++) {
+            const fw_device_comb *c = &d->scene[i].comb[k];
+            if (!(fabs(c->depth_m - layer) > 1e-3 * layer) || fw_diag_said(b->diags, 713, c->place))
+                continue;
+            fw_diag_warning(b->diags, 713, c->place,
+                            "%s%s states a depth of %s um, and no flow makes that: masks draw its "
+                            "electrodes through all "
+                            "of the layer, %s um, and it is judged with these; remove depth, or "
+                            "state the layer's",
+                            FW_NAMED("comb drive", fw_text_name(c->id)),
+                            fw_number_text(stated, sizeof stated, 1e6 * c->depth_m, 4),
+                            fw_number_text(made, sizeof made, 1e6 * layer, 4));
+        }
+    return b->diags->failed ? FW_NOMEM : FW_OK;
+}

@@ -330,6 +330,7 @@ fw_geometry_vec2 fw_mechanism_body_point(const fw_mechanism_mass *body, fw_geome
 fw_status fw_mechanism_build_spring(const fw_mechanism_builder *b, int i);
 fw_status fw_mechanism_build_joint(const fw_mechanism_builder *b, int i);
 fw_status fw_mechanism_build_driver(const fw_mechanism_builder *b, int i);
+fw_status fw_mechanism_tell_depths(const fw_mechanism_builder *b);
 /* body_give.c: m->give; all else is built */
 fw_status fw_mechanism_find_gives(fw_arena *arena, fw_mechanism *mechanism);
 void fw_mechanism_tell_turned(const fw_mechanism_builder *b, const fw_device_revolute *from,

@@ -20,7 +20,7 @@ static fw_status check_variant(const fw_mechanism_builder *b) {
     if (!fw_mechanism_all_finite(scale, 3) || scale[0] <= 0 || scale[1] < 0 || scale[2] < 0)
         return fw_diag_error(b->diags, 80, nowhere,
                              "scales of the explicit values must be finite and not negative");
-    return FW_OK;
+    return fw_mechanism_tell_depths(b);
 }
 
 /* a property that is needed now; FW_INPUT when the material does not have it */

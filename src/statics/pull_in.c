@@ -108,7 +108,7 @@ static void report_comb(seeker *k, const fw_effects_force_element *e, double s, 
     out->largest_V = fabs(c->voltage_V);
     out->margin = sqrt(s);
     out->voltage_V = out->largest_V * out->margin;
-    out->fringe = fw_effects_comb_fringe(c);
+    out->fringe = fw_effects_comb_fringe(c, out->where);
     out->fringe_counted = c->edge != NULL;
 }
 
@@ -377,6 +377,9 @@ static void fingers(seeker *k, const fw_mechanism *mechanism) {
         const double least = c ? fw_effects_comb_fingers_V(c, mechanism->variant, c->edge != NULL)
                                : (double)INFINITY;
         const double share = c ? c->voltage_V / least : 0;
+        if (c && !out->beyond && fw_effects_comb_out_of_range(c))
+            out->beyond = fw_effects_comb_out_of_range(c),
+            out->beyond_id = k->w.model->element[i].own->id;
         if (!(share * share > out->fingers)) continue;
         out->fingers = share * share;
         out->fingers_V = least;

@@ -147,6 +147,9 @@ typedef struct fw_statics_pull_in {
        are counted what stands near or below may change of them */
     double fringe;
     bool fringe_counted;
+    const char
+        *beyond; /* why the formulas of one drive do not hold for what is drawn; NULL: they do */
+    const char *beyond_id;
     /* of what the field takes in that motion, relative, by which flexures may be less stiff than computed, or more; in a
        verdict with what bodies that give may take; NONE: 0 */
     double stiffness_error;

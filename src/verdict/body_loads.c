@@ -267,9 +267,27 @@ double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device
     return fmax(all_J - b->places_J, 0) / (b->hinges_J + b->springs_J) - all_J / b->hinges_J;
 }
 
-bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N,
-                             double *high_N) {
+/* what is not known of the field at edges, ends and corners of the electrodes that a probe reads the capacitance of */
+static bool capacitance_off(const fw_dynamics_motion *motion, const char *id, double *low_F,
+                            double *high_F) {
+    static const double drawn[3] = {0, 0, 0};
+    for (int i = 0; motion->loads && i < motion->loads->nelement; i++) {
+        const fw_effects_force_element *e = &motion->loads->element[i];
+        const fw_effects_comb_element *c = fw_effects_comb_of(e);
+        if (!c || strcmp(e->id, id) != 0) continue;
+        const double off = fw_effects_comb_capacitance_off(c, drawn);
+        *low_F *= 1 - fmin(1, off), *high_F *= 1 + off;
+        return true;
+    }
+    return false;
+}
+
+bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const fw_device_probe *probe,
+                             double *low_N, double *high_N) {
     const fw_verdict_bending *b = seen_by(motion);
+    const char *id = probe->of;
+    if (probe->row == FW_PROBE_IS_capacitance)
+        return id && capacitance_off(motion, id, low_N, high_N);
     double left = 1, more = 1, stored_J;
     if (!b || !id || !first_of(b, id)) return false;
     for (int i = 0; i < b->nplace; i++) {

@@ -55,7 +55,7 @@ double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
     double most = 0;
     for (int i = 0; x && x->loads && i < x->loads->nelement; i++) {
         const fw_effects_comb_element *c = fw_effects_comb_of(&x->loads->element[i]);
-        if (c) most = fmax(most, fw_effects_comb_fringe(c));
+        if (c) most = fmax(most, fw_effects_comb_fringe(c, NULL));
     }
     if (!x && v->pull_in && v->pull_in[scene]) most = v->pull_in[scene]->fringe;
     return most;

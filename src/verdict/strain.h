@@ -337,8 +337,8 @@ double fw_verdict_bending_all_J(const fw_verdict_bending *bending);
    the force of what acts on a place the part of that share that goes with it alone, which is none of its errors, less.
    *low_N and *high_N with what such a force loses at most; false: nothing changes */
 double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe);
-bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const char *id, double *low_N,
-                             double *high_N);
+bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const fw_device_probe *probe,
+                             double *low_N, double *high_N);
 /* body_loads.c: how far the end of a way goes at most, for a force of E h, whichever way that acts */
 double fw_verdict_arm_goes(const fw_verdict_arm *arm);
 /* what the body of a probed stiffness or compliance gives at its place along its direction at most, m/N; 0: not known */

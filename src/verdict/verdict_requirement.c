@@ -388,7 +388,7 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         if (r->scene_index != scene || !r->measure) continue;
         const fw_device_requirement *q = &m->device->requirement[r->asked];
         const fw_probe_result *p = &v->probed[scene * n + q->probe];
-        const char *of = m->device->probe[q->probe].of;
+        const fw_device_probe *of = &m->device->probe[q->probe];
         if (p->known) judge(m, v->motion[scene], p, still, r);
         if (fw_verdict_places_lower(v->motion[scene], of, &r->low, &r->high)) decide(r);
         if (p->known && q->measure == FW_MEASURE_FINAL)

@@ -202,6 +202,11 @@ static fw_status judge_pull_in(fw_arena *arena, const fw_device_scene *scene,
                                const fw_dynamics_motion_options *options, fw_diags *diags,
                                fw_verdict_variant_verdict *v) {
     if (!p) return FW_OK;
+    if (p->beyond)
+        FW_TRY(fw_verdict_scene_reason(v, scene, 715, FW_INCONCLUSIVE, FW_VERDICT_KEEP_MOST,
+                                       fw_arena_printf(arena, "what %s%s pulls is not known: %s",
+                                                       FW_NAMED("comb drive", p->beyond_id),
+                                                       p->beyond)));
     if (fw_statics_pull_in_fingers_snap(p)) {
         FW_TRY(fingers_snap(arena, scene, p, v));
         if (p->margin >= 1) return FW_OK;

@@ -115,10 +115,11 @@ class Followed(unittest.TestCase):
     """A path of equilibria that is smooth is followed to where it turns, however little its softest motion is pushed on the way."""
 
     def test_a_plate_and_a_comb_on_one_arm(self):
-        # rigid bodies on eight beam elements a leaf, with these electrodes, lose their stability at 28.97 V
+        # rigid bodies on eight beam elements a leaf, with these electrodes, lose their stability at 28.97 V without ends of fingers,
+        # which add (B^3/(6 g^3) + b B^2/g^2)/(B^3/(6 g^3)) = 1.23 to what the comb turns its rotor by, and 1.08 aside
         pull = said_of(ON_AN_ARM, command="statics")["pull_in"][0]
         self.assertNotEqual(pull["kind"], "none", pull["why"])
-        self.assertLess(abs(pull["voltage_V"] / 1.2 - 28.97), 0.03)
+        self.assertTrue(0.96 < pull["voltage_V"] / 1.2 / 28.97 < 0.985, pull["voltage_V"] / 1.2)
 
 
 def clamp(*drives):
@@ -152,7 +153,7 @@ class Drives(unittest.TestCase):
         alone = self.pull_in(("up", "400 um", self.FIRST))["voltage_V"]
         each = self.pull_in(("up", "400 um", self.FIRST), ("down", "200 um", self.LATER), ("up", "100 um", "0 ms: 0; 85 ms: 0; 86 ms: 0.1"))
         self.assertLess(each["voltage_V"], alone * (1 + 1e-6))
-        after = self.pull_in(("down", "400 um", self.FIRST), ("down", "400 um", self.LATER))["voltage_V"]
+        after = self.pull_in(("down", "400 um", self.FIRST), ("down", "399 um", self.LATER))["voltage_V"]
         self.assertLess(abs(after / self.pull_in(("down", "400 um", self.FIRST))["voltage_V"] - 1), 1e-6)
 
     def test_those_of_one_law_are_one(self):
@@ -205,6 +206,90 @@ class Motions(unittest.TestCase):
         text = GUIDED.replace("silicon-on-glass", "soi-deep-rie").replace(' carrier="insulating"', "")
         low = {flow: (r := said_of(t)["requirements"][0])["band"][0] / r["value"] for flow, t in (("glass", GUIDED), ("soi", text))}
         self.assertLess(low["soi"], low["glass"] - 0.02)
+
+
+# a stage on four leaves between two combs at its right side, or above and below it
+STAGE = """<device xmlns="urn:flexwright:device:1" name="stage"><parameter name="volts" value="15 V" min="0 V" max="200 V"/>
+<material ref="silicon-100" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>
+<flexure id="leaf" kind="leaf" length="400 um" width="6 um" gap="10 um"/><mechanism><body id="left" x="0 mm" y="0.75 mm" width="120 um"/>
+<body id="stage" x="0.9 mm" y="1.5 mm" plate-width="0.7 mm" plate-height="1.5 mm"/><body id="right" x="1.8 mm" y="0.75 mm" width="120 um"/>
+<revolute id="A" a="ground" a-x="0 mm" a-y="0 mm" b="left" b-x="0 mm" b-y="-0.75 mm" hinge="leaf"/>
+<revolute id="B" a="left" a-x="0 mm" a-y="0.75 mm" b="stage" b-x="-0.9 mm" b-y="0 mm" hinge="leaf"/>
+<revolute id="C" a="stage" a-x="0.9 mm" a-y="0 mm" b="right" b-x="0 mm" b-y="0.75 mm" hinge="leaf"/>
+<revolute id="D" a="right" a-x="0 mm" a-y="-0.75 mm" b="ground" b-x="1.8 mm" b-y="0 mm" hinge="leaf"/></mechanism>
+<scene name="go" duration="20 ms">%s<air kind="slide" on="stage" gap="20 um"/></scene>%s</device>"""
+DRIVE = """<comb-drive id="%s" kind="comb" on="stage" x="%g mm" y="%g mm" direction="%d deg" fingers="15" gap="10 um" %s voltage="volts"/>"""
+
+
+def aligned(away_um):
+    shape = f'overlap="40 um" length="{40 + away_um} um"'
+    return "".join(DRIVE % (name, 0.43, y, 0, shape) for name, y in (("upper", 0.44), ("lower", -0.44)))
+
+
+def aside(shape):
+    return "".join(DRIVE % (name, 0, y, turn, shape) for name, y, turn in (("upper", 0.845, 90), ("lower", -0.845, -90)))
+
+
+class Tips(unittest.TestCase):
+    """What ends of fingers add (decision 212). Independent: a finite solution of the finger's cell with square tips, and its fold on the
+    device's own spring; round tips pull somewhat less, and edges add less to what the root pulls than to faces."""
+
+    def pull_in(self, drives, *settings):
+        return said_of(STAGE % (drives, ""), *settings, command="statics")["pull_in"][0]
+
+    def test_the_root_of_the_other_comb_pulls(self):
+        for away, square in ((10, 18.4), (16, 33.0), (20, 42.3)):  # 57 V without
+            found = self.pull_in(aligned(away), "volts=5 V")
+            self.assertEqual(found["kind"], "fold")
+            self.assertTrue(square < found["voltage_V"] < 1.15 * square, (away, found["voltage_V"]))
+            # square tips are within what may be missing
+            self.assertLess(found["voltage_V"] / (1 + found["fringe"]) ** 0.5, 1.06 * square)
+        self.assertEqual(said_of(STAGE % (aligned(10), ""), "volts=30 V", command="statics").get("verdict"), None)
+        said = said_of(STAGE % (aligned(10), ""), "volts=30 V")
+        self.assertEqual(said["verdict"], "reject", said["reasons"])
+
+    def test_ends_draw_aside(self):
+        for overlap, true in ((10, 35.25), (20, 27.7)):  # 43.25 and 30.6 V without
+            found = self.pull_in(aside(f'overlap="{overlap} um" length="100 um"'), "volts=5 V")
+            self.assertEqual(found["kind"], "side")
+            self.assertLess(abs(found["voltage_V"] / true - 1), 0.02, (overlap, found["voltage_V"]))
+
+    def test_a_depth_that_no_flow_makes(self):
+        shape = 'overlap="10 um" length="100 um"%s'
+        plain, shallow, deep = (self.pull_in(aside(shape % more), "volts=5 V")["voltage_V"] for more in ("", ' depth="10 um"', ' depth="80 um"'))
+        self.assertEqual([plain, plain], [shallow, deep])
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            for more, told in ((' depth="10 um"', True), (' depth="50 um"', False)):
+                device.write_text(STAGE % (aside(shape % more), ""))
+                said = run("statics", device, "--set", "volts=5 V").stderr
+                self.assertEqual("FW-D713" in said and "all of the layer, 50 um" in said, told, said)
+
+    def test_one_voltage_between_two_electrodes(self):
+        two = DRIVE % ("bias", 0, 0.845, 90, 'overlap="10 um" length="100 um"')
+        with tempfile.TemporaryDirectory() as place:
+            device = pathlib.Path(place, "device.xml")
+            device.write_text(STAGE % (aside('overlap="10 um" length="100 um"') + two, ""))
+            done = run("statics", device)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn("comb drive bias and comb drive upper are the same electrodes", done.stderr)
+            self.assertIn("FW-D714", done.stderr)
+            device.write_text(STAGE % (aside('overlap="10 um" length="100 um"') + two.replace('"volts"', '"0 V"'), ""))
+            self.assertNotIn("FW-D714", run("statics", device, "--set", "volts=5 V").stderr)
+
+    def test_beyond_what_was_tested(self):
+        said = said_of(STAGE % (aside('overlap="4 um" length="100 um"'), ""), "volts=5 V")
+        self.assertEqual(said["verdict"], "inconclusive")
+        self.assertIn("overlap by less than half of its gap", " ".join(r["text"] for r in said["reasons"]))
+
+    def test_a_capacitance_has_its_ends_in_a_band(self):
+        probe = '<probe id="c" kind="capacitance" of="upper"/><require probe="c" measure="final" min="1 fF" scene="go"/>'
+        said = said_of(STAGE % (aligned(60).replace("40 um", "20 um").replace("100 um", "80 um"), probe), "volts=5 V")["requirements"][0]
+        low, high = said["band"]
+        # two gaps of 15 fingers: strips, edges 0.195, ends 15.8 um in the plane and 1.27 times that in space
+        true = 2 * 15 * 8.854e-12 * 50e-6 * (20 * 1.195 + 15.8 * 1.27) / 10
+        self.assertTrue(low < true < high, (said["band"], true))
+        self.assertGreater(high / low, 1.1)
 
 
 if __name__ == "__main__":

@@ -364,7 +364,11 @@ class Probe(unittest.TestCase):
         moved = 0.5 * per * 30**2 / k
         found = json.loads(run("statics", "-", "--scene", "comb", "--json", input=asked).stdout)
         self.assertEqual([(q["id"], q["unit"]) for q in found["probes"]], [("c", "F")])
-        self.assertAlmostEqual(found["probes"][0]["value"] / (per * (20e-6 + moved)), 1, delta=1e-9)
+        # ends of fingers, rounded by 3 um, 40 um from the root: comb-drive.md, (2)
+        u, x = 8 / 3, 2 * 3 / 8
+        ends = (2 * math.log(1 + 2 * x) - 2 * math.log(x) + math.log(1 + 2 * x) / x) / math.pi - (0.253 + 0.071 * u ** (-1 / 3) + 0.077 * u ** (-2 / 3))
+        of_ends = 4 * 40 * eps0 * (h + 1.42 * edge * 3e-6) * ends
+        self.assertAlmostEqual(found["probes"][0]["value"] / (per * (20e-6 + moved) + of_ends), 1, delta=1e-6)
         found = json.loads(run("statics", "-", "--scene", "plate", "--json", input=asked).stdout)
         moved = found["q"]["plate"][0]
         faces, gap = eps0 * 400e-6 * h / (6e-6 - moved), 6e-6 - moved
@@ -375,6 +379,8 @@ class Probe(unittest.TestCase):
             return 2 / math.pi * math.log(B + 4.084 / (1 + 0.449 * y**0.25) * (depth / gap) ** 0.5 + A * depth / gap)
         ends = 0.21 * edge(gap, 40e-6, 400e-6) + 0.58 * edge(2 * gap, 40e-6, 400e-6)
         whole = faces + eps0 * (400e-6 * edge(gap, 40e-6, h) + 2 * h * ends)
+        of_two = 0.21 * edge(6e-6, 40e-6, 400e-6) + 0.58 * edge(12e-6, 40e-6, 400e-6)
+        whole += 1.5 * (h / 6e-6) ** 0.2 * eps0 * 6e-6 * edge(6e-6, 40e-6, h) * of_two  # corners, as drawn
         self.assertAlmostEqual(found["probes"][0]["value"] / whole, 1, delta=1e-9)
         bare = json.loads(run("statics", "-", "--scene", "plate", "--effects", "none", "--json", input=asked).stdout)
         self.assertAlmostEqual(bare["probes"][0]["value"] / (eps0 * 400e-6 * h / (6e-6 - bare["q"]["plate"][0])), 1, delta=1e-9)

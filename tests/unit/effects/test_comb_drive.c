@@ -24,7 +24,6 @@ static fw_device_comb plate_of(void) {
     c.kind = FW_ELECTRODES_PLATE;
     c.length_m = 200e-6;
     c.gap_m = 5e-6;
-    c.depth_m = 20e-6;
     return c;
 }
 
@@ -74,6 +73,18 @@ static double integral(double a, double b, double gap, double tilt) {
     return total;
 }
 
+/* what ends of fingers add, of the laws that test_fringe.c has against boundary elements: fingers of a tilted comb at two places */
+static double of_ends(const fw_effects_comb_element *c, double x, double y, double tilt) {
+    const double g = 4e-6, away = 140e-6 - 60e-6 - x, turned = 24e-6 * sqrt(399.0 / 12) * tilt, at[2] = {30e-6, -30e-6 - x};
+    double by[2], all = 4 * c->tip.ends + 2 * fw_effects_comb_tip(&c->tip, away + turned, by) +
+                        2 * fw_effects_comb_tip(&c->tip, away - turned, by);
+    for (int k = 0; k < 2; k++) {
+        const double off = y + tilt * at[k];
+        all += fw_effects_comb_tip_aside(&c->tip, away, by) * (g / (g - off) + g / (g + off) - 2);
+    }
+    return eps0 * 50e-6 * 20 * all;
+}
+
 /* the closed form against quadrature, from no tilt to nearly touching, through both branches of
    the series */
 static void test_capacitance(void **state) {
@@ -89,7 +100,7 @@ static void test_capacitance(void **state) {
         const double place[3] = {x, y, tilt};
         if (fmax(fabs(y + tilt * a), fabs(y + tilt * b)) > 0.98 * g) continue;
         double want =
-            eps0 * 50e-6 * 20 * (integral(a, b, g - y, -tilt) + integral(a, b, g + y, tilt));
+            eps0 * 50e-6 * 20 * (integral(a, b, g - y, -tilt) + integral(a, b, g + y, tilt)) + of_ends(c, x, y, tilt);
         assert_relative(fw_effects_comb_capacitance(c, place, NULL, NULL), want, 1e-9);
     }
     fw_arena_free(r.arena);
@@ -99,7 +110,7 @@ static void test_capacitance(void **state) {
     for (int i = 0; i < 300; i++) {
         double x = 2.5e-6 * rig_random(&r), tilt = 2.4e-2 * rig_random(&r);
         const double place[3] = {x, 1e-6 * rig_random(&r), tilt};
-        double want = eps0 * 20e-6 * integral(-100e-6, 100e-6, 5e-6 - x, tilt);
+        double want = eps0 * 50e-6 * integral(-100e-6, 100e-6, 5e-6 - x, tilt);
         assert_relative(fw_effects_comb_capacitance(c, place, NULL, NULL), want, 1e-9);
     }
     fw_arena_free(r.arena);
@@ -151,7 +162,9 @@ static void test_closed_forms(void **state) {
     r.e->class_->force(r.e, &s, f);
     r.e->class_->tangent(r.e, &s, stiffness, damping);
     double face = 20 * eps0 * 50e-6 * 900, u = cos(0.7), v = sin(0.7), g = 4e-6, l = 60e-6;
-    assert_relative(u * f[3] + v * f[4], face / g, 1e-13);
+    /* the root is 80 um away, 20 gaps: what it adds to the pull is below round-off; ends add to what is aside */
+    double by[2], b = fw_effects_comb_tip_aside(&fw_effects_comb_of(r.e)->tip, 80e-6, by);
+    assert_relative(u * f[3] + v * f[4], face / g, 1e-12);
     assert_near(-v * f[3] + u * f[4], 0, 1e-11 * face / g);
     assert_near(f[5], 0, 1e-11 * l * face / g);
     double side = 0, along = 0;
@@ -161,13 +174,14 @@ static void test_closed_forms(void **state) {
             side += n[i] * stiffness[6 * (3 + i) + 3 + k] * n[k];
             along += e[i] * stiffness[6 * (3 + i) + 3 + k] * e[k];
         }
-    assert_relative(side, -2 * face * l / (g * g * g), 1e-12);
-    assert_near(along, 0, 1e-12 * fabs(side));
-    assert_relative(stiffness[35], -face * l * l * l / (6 * g * g * g), 1e-12);
+    assert_true(b > 0.2 && b < 0.32);
+    assert_relative(side, -2 * face * (l + 2 * b * g) / (g * g * g), 1e-12);
+    assert_near(along, 0, 1e-10 * fabs(side));
+    assert_relative(stiffness[35], -face * (l * l * l / (6 * g * g * g) + b * l * l / (g * g)), 1e-10);
     /* half way into the gap: 1/(g - y)^2 - 1/(g + y)^2 */
     place_rotor(&r, 0, 2e-6, 0, p);
     r.e->class_->force(r.e, &s, f);
-    assert_relative(-v * f[3] + u * f[4], 0.5 * face * l * (1 / 4e-12 - 1 / 36e-12), 1e-12);
+    assert_relative(-v * f[3] + u * f[4], 0.5 * face * (l + 2 * b * g) * (1 / 4e-12 - 1 / 36e-12), 1e-12);
     fw_arena_free(r.arena);
 
     fw_device_comb flat = plate_of();
@@ -176,7 +190,7 @@ static void test_closed_forms(void **state) {
     s = seen(p, w, 0, 0.25); /* half the voltage */
     r.e->class_->force(r.e, &s, f);
     r.e->class_->tangent(r.e, &s, stiffness, damping);
-    double area = 20e-6 * 200e-6, left = 4e-6;
+    double area = 50e-6 * 200e-6, left = 4e-6;
     assert_relative(u * f[3] + v * f[4], eps0 * area * 225 / (2 * left * left), 1e-12);
     along =
         u * (stiffness[21] * u + stiffness[22] * v) + v * (stiffness[27] * u + stiffness[28] * v);
@@ -284,7 +298,21 @@ static void test_compiled(void **state) {
     const fw_effects_comb_element *d = fw_effects_comb_of(r.e);
     assert_near(d->depth_m, 50e-6, 0);
     assert_near(d->length_m, 120e-6, 1e-20);
-    assert_relative(fw_effects_comb_fringe(d), 1.5 * fw_effects_comb_edge(4e-6, 8e-6, NULL) * 4e-6 / 50e-6, 1e-13);
+    /* and of what tips pull a twentieth, a quarter of the way to the root left; half of the edges' share stays as it counts */
+    const double tips = fw_effects_comb_tip_share(d, 15e-6), edges = fw_effects_comb_edge(4e-6, 8e-6, NULL) * 4e-6 / 50e-6;
+    const double near[3] = {58e-6, 0, 0}, far[3] = {0, 0, 0};
+    assert_relative(fw_effects_comb_fringe(d, NULL), 1.5 * edges + 0.05 * tips / (1 + tips), 1e-13);
+    assert_true(fw_effects_comb_fringe(d, near) > 1.5 * edges + 0.04);
+    assert_relative(fw_effects_comb_fringe(d, far), 1.5 * edges, 1e-9);
+    assert_true(fw_effects_comb_capacitance_off(d, far) > 1.5 * edges && fw_effects_comb_capacitance_off(d, far) < 1.6 * edges + 0.05);
+    assert_null(fw_effects_comb_out_of_range(d));
+    fw_effects_comb_element odd = *d;
+    odd.overlap_m = 1e-6;
+    assert_non_null(fw_effects_comb_out_of_range(&odd));
+    odd = *d, odd.width_m = 0.15e-6;
+    assert_non_null(fw_effects_comb_out_of_range(&odd));
+    odd = *d, odd.depth_m = 1.5e-6;
+    assert_non_null(fw_effects_comb_out_of_range(&odd));
     assert_true(r.e->size_N_per_m > 0 && r.e->force_N > 0 && !r.e->works && !r.e->dissipates);
     const fw_effect_entry *entry = NULL;
     for (int i = 0; i < r.ledger.count; i++)
