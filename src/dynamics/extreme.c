@@ -485,12 +485,12 @@ double fw_dynamics_run_extremes_off(const fw_dynamics_recorder *record) {
 }
 
 /* The bounds are relative to the largest deflection of any hinge with nothing left out, which is at
-   least 1 - their sum of the one seen here. */
+   least 1 - their sum of the one seen here. What no motion has and is bounded alone adds to that. */
 double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion) {
     double largest = 0, out = motion->ledger.left_out + motion->ledger.beside;
     for (int i = 0; i < motion->npin; i++)
         largest = fmax(largest, fabs(motion->peak[i].angle_rad));
-    return out < 1 ? out / (1 - out) * largest : HUGE_VAL;
+    return out < 1 ? out / (1 - out) * largest + motion->ledger.beside_rad : HUGE_VAL;
 }
 
 double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion) {

@@ -176,6 +176,29 @@ static double numeric(double apart, double between, double value, double estimat
     return 2 * margin * apart + between + (estimated + 64 * DBL_EPSILON) * fabs(value);
 }
 
+bool fw_probe_is_size(const fw_device_probe *asked) {
+    return asked->row == FW_PROBE_IS_distance ||
+           (asked->row == FW_PROBE_IS_force && asked->carrier == FW_CARRIER_TENDON);
+}
+
+/* Friction of eyelets that bend a cable, which no motion has (effects/eyelet_friction.c), makes its tension another one before
+   them, by the share that the ledger knows; that is the error of its tension. What moves by it changes nothing of a tension
+   that is stated. Test: tests/cli/test_effects.py */
+static void rub(const fw_probe_monitor *w, const fw_probe *p, const fw_dynamics_motion *motion,
+                fw_probe_result *r) {
+    const double rubs = motion->ledger.rubs;
+    if (!(rubs > 0) || p->asked->row != FW_PROBE_IS_force || p->asked->carrier != FW_CARRIER_TENDON)
+        return;
+    for (int i = 0; i < w->scene->ntendon; i++) {
+        const fw_device_tendon *t = &w->scene->tendon[i];
+        if (!t->id || !p->asked->of || strcmp(t->id, p->asked->of) != 0) continue;
+        const double far = fmax(fabs(r->maximum), fabs(r->minimum)),
+                     more = t->neyelet > 2 ? rubs * far : 0;
+        if (!isnan(t->pull_N)) r->numeric = r->final_numeric = 64 * DBL_EPSILON * far;
+        r->numeric += more, r->final_numeric += more;
+    }
+}
+
 /* course c of the motion, o of the looser run or NULL */
 static void errors(const fw_probe_course *c, const fw_probe_course *o,
                    const fw_dynamics_motion *motion, fw_probe_result *r) {
@@ -222,6 +245,7 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
     const fw_probe *p = &monitor->probe[probe];
     r->origin = fw_probe_origin(p);
     errors(c, looser ? &looser->course[probe] : NULL, motion, r);
+    rub(monitor, p, motion, r);
     if (p->row->moved) r->moved = c->moved;
     if (p->row->moved && c->minimum.value == 0) { /* how deep they are in each other is not known */
         r->numeric += fw_probe_gap_etched_m(p);
