@@ -199,8 +199,32 @@ static void rub(const fw_probe_monitor *w, const fw_probe *p, const fw_dynamics_
     }
 }
 
+/* lengths of which a probe is made, each of which may be off by what any travel is */
+static double lengths_of(const fw_probe *p) {
+    switch (p->asked->row) {
+    case FW_PROBE_IS_displacement:
+        return 1;
+    case FW_PROBE_IS_distance:
+    case FW_PROBE_IS_opening:
+    case FW_PROBE_IS_gap:
+        return 2;
+    case FW_PROBE_IS_velocity:
+    case FW_PROBE_IS_angle:
+    case FW_PROBE_IS_force:
+    case FW_PROBE_IS_torque:
+    case FW_PROBE_IS_power:
+    case FW_PROBE_IS_capacitance:
+    case FW_PROBE_IS_stiffness:
+    case FW_PROBE_IS_compliance:
+    case FW_PROBE_IS_frequency:
+    case FW_PROBE_KINDS:
+        return 0;
+    }
+    return 0;
+}
+
 /* course c of the motion, o of the looser run or NULL */
-static void errors(const fw_probe_course *c, const fw_probe_course *o,
+static void errors(const fw_probe *p, const fw_probe_course *c, const fw_probe_course *o,
                    const fw_dynamics_motion *motion, fw_probe_result *r) {
     double estimated = fw_dynamics_motion_estimated(motion), margin = motion->stats.estimate_margin;
     bool alone = motion->loads && motion->loads->quasi_static;
@@ -217,9 +241,10 @@ static void errors(const fw_probe_course *c, const fw_probe_course *o,
     double between = fmax(c->maximum.between, c->minimum.between);
     if (c->searched) between = fmax(c->minimum.value - c->below, c->above - c->maximum.value);
     double far = farthest(c, r->origin);
-    r->numeric = numeric(most, between, far, estimated, margin);
-    r->final_numeric = numeric(last, 0, far, estimated, margin);
-    r->across_numeric = numeric(aside, c->across.between, r->across, estimated, margin);
+    const double travel = alone ? 0 : lengths_of(p) * fw_dynamics_motion_travel_off(motion);
+    r->numeric = numeric(most, between, far, estimated, margin) + travel;
+    r->final_numeric = numeric(last, 0, far, estimated, margin) + travel;
+    r->across_numeric = numeric(aside, c->across.between, r->across, estimated, margin) + travel;
 }
 
 void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor *looser,
@@ -244,7 +269,7 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
     r->across = c->across.value, r->across_t_s = c->across.t_s;
     const fw_probe *p = &monitor->probe[probe];
     r->origin = fw_probe_origin(p);
-    errors(c, looser ? &looser->course[probe] : NULL, motion, r);
+    errors(p, c, looser ? &looser->course[probe] : NULL, motion, r);
     rub(monitor, p, motion, r);
     if (p->row->moved) r->moved = c->moved;
     if (p->row->moved && c->minimum.value == 0) { /* how deep they are in each other is not known */
