@@ -207,11 +207,6 @@ static bool upright(fw_layout_window_side side) {
     return side == FW_LEFT || side == FW_RIGHT;
 }
 
-fw_geometry_vec2 fw_layout_window_outward(fw_layout_window_side side) {
-    static const fw_geometry_vec2 out[] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
-    return out[side];
-}
-
 fw_geometry_vec2 fw_layout_window_point(const fw_layout *layout, fw_layout_window_side side,
                                         double along, double depth) {
     const fw_geometry_box *w = &layout->window;
