@@ -254,10 +254,16 @@ static fw_status first_line(fw_plan *plan, const fw_plan_flow *pf, const char *h
         return fw_diag_error(&plan->diags, 282, (fw_place){options->run, 1, 1},
                              "the wafers of a lot are stated where its log begins, and this one "
                              "has begun");
+    if (begun && options->zone)
+        return fw_diag_error(&plan->diags, 282, (fw_place){options->run, 1, 1},
+                             "the zone of a log's clock is stated where it begins, and this one "
+                             "has begun; write behind each time how far it is ahead of UTC: "
+                             "start=2026-11-20T10:00+01:00");
     if (begun) return FW_OK;
     if (options->wafer_ids)
         FW_NEED(wafers = fw_recipe_asrun_wafers(plan->arena, options->wafer_ids, &wrong));
-    return fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, wafers, first);
+    return fw_recipe_asrun_begin(plan->arena, pf->flow, hash, options->lot, wafers, options->zone,
+                                 first);
 }
 
 static bool said_before(const fw_diags *diags, size_t first, size_t n, const fw_diag *said,

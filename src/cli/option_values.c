@@ -5,6 +5,7 @@
 #include "mask/mask.h"
 #include "plan/ladder.h"
 #include "recipe/asrun.h"
+#include "schedule/schedule.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -262,6 +263,15 @@ const char *fw_cli_take_lot(fw_cli_options *o, const char *v) {
     o->lot = v;
     if (!fw_text_is_line(v)) return "has characters that cannot stand in a line";
     return *v && strlen(v) <= 100 ? NULL : "needs 1 to 100 characters";
+}
+
+const char *fw_cli_take_zone(fw_cli_options *o, const char *v) {
+    double utc_s[2];
+    o->zone = v;
+    return fw_schedule_zone_times(v, 0.0, utc_s) >= 0
+               ? NULL
+               : "needs UTC, UTC+01:00, or a rule as POSIX writes it: CET-1CEST,M3.5.0,M10.5.0/3 "
+                 "(the last line of its file in /usr/share/zoneinfo)";
 }
 
 const char *fw_cli_take_wafer_ids(fw_cli_options *o, const char *v) {

@@ -544,6 +544,8 @@ static const fw_cli_option_row table[] = {
      "none; - is standard input",
      FW_OPT_LOG, fw_cli_take_entries},
     {"lot", 0, "NAME", "name of the lot, for a log that begins", FW_OPT_LOG, fw_cli_take_lot},
+    {"zone", 0, "ZONE", "zone of its clock, for a log that begins, written as in --day", FW_OPT_LOG,
+     fw_cli_take_zone},
     {"wafers", 0, "LIST",
      "wafers of the lot, for a log that begins: how many, or their ids with commas between",
      FW_OPT_LOG, fw_cli_take_wafer_ids},

@@ -18,10 +18,10 @@ typedef struct fw_cli_options {
     const char *device; /* "-" = standard input; for explain: the code */
     const char *output; /* -o */
     const char *csv, *forces, *animate;
-    const char *svg;                         /* of assemble and hinge */
-    const char *gds;                         /* of mask */
-    const char *level, *deck;                /* of hinge; NULL: by accuracy, none */
-    const char *run, *entry, *entries, *lot; /* of log */
+    const char *svg;                                /* of assemble and hinge */
+    const char *gds;                                /* of mask */
+    const char *level, *deck;                       /* of hinge; NULL: by accuracy, none */
+    const char *run, *entry, *entries, *lot, *zone; /* of log */
     const char *wafer, *wafer_ids, *instrument, *report;
     const char *without; /* of calibrate; NULL: none */
     bool all_runs;
@@ -144,6 +144,7 @@ const char *fw_cli_take_run(fw_cli_options *o, const char *v);
 const char *fw_cli_take_entry(fw_cli_options *o, const char *v);
 const char *fw_cli_take_entries(fw_cli_options *o, const char *v);
 const char *fw_cli_take_lot(fw_cli_options *o, const char *v);
+const char *fw_cli_take_zone(fw_cli_options *o, const char *v);
 const char *fw_cli_take_wafer_ids(fw_cli_options *o, const char *v);
 const char *fw_cli_take_without(fw_cli_options *o, const char *v);
 const char *fw_cli_take_all_runs(fw_cli_options *o, const char *v);

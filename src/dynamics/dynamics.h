@@ -171,6 +171,8 @@ typedef struct fw_dynamics_motion {
     /* when asked for, else NULL */
     fw_dynamics_force_peak *force_peak, *joint_peak, *driver_peak; /* (npin) (njoint) (ndriver) */
     fw_dynamics_travel_peak *travel_peak; /* (njoint) 0 for what is not prismatic */
+    double travelled_m,
+        travel_off_m; /* of two runs, of those that no driver states: the largest, and its error; else 0 */
     fw_dynamics_motion_stats stats;
     fw_effect_ledger ledger;
     bool ended;                      /* by most_angle_rad, before the scene's end */
@@ -223,9 +225,12 @@ void fw_dynamics_motion_rows_at(const fw_dynamics_motion *motion, double t_s);
 void fw_dynamics_motion_pose(const fw_dynamics_motion *motion, int row, double *q);
 /* rad: the part of each peak's error_rad that effects which auto left out account for */
 double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion);
-/* estimated relative error of the largest deflection, what was left out included; 0: nothing
-   moves */
+/* estimated relative error of the largest deflection, what was left out included; where no hinge turns of the largest travel;
+   0: nothing moves */
 double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion);
+/* m: where no hinge turns, the error of any travel. All differ by the largest that any does, since one may agree by chance where
+   friction holds and lets go at other times; 0: hinges turn, or nothing was compared. Test: tests/cli/test_friction_range.py */
+double fw_dynamics_motion_travel_off(const fw_dynamics_motion *motion);
 /* puts it there; ends either kind of motion, once */
 void fw_dynamics_motion_widen(fw_dynamics_motion *motion);
 /* what both check first: numbers, names of methods, mechanism and scene */

@@ -419,6 +419,12 @@ static void put_force(fw_dynamics_force_peak *to, const fw_dynamics_extreme *fro
         to->torque_error_Nm = error;
 }
 
+static bool is_driven(const fw_mechanism *m, int joint) {
+    for (int i = 0; i < m->ndriver; i++)
+        if (m->driver[i].joint == joint) return true;
+    return false;
+}
+
 /* error of each: the largest change of any of its kind from the looser run, at the end too, since
    one number may agree by chance; what the energy balance is off by; and round-off. As for the
    angles in dynamics_simulate.c. */
@@ -432,6 +438,7 @@ void fw_dynamics_run_take_extremes(fw_dynamics_recorder *record, double margin,
                  newton = fw_multibody_newton(record->problem->model);
     const double unit_of[3] = {newton, newton * length, length}; /* FORCE, TORQUE, TRAVEL */
     double change[3] = {0}, unit = record->problem->model->scale.time_s;
+    out->travelled_m = out->travel_off_m = 0;
     for (int i = 0; i < fw_dynamics_run_channels(record->problem); i++) {
         double *most = &change[measure_of(m, i)];
         *most = fmax(*most, fabs(fabs(fine[i].value) - fabs(coarse[i].value)));
@@ -450,10 +457,32 @@ void fw_dynamics_run_take_extremes(fw_dynamics_recorder *record, double margin,
             bool none = kind == TORQUE && fine[i].value == 0;
             put_force(&out->joint_peak[(i - m->npin) % m->njoint], &fine[i], kind, unit,
                       none ? 0 : error);
-        } else if (m->joint[(i - m->npin) % m->njoint].kind == FW_JOINT_PRISMATIC)
-            out->travel_peak[(i - m->npin) % m->njoint] =
+        } else if (m->joint[(i - m->npin) % m->njoint].kind == FW_JOINT_PRISMATIC) {
+            const int joint = (i - m->npin) % m->njoint;
+            out->travel_peak[joint] =
                 (fw_dynamics_travel_peak){fine[i].value, fine[i].t * unit, error};
+            if (is_driven(m, joint)) continue;
+            out->travelled_m = fmax(out->travelled_m, fabs(fine[i].value));
+            out->travel_off_m = fmax(out->travel_off_m, error);
+        }
     }
+}
+
+static double largest_deflection(const fw_dynamics_motion *motion) {
+    double angle = motion->displaced;
+    for (int i = 0; i < motion->npin; i++)
+        angle = fmax(angle, fabs(motion->peak[i].angle_rad));
+    return angle;
+}
+
+double fw_dynamics_motion_travel_off(const fw_dynamics_motion *motion) {
+    return largest_deflection(motion) > 0 ? 0 : motion->travel_off_m;
+}
+
+/* relative to what no driver states */
+static double travels_estimated(const fw_dynamics_motion *motion) {
+    const double off = fw_dynamics_motion_travel_off(motion);
+    return off > 0 && motion->travelled_m > 0 ? off / motion->travelled_m : 0;
 }
 
 static void widen(const fw_dynamics_force_peak *p, int count, double most[3], double off[3]) {
@@ -481,26 +510,24 @@ double fw_dynamics_run_extremes_off(const fw_dynamics_recorder *record) {
     if (off[FORCE] > 0) worst = off[FORCE] / force;
     if (off[TORQUE] > 0) worst = fmax(worst, off[TORQUE] / (force * length));
     if (off[TRAVEL] > 0) worst = fmax(worst, off[TRAVEL] / most[TRAVEL]);
-    return worst;
+    return fmax(worst, travels_estimated(m));
 }
 
 /* The bounds are relative to the largest deflection of any hinge with nothing left out, which is at
-   least 1 - their sum of the one seen here. */
+   least 1 - their sum of the one seen here. What no motion has and is bounded alone adds to that. */
 double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion) {
     double largest = 0, out = motion->ledger.left_out + motion->ledger.beside;
     for (int i = 0; i < motion->npin; i++)
         largest = fmax(largest, fabs(motion->peak[i].angle_rad));
-    return out < 1 ? out / (1 - out) * largest : HUGE_VAL;
+    return out < 1 ? out / (1 - out) * largest + motion->ledger.beside_rad : HUGE_VAL;
 }
 
 double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion) {
-    double angle = 0, error = 0;
-    for (int i = 0; i < motion->npin; i++) {
-        angle = fmax(angle, fabs(motion->peak[i].angle_rad));
+    double angle = largest_deflection(motion), error = 0;
+    for (int i = 0; i < motion->npin; i++)
         error = fmax(error, motion->peak[i].error_rad);
-    }
-    angle = fmax(angle, motion->displaced);
-    return angle > 0 ? error / angle : 0;
+    if (angle > 0) return error / angle;
+    return travels_estimated(motion);
 }
 
 void fw_dynamics_motion_widen(fw_dynamics_motion *motion) {

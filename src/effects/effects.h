@@ -190,6 +190,8 @@ typedef struct fw_effect_ledger {
     double
         beside; /* likewise of what no motion has, whatever was asked for; where nothing bounds it, and it is
                       small, twice the share by which it may change forces */
+    double beside_rad; /* what those of it do at most that are bounded alone */
+    double rubs;       /* share by which they change the tension of a cable that bends */
     const char
         *undecided; /* what no motion has, matters and nothing bounds: a sentence; NULL: nothing */
     double undecided_share; /* by which it may change forces */
@@ -383,6 +385,9 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     /* no motion has it: never active, whatever was asked for, and its bound is in every error. share: of what it
        changes the forces, for where nothing bounds what that does; NULL: it is in the motion */
     fw_status (*beside)(const fw_effect_case *c, double *share);
+    /* of such an effect whose forces are what they are however far the motion goes: by how many rad all of it may turn a
+       hinge further (infinite: nothing bounds that), and by what share it changes a tension; NULL: its bound is one of others */
+    fw_status (*alone)(const fw_effect_case *c, double *rad, double *share);
     /* its part of the sentence about a scene, each item behind "; "; NULL: nothing that the scene
        states */
     void (*describe)(const fw_device *device, const fw_device_scene *scene,

@@ -67,12 +67,25 @@ static int count(const fw_effect_case *c) {
 typedef struct rubbing {
     const fw_effect_case *c;
     double *mode;             /* (modes) of what friction changes of the forces */
+    double *sways;            /* (modes) how far that moves each at most */
+    double turned_rad;        /* what turns most of the segments by that */
     double *force;            /* (3 nbody) likewise, sizes */
     double *bend, *share, *p; /* of one tendon's eyelets */
 } rubbing;
 
-/* bends as drawn, and by how much segments may turn until then: each by what its ends go over its length */
-static void bends_of(const rubbing *r, const fw_device_tendon *t, bool moved) {
+/* how far friction may move an eyelet further */
+static double sways_by(const rubbing *r, const fw_device_eyelet *eyelet) {
+    double sum = 0;
+    for (int l = 0; l < r->c->envelope->modes; l++) {
+        const fw_geometry_vec2 by = fw_effects_envelope_moves(r->c, eyelet, l);
+        sum += r->sways[l] * hypot(by.x, by.y);
+    }
+    return sum;
+}
+
+/* bends as drawn, and by how much segments may turn until then, without friction and by it: each by what its ends go over
+   its length */
+static void bends_of(rubbing *r, const fw_device_tendon *t, bool moved) {
     const fw_effect_case *c = r->c;
     for (int i = 0; i < t->neyelet; i++) {
         const fw_device_eyelet *e = &t->eyelet[i];
@@ -82,10 +95,13 @@ static void bends_of(const rubbing *r, const fw_device_tendon *t, bool moved) {
     for (int i = 1; i + 1 < t->neyelet; i++) {
         double turn = 0;
         for (int k = i - 1; k <= i && moved; k++) {
-            const double *a = r->p + 3 * k, *b = a + 3;
-            turn += (fw_effects_envelope_goes(c, &t->eyelet[k]) +
-                     fw_effects_envelope_goes(c, &t->eyelet[k + 1])) /
-                    hypot(b[0] - a[0], b[1] - a[1]);
+            const double *a = r->p + 3 * k, *b = a + 3, length = hypot(b[0] - a[0], b[1] - a[1]);
+            const double by =
+                (sways_by(r, &t->eyelet[k]) + sways_by(r, &t->eyelet[k + 1])) / length;
+            turn += by + (fw_effects_envelope_goes(c, &t->eyelet[k]) +
+                          fw_effects_envelope_goes(c, &t->eyelet[k + 1])) /
+                             length;
+            r->turned_rad = fmax(r->turned_rad, by);
         }
         r->bend[i] = fmin(FW_TURN / 2, bend_of(r->p, i) + turn);
     }
@@ -142,28 +158,61 @@ static fw_status largest(rubbing *r, double *share) {
     return FW_OK;
 }
 
-/* Slipping follows the motion, and so does what it takes: of any course */
-static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+/* one round: what friction changes of the forces with bends as the last round has them; rad that it turns a hinge by */
+static double round_of(rubbing *r, double coefficient, double *share) {
+    const fw_effect_case *c = r->c;
+    const fw_effects_envelope *e = c->envelope;
+    memset(r->mode, 0, (size_t)e->modes * sizeof *r->mode);
+    memset(r->force, 0, (size_t)e->n * sizeof *r->force);
+    r->turned_rad = 0;
+    for (int i = 0; i < c->scene->ntendon; i++) {
+        pulls(r, &c->scene->tendon[i], coefficient);
+        *share = fmax(*share, r->share[0]);
+    }
+    for (int l = 0; l < e->modes; l++)
+        r->sways[l] = r->mode[l] * e->response_bound[l];
+    return fw_effects_envelope_mode_answer(c, r->mode, (double)INFINITY) * e->floor / e->margin;
+}
+
+/* Slipping follows the motion, and so does what it takes: of any course. Friction moves the device as a load does, so that
+   the margin is that of a motion which has both: its nonlinearity is that of the envelope, of whose loads the tension is at
+   most all, and how far friction turns hinges and segments. rad: INFINITY, nothing bounds it */
+static fw_status alone(const fw_effect_case *c, double *rad, double *share) {
+    enum { ROUNDS = 50 };
+    static const double settled = 1e-3, not_linear_most = 0.8;
     const fw_effects_envelope *e = c->envelope;
     const double coefficient = fw_effects_eyelet_friction_of(c->scene);
     rubbing r = {.c = c};
-    double share;
-    *value = (double)INFINITY;
+    *rad = (double)INFINITY;
     fw_mark mark = fw_arena_mark(c->arena);
-    FW_TRY(largest(&r, &share));
+    FW_TRY(largest(&r, share));
     if (e && e->valid && !(e->loose_pull > 0)) {
-        double rings = 1;
+        double rings = 1, turns = 0, before = -1;
         FW_NEED(r.mode = fw_arena_array(c->arena, double, (size_t)e->modes));
+        FW_NEED(r.sways = fw_arena_array(c->arena, double, (size_t)e->modes));
         FW_NEED(r.force = fw_arena_array(c->arena, double, (size_t)e->n));
-        for (int i = 0; i < c->scene->ntendon; i++)
-            pulls(&r, &c->scene->tendon[i], coefficient);
+        for (int i = 0; i < ROUNDS && turns > (1 + settled) * before; i++)
+            before = turns, turns = round_of(&r, coefficient, share);
         for (int l = 0; l < e->modes; l++)
             rings = fmax(rings, e->omega[l] * e->omega[l] * e->response_bound[l]);
-        *value = fw_effects_envelope_mode_answer(c, r.mode, (double)INFINITY) +
-                 fw_effects_envelope_displaced(c, r.force, rings - 1);
+        const double not_linear = 0.25 * (e->margin - 1) * (1 + *share) + fmax(turns, r.turned_rad);
+        if (turns <= (1 + settled) * before && not_linear <= not_linear_most)
+            *rad = (1 + 4 * not_linear) *
+                   (turns +
+                    fw_effects_envelope_displaced(c, r.force, rings - 1) * e->floor / e->margin);
     }
     fw_arena_rewind(c->arena, mark);
+    return FW_OK;
+}
+
+static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
+    double rad, share, moved;
     char part[32];
+    FW_TRY(alone(c, &rad, &moved));
+    fw_mark mark = fw_arena_mark(c->arena);
+    FW_TRY(largest(&(rubbing){.c = c}, &share));
+    fw_arena_rewind(c->arena, mark);
+    *value = isfinite(rad) ? rad / c->envelope->floor : (double)INFINITY;
     FW_NEED(*reason = fw_arena_printf(
                 c->arena,
                 "where cables bend over eyelets friction may change their tension by up to %s %%%s",
@@ -186,4 +235,5 @@ const fw_effect_row fw_effect_eyelet_friction = {
     .bound = bound,
     .add = fw_effects_add_nothing,
     .count = count,
-    .beside = beside};
+    .beside = beside,
+    .alone = alone};

@@ -78,8 +78,7 @@ static fw_status settle(const fw_effect_case *c, fw_effect_entry *entry) {
     }
     for (int i = 0; i < ROWS && loose > 0; i++) {
         if (!entry[i].called_for || rows[i]->kept) continue;
-        /* tensions are what they are, however far the motion goes: no answer to itself */
-        const bool own = strcmp(rows[i]->id, "eyelet-friction") == 0 && isfinite(entry[i].bound);
+        const bool own = rows[i]->alone && isfinite(entry[i].bound); /* no answer to itself */
         const double others = own ? loose - entry[i].bound : loose;
         if (others < 0.5)
             entry[i].bound /= 1 - others;
@@ -180,6 +179,19 @@ static fw_status set_aside(const fw_effect_case *c, fw_effect_entry *entry,
         if (!e->called_for || !rows[i]->beside) continue;
         e->active = false;
         e->cost = 0;
+        if (rows[i]->alone) {
+            double rad;
+            FW_TRY(rows[i]->alone(c, &rad, &ledger->rubs));
+            if (isfinite(e->bound)) {
+                /* it was found in rad: the floor, which may be far below the motion, takes no part in it */
+                ledger->beside_rad += e->bound * c->envelope->floor;
+                fw_number_text(text, sizeof text, 1e3 * e->bound * c->envelope->floor, 3);
+                FW_NEED(e->reason = fw_arena_printf(c->arena,
+                                                    "%s; at most %s mrad of a hinge, in every band",
+                                                    e->reason, text));
+                continue;
+            }
+        }
         if (isfinite(e->bound)) {
             ledger->beside += e->bound;
             fw_percent_text(text, sizeof text, e->bound);
@@ -331,7 +343,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
-    ledger->left_out = ledger->beside = 0;
+    ledger->left_out = ledger->beside = ledger->beside_rad = ledger->rubs = 0;
     ledger->undecided = NULL, ledger->undecided_share = 0;
     ledger->swing = (double)INFINITY;
     FW_TRY(fw_effects_loads_new(arena, mechanism, scene, loads));

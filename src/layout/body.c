@@ -532,8 +532,10 @@ static fw_status draw_soundly(fw_layout_drawing *d, work *w) {
         fw_status heads = choose_heads(d, w, choice);
         if (heads == FW_GEOMETRY) break; /* no such head: what was drawn before stands */
         FW_TRY(heads);
+        const fw_mark before = fw_arena_mark(d->arena);
         FW_TRY(quiet_attempt(d, w, &sound, &where));
         if (sound >= 1.0) return FW_OK;
+        if (w->body < 0) fw_arena_rewind(d->arena, before); /* nothing else is left of it there */
         if (sound > fw_layout_rule.sounder_share * most) {
             most = sound;
             best_shift = w->lug_shift;

@@ -121,6 +121,11 @@ fw_status fw_layout_drawing_add(fw_layout_drawing *d, fw_layout_role role, int b
     return fw_layout_add(d->arena, piece, &d->layout->piece, &d->layout->npiece, &d->capacity);
 }
 
+fw_geometry_vec2 fw_layout_window_outward(fw_layout_window_side side) {
+    static const fw_geometry_vec2 out[] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
+    return out[side];
+}
+
 double fw_layout_base_reach(const fw_layout_drawing *d, int joint) {
     const fw_layout_hinge_plan *plan = &d->hinge[joint];
     fw_geometry_vec2 out = plan->side[plan->side[1].body == FW_GROUND].direction;

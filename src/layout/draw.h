@@ -198,8 +198,11 @@ typedef struct fw_layout_drawing {
     fw_geometry_contour *plain; /* (nslot) rounded, without tethers */
     /* (nslot) rounded, with the stubs that tethers leave; count 0: none */
     fw_geometry_contour *held;
-    double *corner_m;         /* (nslot) radius of the rounded corners */
-    bool *beside;             /* (nbody) the hub stands beside the hinges; NULL: nowhere */
+    double *corner_m; /* (nslot) radius of the rounded corners */
+    bool *beside;     /* (nbody) the hub stands beside the hinges; NULL: nowhere */
+    /* (njoint) to where a base of its own leaves its hinge; NULL: away from the mean of the hinges */
+    const fw_layout_window_side *base_side;
+    bool *stuck;              /* (njoint) a base of its own that cannot be drawn */
     fw_layout_shapes *shapes; /* (nbody); NULL: no body has any */
     fw_geometry_region *caps; /* (nbody) what closes the cuts to holes of bodies again */
     int nslot;
@@ -401,6 +404,7 @@ fw_status fw_layout_fault_keep(fw_layout_drawing *d, fw_layout_fault fault);
 /* the same where no part of the drawing has kept an error behind the first `before` of them */
 fw_status fw_layout_fault_rest(fw_layout_drawing *d, int before, int body);
 fw_layout_fault fw_layout_fault_at(fw_geometry_vec2 at);
+void fw_layout_say_open_hinges(const fw_layout_drawing *d);
 extern const fw_geometry_vec2 fw_layout_nowhere;
 /* pieces of everything that has an outline; bodies without one by their shapes, plates and bars */
 fw_status fw_layout_show(fw_layout_drawing *d);

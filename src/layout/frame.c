@@ -187,14 +187,13 @@ fw_status fw_layout_ground_draw(fw_layout_drawing *d) {
     int n = fw_layout_body_joints(d->device, FW_GROUND, NULL, 0), *joint;
     FW_NEED(joint = fw_arena_array(d->arena, int, (size_t)n));
     fw_layout_body_joints(d->device, FW_GROUND, joint, n);
-    if (n == 1 || n == 2) return draw_base(d, joint, n, FW_NONE);
+    if (n == 2) return draw_base(d, joint, n, FW_NONE);
     bool bad = false;
     for (int i = 0; i < n; i++) {
-        fw_status status = draw_base(d, &joint[i], 1, joint[i]);
-        if (status == FW_GEOMETRY)
-            bad = true;
-        else if (status != FW_OK)
-            return status;
+        fw_status status = draw_base(d, &joint[i], 1, n == 1 ? FW_NONE : joint[i]);
+        if (status != FW_OK && status != FW_GEOMETRY) return status;
+        d->stuck[joint[i]] = status == FW_GEOMETRY;
+        bad = bad || status == FW_GEOMETRY;
     }
     return bad ? FW_GEOMETRY : FW_OK;
 }
@@ -206,11 +205,6 @@ fw_status fw_layout_ground_draw(fw_layout_drawing *d) {
 
 static bool upright(fw_layout_window_side side) {
     return side == FW_LEFT || side == FW_RIGHT;
-}
-
-fw_geometry_vec2 fw_layout_window_outward(fw_layout_window_side side) {
-    static const fw_geometry_vec2 out[] = {{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}};
-    return out[side];
 }
 
 fw_geometry_vec2 fw_layout_window_point(const fw_layout *layout, fw_layout_window_side side,

@@ -3,6 +3,7 @@
 #include "layout/draw.h"
 #include "base/text.h"
 #include <math.h>
+#include <string.h>
 
 enum { BODIES_MOST = 2000, JOINTS_MOST = 4000 };
 
@@ -182,6 +183,7 @@ static fw_status start(fw_layout_drawing *d) {
     FW_NEED(d->held = fw_arena_array(d->arena, fw_geometry_contour, slots));
     FW_NEED(d->corner_m = fw_arena_array(d->arena, double, slots));
     FW_NEED(d->caps = fw_arena_array(d->arena, fw_geometry_region, (size_t)device->nbody));
+    FW_NEED(d->stuck = fw_arena_array(d->arena, bool, (size_t)device->nrevolute));
     return FW_OK;
 }
 
@@ -355,40 +357,21 @@ static bool comments_drawing(int number) {
     return false;
 }
 
-/* where a body puts a point of its own; false: where it stands is not stated */
-static bool puts_at(const fw_device *device, int body, double x_m, double y_m,
-                    fw_geometry_vec2 *at) {
-    if (body >= 0) {
-        const fw_device_body *b = &device->body[body];
-        const fw_layout_local l = {fw_v(b->x_m, b->y_m), cos(b->phi_rad), sin(b->phi_rad), false};
-        *at = fw_layout_local_point(&l, fw_v(x_m, y_m));
-    } else {
-        *at = fw_v(x_m, y_m);
-    }
-    return isfinite(at->x) && isfinite(at->y);
-}
-
-/* Of a drawing that failed: a hinge that hangs in the air may be one whose two bodies put it at two places. The
-   verdict says it of drawings that succeed. */
-static void say_open_hinges(const fw_layout_drawing *d) {
-    const double grid_m = 10e-9;
-    for (int j = 0; j < d->device->nrevolute; j++) {
-        const fw_device_revolute *r = &d->device->revolute[j];
-        fw_geometry_vec2 a, b;
-        char gap[32];
-        if (!puts_at(d->device, r->body_a, r->ax_m, r->ay_m, &a) ||
-            !puts_at(d->device, r->body_b, r->bx_m, r->by_m, &b))
-            continue;
-        double apart_m = fw_norm(fw_sub(a, b));
-        if (apart_m > grid_m)
-            fw_diag_error(
-                d->diags, 206, r->place,
-                "%s%s does not close in the drawn position: its two bodies put it %s um "
-                "apart (10 nm is allowed), which may be all that is wrong with the drawing; "
-                "correct the body positions or its coordinates; `flexwright assemble` prints "
-                "poses that close",
-                FW_NAMED("joint", r->id), fw_number_text(gap, sizeof gap, apart_m * 1e6, 4));
-    }
+/* an empty one; what it says goes to `diags` */
+static fw_status new_drawing(fw_arena *arena, const fw_device *device, fw_diags *diags,
+                             fw_layout_drawing *d) {
+    fw_layout *l;
+    FW_NEED(l = fw_arena_one(arena, fw_layout));
+    FW_NEED(l->hinge = fw_arena_array(arena, fw_layout_hinge_layout, (size_t)device->nrevolute));
+    FW_NEED(l->body = fw_arena_array(arena, fw_layout_body_layout, (size_t)device->nbody));
+    *d = (fw_layout_drawing){.arena = arena,
+                             .device = device,
+                             .diags = diags,
+                             .own = diags,
+                             .layout = l,
+                             .base = FW_NONE,
+                             .too_wide = FW_NONE};
+    return FW_OK;
 }
 
 /* ---- how wide a bar that was refused may be ---- */
@@ -402,19 +385,10 @@ static fw_status draw_narrower(fw_arena *arena, const fw_device *device, int bod
     const size_t n = (size_t)device->nbody;
     fw_device narrower = *device;
     fw_diags unsaid = fw_diags_new(arena);
-    fw_layout *l;
+    fw_layout_drawing d;
     FW_NEED(narrower.body = fw_arena_grow(arena, device->body, n, n, sizeof *device->body));
     narrower.body[body].width_m = width_m;
-    FW_NEED(l = fw_arena_one(arena, fw_layout));
-    FW_NEED(l->hinge = fw_arena_array(arena, fw_layout_hinge_layout, (size_t)device->nrevolute));
-    FW_NEED(l->body = fw_arena_array(arena, fw_layout_body_layout, n));
-    fw_layout_drawing d = {.arena = arena,
-                           .device = &narrower,
-                           .diags = &unsaid,
-                           .own = &unsaid,
-                           .layout = l,
-                           .base = FW_NONE,
-                           .too_wide = FW_NONE};
+    FW_TRY(new_drawing(arena, &narrower, &unsaid, &d));
     const fw_status status = draw(&d);
     *fits_m = d.too_wide == body ? d.fits_m : width_m;
     return status == FW_NOMEM ? status : FW_OK;
@@ -448,36 +422,157 @@ static fw_status name_width(const fw_layout_drawing *refused) {
     return FW_OK;
 }
 
+/* ---- to which side a base leaves its hinge ----
+   A base of one ground hinge leaves it away from the mean of all hinges. In a long row that is along the row, through
+   the places of its neighbours. Where a base cannot be drawn so, the device is drawn anew: all bases leave towards the
+   side of the window that is nearest to their hinge, and one that cannot be drawn so either towards the next one. What
+   could be drawn in the first place stays as it is. docs/theory/layout.md, section 5; decision 213; test_layout_hubs.c: rows */
+
+enum { SIDES = 4 };
+
+typedef struct base_plan {        /* of one device */
+    fw_layout_window_side *order; /* (njoint, SIDES) sides by their distance from the hinge */
+    fw_layout_window_side *side;  /* (njoint) as tried last */
+    int *at;                      /* (njoint) that is the so manieth */
+} base_plan;
+
+/* The nearest side first, of equally near ones that away from the body which the hinge holds, so that the two heads of
+   the hinge lie in one line. */
+static void order_sides(const fw_layout_drawing *d, int joint, fw_layout_window_side order[SIDES]) {
+    const fw_device_revolute *j = &d->device->revolute[joint];
+    const int body = j->body_a == FW_GROUND ? j->body_b : j->body_a;
+    const fw_geometry_vec2 here = fw_layout_joint_point(d->device, joint);
+    const fw_layout_hinge_plan *plan = &d->hinge[joint];
+    const fw_geometry_vec2 held = plan->side[plan->side[1].body == body].direction;
+    const double same_m = 1e-8; /* of places on the grid */
+    fw_layout_sides_by_distance(d->layout, here, order);
+    double far[SIDES];
+    for (int i = 0; i < SIDES; i++)
+        far[i] = fw_dot(fw_sub(fw_layout_window_point(d->layout, order[i], 0.0, 0.0), here),
+                        fw_layout_window_outward(order[i]));
+    for (int i = 1; i < SIDES; i++)
+        for (int k = i; k > 0 && far[k] - far[k - 1] < same_m; k--) {
+            const fw_layout_window_side before = order[k - 1];
+            if (fw_dot(fw_layout_window_outward(order[k]), held) >=
+                fw_dot(fw_layout_window_outward(before), held) - 1e-9)
+                break;
+            order[k - 1] = order[k], order[k] = before;
+        }
+}
+
+static fw_status plan_bases(const fw_layout_drawing *d, base_plan *p) {
+    const int n = d->device->nrevolute;
+    FW_NEED(p->order = fw_arena_array(d->arena, fw_layout_window_side, (size_t)(n * SIDES)));
+    FW_NEED(p->side = fw_arena_array(d->arena, fw_layout_window_side, (size_t)n));
+    FW_NEED(p->at = fw_arena_array(d->arena, int, (size_t)n));
+    for (int j = 0; j < n; j++) {
+        order_sides(d, j, &p->order[j * SIDES]);
+        p->side[j] = p->order[j * SIDES];
+    }
+    return FW_OK;
+}
+
+/* those that could not be drawn, towards the next side; false: none of them has another one */
+static bool turn_bases(base_plan *p, const bool *stuck, int njoint) {
+    bool any = false;
+    for (int j = 0; j < njoint; j++) {
+        if (!stuck[j] || p->at[j] + 1 >= SIDES) continue;
+        p->side[j] = p->order[j * SIDES + ++p->at[j]];
+        any = true;
+    }
+    return any;
+}
+
+static bool any_stuck(const fw_layout_drawing *d) {
+    for (int j = 0; d->stuck && j < d->device->nrevolute; j++)
+        if (d->stuck[j]) return true;
+    return false;
+}
+
+/* Sides with which the device can be drawn; else with which it has fewer errors than `errors`.
+   Tried without a word. */
+static fw_status find_sides(const fw_layout_drawing *first, size_t errors,
+                            fw_layout_window_side *best, bool *found) {
+    const int n = first->device->nrevolute;
+    base_plan plan = {NULL, NULL, NULL};
+    FW_TRY(plan_bases(first, &plan));
+    for (bool more = true; more && errors > 0;) {
+        fw_arena *scratch = fw_arena_part(first->arena, 0);
+        fw_layout_drawing d;
+        FW_NEED(scratch);
+        fw_diags unsaid = fw_diags_new(scratch);
+        fw_status status = new_drawing(scratch, first->device, &unsaid, &d);
+        if (status == FW_OK) {
+            d.base_side = plan.side;
+            d.said = true;
+            status = draw(&d);
+            if (unsaid.errors < errors) {
+                errors = unsaid.errors;
+                memcpy(best, plan.side, (size_t)n * sizeof *best);
+                *found = true;
+            }
+            more = any_stuck(&d) && turn_bases(&plan, d.stuck, n);
+        }
+        fw_arena_free(scratch);
+        if (status != FW_OK && status != FW_GEOMETRY) return status;
+    }
+    return FW_OK;
+}
+
+/* what has no drawing, and the drawing; *status is FW_OK or FW_GEOMETRY */
+static fw_status draw_once(fw_layout_drawing *d, fw_status *status) {
+    FW_TRY(add_joints(d));
+    *status = draw(d);
+    return *status == FW_GEOMETRY ? FW_OK : *status;
+}
+
+static fw_status draw_device(fw_layout_drawing *d, fw_diags *diags, fw_status *status) {
+    fw_arena *arena = d->arena;
+    const fw_device *device = d->device;
+    const bool said = d->said;
+    fw_layout_window_side *side;
+    bool turned = false;
+    FW_NEED(side = fw_arena_array(arena, fw_layout_window_side, (size_t)device->nrevolute));
+    const fw_mark mark = fw_arena_mark(arena);
+    fw_diags first = fw_diags_new(arena);
+    d->diags = &first;
+    d->own = &first;
+    FW_TRY(draw_once(d, status));
+    if (*status == FW_GEOMETRY && any_stuck(d)) FW_TRY(find_sides(d, first.errors, side, &turned));
+    if (turned) {
+        fw_arena_rewind(arena, mark);
+        first = fw_diags_new(arena);
+        FW_TRY(new_drawing(arena, device, &first, d));
+        d->layout->fill = device->die.fill;
+        d->base_side = side;
+        d->said = said;
+        FW_TRY(draw_once(d, status));
+    }
+    fw_diags_take(diags, &first);
+    d->diags = diags;
+    d->own = diags;
+    return first.failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_layout_build(fw_arena *arena, const fw_device *device, fw_diags *diags,
                           const fw_layout **layout) {
-    fw_layout *l;
+    fw_layout_drawing d;
     bool failed;
-    FW_NEED(l = fw_arena_one(arena, fw_layout));
-    FW_NEED(l->hinge = fw_arena_array(arena, fw_layout_hinge_layout, (size_t)device->nrevolute));
-    FW_NEED(l->body = fw_arena_array(arena, fw_layout_body_layout, (size_t)device->nbody));
-    l->why_not = missing(arena, device, &failed);
+    FW_TRY(new_drawing(arena, device, diags, &d));
+    d.layout->why_not = missing(arena, device, &failed);
     if (failed) return FW_NOMEM;
-    if (!l->why_not) {
-        l->fill = device->die.fill;
-        fw_layout_drawing d = {.arena = arena,
-                               .device = device,
-                               .diags = diags,
-                               .own = diags,
-                               .layout = l,
-                               .base = FW_NONE,
-                               .too_wide = FW_NONE};
-        for (size_t i = 0; i < diags->count; i++)
-            d.said = d.said || comments_drawing(diags->item[i].number);
-        FW_TRY(add_joints(&d));
-        fw_status status = draw(&d);
-        const bool refused = status == FW_GEOMETRY && d.too_wide != FW_NONE && !d.said;
-        if (refused) FW_TRY(name_width(&d));
-        if (status == FW_GEOMETRY && !d.said) say_open_hinges(&d);
-        if (status == FW_GEOMETRY) status = give_up(&d);
-        l->drawn = status == FW_OK;
-        *layout = status == FW_OK || (status == FW_GEOMETRY && l->nfault > 0) ? l : NULL;
-        return status;
-    }
-    *layout = l;
-    return FW_OK;
+    *layout = d.layout;
+    if (d.layout->why_not) return FW_OK;
+    fw_status status = FW_OK;
+    d.layout->fill = device->die.fill;
+    for (size_t i = 0; i < diags->count; i++)
+        d.said = d.said || comments_drawing(diags->item[i].number);
+    FW_TRY(draw_device(&d, diags, &status));
+    const bool refused = status == FW_GEOMETRY && d.too_wide != FW_NONE && !d.said;
+    if (refused) FW_TRY(name_width(&d));
+    if (status == FW_GEOMETRY && !d.said) fw_layout_say_open_hinges(&d);
+    if (status == FW_GEOMETRY) status = give_up(&d);
+    d.layout->drawn = status == FW_OK;
+    *layout = status == FW_OK || (status == FW_GEOMETRY && d.layout->nfault > 0) ? d.layout : NULL;
+    return status;
 }

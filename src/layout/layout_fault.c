@@ -201,3 +201,39 @@ bool fw_layout_missing_in_flow(const fw_device *device, const fw_layout_missing 
             return true;
     return false;
 }
+
+/* where a body puts a point of its own; false: where it stands is not stated */
+static bool puts_at(const fw_device *device, int body, double x_m, double y_m,
+                    fw_geometry_vec2 *at) {
+    if (body >= 0) {
+        const fw_device_body *b = &device->body[body];
+        const fw_layout_local l = {fw_v(b->x_m, b->y_m), cos(b->phi_rad), sin(b->phi_rad), false};
+        *at = fw_layout_local_point(&l, fw_v(x_m, y_m));
+    } else {
+        *at = fw_v(x_m, y_m);
+    }
+    return isfinite(at->x) && isfinite(at->y);
+}
+
+/* Of a drawing that failed: a hinge that hangs in the air may be one whose two bodies put it at two places. The
+   verdict says it of drawings that succeed. */
+void fw_layout_say_open_hinges(const fw_layout_drawing *d) {
+    const double grid_m = 10e-9;
+    for (int j = 0; j < d->device->nrevolute; j++) {
+        const fw_device_revolute *r = &d->device->revolute[j];
+        fw_geometry_vec2 a, b;
+        char gap[32];
+        if (!puts_at(d->device, r->body_a, r->ax_m, r->ay_m, &a) ||
+            !puts_at(d->device, r->body_b, r->bx_m, r->by_m, &b))
+            continue;
+        double apart_m = fw_norm(fw_sub(a, b));
+        if (apart_m > grid_m)
+            fw_diag_error(
+                d->diags, 206, r->place,
+                "%s%s does not close in the drawn position: its two bodies put it %s um "
+                "apart (10 nm is allowed), which may be all that is wrong with the drawing; "
+                "correct the body positions or its coordinates; `flexwright assemble` prints "
+                "poses that close",
+                FW_NAMED("joint", r->id), fw_number_text(gap, sizeof gap, apart_m * 1e6, 4));
+    }
+}

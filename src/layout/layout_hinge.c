@@ -68,7 +68,9 @@ static fw_geometry_vec2 body_target(const fw_layout_drawing *d, int body, int jo
     if (n == 2) return other;
     if (n > 2 && body >= 0) return fw_layout_body_hub(d, body);
     if (body >= 0) return fw_v(device->body[body].x_m, device->body[body].y_m);
-    fw_geometry_vec2 out = fw_sub(here, d->centre); /* own base: straight to the frame */
+    /* own base: straight to the frame (layout_build.c: draw_device) */
+    if (d->base_side) return fw_add(here, 1.0, fw_layout_window_outward(d->base_side[joint]));
+    fw_geometry_vec2 out = fw_sub(here, d->centre);
     if (fabs(out.x) > fabs(out.y)) return fw_add(here, out.x > 0.0 ? 1.0 : -1.0, fw_v(1.0, 0.0));
     return fw_add(here, out.y > 0.0 ? 1.0 : -1.0, fw_v(0.0, 1.0));
 }

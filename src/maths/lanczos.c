@@ -6,10 +6,14 @@
    Eigenvalue Problem, 1980, ch. 13. Test: test_sparse.c */
 #include "maths/dense.h"
 #include "maths/sparse.h"
+#include <lapacke.h>
 #include <float.h>
 #include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <string.h>
+#include <time.h>
 
 enum { FW_LOOK_EVERY = 8 };
 static const double fw_converged = 1e-10;
@@ -128,4 +132,127 @@ fw_status fw_maths_lanczos(fw_arena *arena, const fw_maths_operator *op, int cou
     if (*found > 0) give_vectors(&k, *found, value, vector);
     fw_arena_rewind(arena, mark);
     return FW_OK;
+}
+
+/* ---- all eigenvalues of a matrix that is not symmetric ---- */
+
+typedef struct general { /* one call of dgeev */
+    int n, length;
+    double *a, *re, *im, *vector, *work;
+    bool good;
+} general;
+
+static void solve_general(general *g) {
+    const int n = g->n;
+    g->good = LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', n, g->a, n, g->re, g->im, NULL, 1,
+                                 g->vector, n, g->work, g->length) == 0;
+}
+
+static size_t work_of(int n) { /* LAPACK's answer to a query; 0: nothing sensible */
+    double size = 0, none = 0;
+    const int info = LAPACKE_dgeev_work(LAPACK_COL_MAJOR, 'N', 'V', n, &none, n, &none, &none, NULL,
+                                        1, &none, n, &size, -1);
+    return info == 0 && size >= 1 && size < 1e9 ? (size_t)size : 0;
+}
+
+/* Nothing ends a call of LAPACK that has begun. Where one takes seconds it is made in a thread with memory of its own, so that
+   whoever is asked to stop can leave it: the thread ends by itself and frees what it had, or with the program.
+   Test: test_eigen.c, stops_in_time */
+enum { APART_FROM = 256 }; /* some 0.1 s */
+
+typedef enum apart_state { APART_RUNS, APART_DONE, APART_LEFT } apart_state;
+
+typedef struct apart {
+    fw_arena *own; /* holds this, too */
+    general job;
+    atomic_int state;
+} apart;
+
+static void *run_apart(void *of) {
+    apart *p = of;
+    solve_general(&p->job);
+    if (atomic_exchange(&p->state, APART_DONE) == APART_LEFT) fw_arena_free(p->own);
+    return NULL;
+}
+
+/* true: it was done; false: asked to stop, and p is the thread's */
+static bool wait_for(const fw_arena *arena, apart *p) {
+    const struct timespec pause = {.tv_nsec = 2000000};
+    while (atomic_load(&p->state) == APART_RUNS) {
+        if (fw_arena_cancelled(arena)) return atomic_exchange(&p->state, APART_LEFT) == APART_DONE;
+        nanosleep(&pause, NULL); /* a signal ends it before */
+    }
+    return true;
+}
+
+static fw_status solve_apart(fw_arena *arena, general *g) {
+    const size_t n = (size_t)g->n;
+    fw_arena *own = fw_arena_part(arena, 0);
+    FW_NEED(own);
+    apart *p = fw_arena_one(own, apart);
+    if (p) {
+        p->own = own;
+        p->job = *g;
+        p->job.a = fw_arena_array(own, double, n *n);
+        p->job.vector = fw_arena_array(own, double, n *n);
+        p->job.re = fw_arena_array(own, double, n);
+        p->job.im = fw_arena_array(own, double, n);
+        p->job.work = fw_arena_array(own, double, (size_t)g->length);
+    }
+    pthread_t thread;
+    if (!p || !p->job.a || !p->job.vector || !p->job.re || !p->job.im || !p->job.work) {
+        fw_arena_free(own);
+        return FW_NOMEM;
+    }
+    memcpy(p->job.a, g->a, n * n * sizeof *g->a);
+    if (pthread_create(&thread, NULL, run_apart, p) != 0) {
+        solve_general(&p->job);
+    } else if (!wait_for(arena, p)) {
+        pthread_detach(thread);
+        return FW_CANCELLED;
+    } else {
+        pthread_join(thread, NULL);
+    }
+    memcpy(g->vector, p->job.vector, n * n * sizeof *g->vector);
+    memcpy(g->re, p->job.re, n * sizeof *g->re);
+    memcpy(g->im, p->job.im, n * sizeof *g->im);
+    g->good = p->job.good;
+    fw_arena_free(own);
+    return FW_OK;
+}
+
+static bool transpose_finite(int n, double *a) {
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
+            double *p = a + (size_t)i * (size_t)n + j, *q = a + (size_t)j * (size_t)n + i,
+                   keep = *p;
+            if (!isfinite(*p) || !isfinite(*q)) return false;
+            *p = *q;
+            *q = keep;
+        }
+    return true;
+}
+
+/* dgeev, balanced. Error of a value: round-off times |a| times its condition. Cost about 25 n^3.
+   Test: test_eigen.c. */
+fw_status fw_maths_eigen_general(fw_arena *arena, int n, double *a, double *re, double *im,
+                                 double *vector) {
+    if (n == 0) return FW_OK;
+    if (!transpose_finite(n, a)) return FW_SOLVER; /* LAPACK may loop on a NaN */
+    FW_TRY(fw_maths_lapack_ready());
+    general g = {.n = n, .a = a, .re = re, .im = im, .vector = vector};
+    const size_t length = work_of(n);
+    if (!length) return FW_SOLVER;
+    g.length = (int)length;
+    const fw_mark mark = fw_arena_mark(arena);
+    fw_status status = FW_OK;
+    if (n >= APART_FROM) {
+        status = solve_apart(arena, &g);
+    } else {
+        FW_NEED(g.work = fw_arena_array(arena, double, length));
+        solve_general(&g);
+    }
+    fw_arena_rewind(arena, mark);
+    FW_TRY(status);
+    return g.good ? FW_OK : FW_SOLVER;
 }

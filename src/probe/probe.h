@@ -131,6 +131,8 @@ typedef struct fw_probe_monitor { /* of one run */
     bool no_memory;                /* the run has failed */
 } fw_probe_monitor;
 
+/* a distance, or the tension of a cable: never below 0 */
+bool fw_probe_is_size(const fw_device_probe *asked);
 /* scene: one of mechanism->device */
 fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_device_scene *scene, const bool *history, const bool *only,

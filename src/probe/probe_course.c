@@ -176,8 +176,55 @@ static double numeric(double apart, double between, double value, double estimat
     return 2 * margin * apart + between + (estimated + 64 * DBL_EPSILON) * fabs(value);
 }
 
+bool fw_probe_is_size(const fw_device_probe *asked) {
+    return asked->row == FW_PROBE_IS_distance ||
+           (asked->row == FW_PROBE_IS_force && asked->carrier == FW_CARRIER_TENDON);
+}
+
+/* Friction of eyelets that bend a cable, which no motion has (effects/eyelet_friction.c), makes its tension another one before
+   them, by the share that the ledger knows; that is the error of its tension. What moves by it changes nothing of a tension
+   that is stated. Test: tests/cli/test_effects.py */
+static void rub(const fw_probe_monitor *w, const fw_probe *p, const fw_dynamics_motion *motion,
+                fw_probe_result *r) {
+    const double rubs = motion->ledger.rubs;
+    if (!(rubs > 0) || p->asked->row != FW_PROBE_IS_force || p->asked->carrier != FW_CARRIER_TENDON)
+        return;
+    for (int i = 0; i < w->scene->ntendon; i++) {
+        const fw_device_tendon *t = &w->scene->tendon[i];
+        if (!t->id || !p->asked->of || strcmp(t->id, p->asked->of) != 0) continue;
+        const double far = fmax(fabs(r->maximum), fabs(r->minimum)),
+                     more = t->neyelet > 2 ? rubs * far : 0;
+        if (!isnan(t->pull_N)) r->numeric = r->final_numeric = 64 * DBL_EPSILON * far;
+        r->numeric += more, r->final_numeric += more;
+    }
+}
+
+/* lengths of which a probe is made, each of which may be off by what any travel is */
+static double lengths_of(const fw_probe *p) {
+    switch (p->asked->row) {
+    case FW_PROBE_IS_displacement:
+        return 1;
+    case FW_PROBE_IS_distance:
+    case FW_PROBE_IS_opening:
+    case FW_PROBE_IS_gap:
+        return 2;
+    case FW_PROBE_IS_velocity:
+    case FW_PROBE_IS_angle:
+    case FW_PROBE_IS_force:
+    case FW_PROBE_IS_torque:
+    case FW_PROBE_IS_power:
+    case FW_PROBE_IS_capacitance:
+    case FW_PROBE_IS_stiffness:
+    case FW_PROBE_IS_compliance:
+    case FW_PROBE_IS_frequency:
+    case FW_PROBE_KINDS:
+        return 0;
+    }
+    return 0;
+}
+
 /* course c of the motion, o of the looser run or NULL */
-static void errors(const fw_probe_course *c, const fw_probe_course *o,
+static void errors(const fw_probe *p, const fw_probe_course *c, const fw_probe_course *o,
                    const fw_dynamics_motion *motion, fw_probe_result *r) {
     double estimated = fw_dynamics_motion_estimated(motion), margin = motion->stats.estimate_margin;
     bool alone = motion->loads && motion->loads->quasi_static;
@@ -194,9 +241,10 @@ static void errors(const fw_probe_course *c, const fw_probe_course *o,
     double between = fmax(c->maximum.between, c->minimum.between);
     if (c->searched) between = fmax(c->minimum.value - c->below, c->above - c->maximum.value);
     double far = farthest(c, r->origin);
-    r->numeric = numeric(most, between, far, estimated, margin);
-    r->final_numeric = numeric(last, 0, far, estimated, margin);
-    r->across_numeric = numeric(aside, c->across.between, r->across, estimated, margin);
+    const double travel = alone ? 0 : lengths_of(p) * fw_dynamics_motion_travel_off(motion);
+    r->numeric = numeric(most, between, far, estimated, margin) + travel;
+    r->final_numeric = numeric(last, 0, far, estimated, margin) + travel;
+    r->across_numeric = numeric(aside, c->across.between, r->across, estimated, margin) + travel;
 }
 
 void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor *looser,
@@ -221,7 +269,8 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
     r->across = c->across.value, r->across_t_s = c->across.t_s;
     const fw_probe *p = &monitor->probe[probe];
     r->origin = fw_probe_origin(p);
-    errors(c, looser ? &looser->course[probe] : NULL, motion, r);
+    errors(p, c, looser ? &looser->course[probe] : NULL, motion, r);
+    rub(monitor, p, motion, r);
     if (p->row->moved) r->moved = c->moved;
     if (p->row->moved && c->minimum.value == 0) { /* how deep they are in each other is not known */
         r->numeric += fw_probe_gap_etched_m(p);

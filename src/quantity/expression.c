@@ -218,7 +218,9 @@ static bool comma(parser *p) {
 
 static bool parse_primary(parser *p, fw_quantity_value *v) {
     if (p->token.kind == FW_TOKEN_NUMBER) {
-        *v = (fw_quantity_value){.value = p->token.value, .dimension = p->token.dimension};
+        *v = (fw_quantity_value){.value = p->token.value,
+                                 .dimension = p->token.dimension,
+                                 .in_degrees = p->token.zero != 0};
         return finite_at(p, p->token.start, v) && advance(p);
     }
     if (p->token.kind == FW_TOKEN_NAME) return parse_name(p, v);
@@ -331,6 +333,13 @@ static bool parse_product(parser *p, fw_quantity_value *v) {
         size_t offset = p->token.start;
         fw_quantity_value right;
         if (!advance(p) || !parse_signed(p, &right)) return false;
+        if ((v->in_degrees && fw_quantity_dimension_equal(right.dimension, pure)) ||
+            (right.in_degrees && !over && fw_quantity_dimension_equal(v->dimension, pure)))
+            return fail(p, offset, 719,
+                        "a temperature in Cel is no number of degrees to be multiplied: 20 Cel are "
+                        "293.15 K, and twice that would be 586.3 K; write what is meant, in K or "
+                        "as one number");
+        v->in_degrees = false;
         if (over && right.value == 0.0)
             return fail(p, offset, 27, "division by zero; the divisor must not vanish");
         v->composite = v->composite || right.composite || has_length_or_more(v->dimension) ||
@@ -364,6 +373,7 @@ static bool parse_sum(parser *p, fw_quantity_value *v) {
             v->value += minus ? -right.value : right.value;
         v->dimension = common;
         v->composite = v->composite && right.composite;
+        v->in_degrees = false;
         if (!finite_at(p, offset, v)) return false;
     }
     return true;

@@ -57,6 +57,8 @@ typedef struct fw_quantity_value {
        forgiven (length / angle is a radius) */
     bool composite;
     bool varies; /* with time: the value is not known yet */
+    bool
+        in_degrees; /* one number of a scale that does not begin at 0 K: of 20 Cel there is no double */
 } fw_quantity_value;
 
 bool fw_quantity_dimension_differs_in_angle(fw_quantity_dimension a,

@@ -125,6 +125,7 @@ static fw_status read_first(const fw_recipe_asrun_reader *r, const char *line, s
     const char *flow = value_of(r->arena, line, words, "flow");
     run->plan = value_of(r->arena, line, words, "plan");
     run->lot = value_of(r->arena, line, words, "lot");
+    run->zone = value_of(r->arena, line, words, "zone");
     FW_NEED(flow && run->plan);
     if (strcmp(flow, r->flow->id) != 0)
         return fw_diag_error(r->diags, 281, r->place, "this is a log of flow %s, not of %s", flow,
@@ -164,6 +165,7 @@ static fw_status read_entry(fw_recipe_asrun_reader *r, const char *plan, const c
     r->bound = plan && strcmp(run->plan, plan) == 0;
     r->former = plan && !r->bound;
     FW_TRY(fw_recipe_asrun_entry_read(r, line, words, '\t', &run->entry[run->nentry]));
+    run->ahead_s = run->entry[run->nentry].ahead_s;
     memcpy(run->entry[run->nentry++].chain, run->chain, sizeof run->chain);
     return FW_OK;
 }
@@ -174,7 +176,7 @@ fw_status fw_recipe_asrun_read_former(fw_arena *arena, const fw_process_flow *fl
     fw_recipe_asrun_reader r = {
         .arena = arena, .flow = flow, .run = run, .diags = diags, .place = {file, 1, 1}};
     size_t lines = 1;
-    *run = (fw_recipe_asrun){.flow = flow};
+    *run = (fw_recipe_asrun){.flow = flow, .ahead_s = (double)NAN};
     for (size_t i = 0; i < n; i++)
         lines += text[i] == '\n';
     FW_NEED(run->entry = fw_arena_array(arena, fw_recipe_asrun_entry, lines));
@@ -230,11 +232,12 @@ bool fw_recipe_asrun_is_log(const char *text, size_t n) {
 
 fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
                                 const char *plan_sha256, const char *lot, const char *wafers,
-                                const char **line) {
+                                const char *zone, const char **line) {
     char chain[65];
-    const char *words = fw_arena_printf(
-        arena, "%s\tflow=%s\tplan=%s%s%s%s%s\thead=kept", first_words, flow->id, plan_sha256,
-        lot ? "\tlot=" : "", lot ? lot : "", wafers ? "\twafers=" : "", wafers ? wafers : "");
+    const char *words =
+        fw_arena_printf(arena, "%s\tflow=%s\tplan=%s%s%s%s%s%s%s\thead=kept", first_words, flow->id,
+                        plan_sha256, lot ? "\tlot=" : "", lot ? lot : "", wafers ? "\twafers=" : "",
+                        wafers ? wafers : "", zone ? "\tzone=" : "", zone ? zone : "");
     FW_NEED(words);
     link_of(arena, "", words, strlen(words), chain);
     FW_NEED(*line = fw_arena_printf(arena, "%s%s%s\n", words, chain_word, chain));
@@ -497,7 +500,7 @@ fw_status fw_recipe_asrun_add_plan(fw_arena *arena, const fw_recipe_asrun *run,
     static const char *const name[FIELDS] = {"start", "by", "note"};
     const char *value[FIELDS] = {0}, *wrong = NULL;
     char chain[65], *copy = fw_arena_strdup(arena, words);
-    double time_s;
+    double time_s, ahead_s;
     FW_NEED(copy);
     if (strlen(words) > LONGEST_WORDS || !fw_text_is_line(words)) wrong = "it is no line of text";
     for (char *at = copy; at && !wrong;) {
@@ -511,7 +514,7 @@ fw_status fw_recipe_asrun_add_plan(fw_arena *arena, const fw_recipe_asrun *run,
         else if (word[0] && strcmp(word, "plan") != 0)
             wrong = "it takes start=, by= and note=, each once";
     }
-    if (!wrong && (!value[START] || !fw_recipe_asrun_time_read(value[START], &time_s)))
+    if (!wrong && (!value[START] || !fw_recipe_asrun_time_read(value[START], &time_s, &ahead_s)))
         wrong = "start= is needed, such as start=2026-11-20T10:00";
     if (!wrong && (!value[BY] || !value[BY][0])) wrong = "by= is needed: who says so";
     if (!wrong && strcmp(run->plan, plan_sha256) == 0) wrong = "the log is of this plan already";

@@ -52,7 +52,8 @@ typedef struct fw_recipe_asrun_entry {
     const fw_process_step *as_set;
     fw_recipe_fate fate;
     const char *why;       /* of a fate, as written */
-    double start_s, end_s; /* local time of the laboratory, seconds since 1970-01-01T00:00 there */
+    double start_s, end_s; /* seconds since 1970-01-01T00:00 of the log's clock (fw_recipe_asrun) */
+    double ahead_s;        /* of UTC, as its start names it; NaN: it names none */
     /* as written; NULL: not given; wafer NULL: the whole lot */
     const char *start, *end, *by, *second, *tool, *bath, *note, *wafer, *instrument;
     const char
@@ -75,7 +76,12 @@ typedef struct fw_recipe_replan {         /* from here on the lot follows anothe
 typedef struct fw_recipe_asrun {
     const fw_process_flow *flow; /* whose steps the entries are of */
     const char *plan, *lot;      /* plan: that of its last lines */
-    const char **wafer;          /* (nwafer) ids of the lot; 0: the log was begun without */
+    /* What its times are of. zone: of the clock of this one, and the seconds are of UTC. NULL: of the laboratory's own clock,
+       of which nobody says when it is changed; from the first entry on that names how far its times are ahead of UTC
+       (ahead_s, else NaN) the seconds are of a clock that is always so far ahead */
+    const char *zone;
+    double ahead_s;
+    const char **wafer; /* (nwafer) ids of the lot; 0: the log was begun without */
     int nwafer;
     fw_recipe_asrun_entry *entry; /* (nentry) in the order of the log */
     int nentry;
@@ -109,7 +115,7 @@ fw_status fw_recipe_asrun_read_next(fw_arena *arena, const fw_process_flow *flow
 
 /* "6" or "A1,A2,B7" as the ids of a lot with commas between; NULL and *wrong: it is neither */
 const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char **wrong);
-/* the line that begins a log (lot and wafers may be NULL), and the line of one entry written as
+/* the line that begins a log (lot, wafers and zone may be NULL), and the line of one entry written as
      C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; wafer=3; thickness=9.1 9.0 9.2 9.1 9.1 um;
      set current=0.2 A; coupon=plating-pads, drawn=1000 um, value=9.1 um, u=0.05 um, at=25 C/cm2
    or of what became of a wafer
@@ -118,10 +124,10 @@ const char *fw_recipe_asrun_wafers(fw_arena *arena, const char *text, const char
    with second, tool, bath, instrument, note, deviation and the step's measures as further words. *line ends with a newline; what
    is wrong with the entry is FW-D282, a value that makes no sense FW-D278, what a cautious colleague would ask a warning
    FW-D283, an entry of a wafer that is scrapped or held FW-D603, a coupon that the flow does not have
-   FW-D605, at `place`. now_s: local time, NaN: not known. */
+   FW-D605, a time that its clock has twice, or never, FW-D717, at `place`. now_s: local time, NaN: not known. */
 fw_status fw_recipe_asrun_begin(fw_arena *arena, const fw_process_flow *flow,
                                 const char *plan_sha256, const char *lot, const char *wafers,
-                                const char **line);
+                                const char *zone, const char **line);
 fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
                               const fw_recipe_asrun *run, const char *words, fw_place place,
                               double now_s, fw_diags *diags, const char **line);

@@ -490,8 +490,9 @@ static void put_read_again(const fw_recipe_asrun *run, fw_text *out) {
 
 fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out) {
-    fw_text_printf(out, "as run: flow %s%s%s, plan %.12s\n", flow->id, run->lot ? ", lot " : "",
-                   run->lot ? run->lot : "", run->plan);
+    fw_text_printf(out, "as run: flow %s%s%s, plan %.12s%s%s\n", flow->id, run->lot ? ", lot " : "",
+                   run->lot ? run->lot : "", run->plan, run->zone ? ", times of " : "",
+                   run->zone ? run->zone : "");
     for (int i = 0; i < run->nreplan; i++)
         fw_text_printf(out, "from line %d on plan %.12s: %s, by %s%s%s\n", run->replan[i].line,
                        run->replan[i].plan, run->replan[i].start, run->replan[i].by,

@@ -8,28 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-static bool digits(const char *s, int n, int *value) {
-    *value = 0;
-    for (int i = 0; i < n; i++) {
-        if (s[i] < '0' || s[i] > '9') return false;
-        *value = 10 * *value + (s[i] - '0');
-    }
-    return true;
-}
-
-bool fw_recipe_asrun_time_read(const char *s, double *time_s) {
-    int hour, minute, second = 0;
-    long day;
-    size_t n = strlen(s);
-    if ((n != 16 && n != 19) || !fw_quantity_date_parse(s, &day) || s[10] != 'T' || s[13] != ':')
-        return false;
-    if (!digits(s + 11, 2, &hour) || !digits(s + 14, 2, &minute)) return false;
-    if (n == 19 && (s[16] != ':' || !digits(s + 17, 2, &second))) return false;
-    if (hour > 23 || minute > 59 || second > 59) return false;
-    *time_s = 86400.0 * (double)day + 3600.0 * hour + 60.0 * minute + second;
-    return true;
-}
-
 static const fw_process_step *step_of(const fw_recipe_asrun_reader *r, const char *id) {
     for (int i = 0; i < r->flow->nstep; i++)
         if (strcmp(r->flow->step[i].id, id) == 0) return &r->flow->step[i];
@@ -374,27 +352,23 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
     const struct {
         const char *name;
         const char **text;
-        double *time_s; /* NULL: a text */
-    } field[] = {{"start", &e->start, &e->start_s},
-                 {"end", &e->end, &e->end_s},
-                 {"by", &e->by, NULL},
-                 {"second", &e->second, NULL},
-                 {"tool", &e->tool, NULL},
-                 {"bath", &e->bath, NULL},
-                 {"note", &e->note, NULL},
-                 {"wafer", &e->wafer, NULL},
-                 {"instrument", &e->instrument, NULL},
-                 {"deviation", &e->deviation, NULL},
-                 {"replaces", &e->replaces, NULL}};
+    } field[] = {
+        {"start", &e->start},         {"end", &e->end},          {"by", &e->by},
+        {"second", &e->second},       {"tool", &e->tool},        {"bath", &e->bath},
+        {"note", &e->note},           {"wafer", &e->wafer},      {"instrument", &e->instrument},
+        {"deviation", &e->deviation}, {"replaces", &e->replaces}};
+    double time_s, ahead_s;
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++) {
         if (strcmp(field[i].name, name) != 0) continue;
         if (*field[i].text)
             return fw_diag_error(r->diags, 282, r->place, "%s is given twice", name);
         *field[i].text = value;
-        if (field[i].time_s && !fw_recipe_asrun_time_read(value, field[i].time_s))
+        const bool is_time = field[i].text == &e->start || field[i].text == &e->end;
+        if (is_time && !fw_recipe_asrun_time_read(value, &time_s, &ahead_s))
             return fw_diag_error(r->diags, 282, r->place,
                                  "%s=%s is not a time; write 2026-11-20T10:00, local time of the "
-                                 "laboratory",
+                                 "laboratory, or 2026-11-20T10:00+01:00, 2026-11-20T09:00Z with "
+                                 "how far it is ahead of UTC",
                                  name, value);
         return field[i].text == &e->wafer ? check_wafer(r, value) : FW_OK;
     }
@@ -565,7 +539,8 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
         return fw_diag_error(r->diags, 282, r->place,
                              "the entry names no step; add step= with its id");
     e->at = e->step;
-    if (e->fate != FW_FATE_RUN && !e->end) e->end = e->start, e->end_s = e->start_s;
+    if (e->fate != FW_FATE_RUN && !e->end) e->end = e->start;
+    FW_TRY(fw_recipe_asrun_times(r, e));
     int there = 0;
     for (int i = 0; i < r->run->nwafer; i++)
         there += !fw_recipe_asrun_out(r->run, r->run->wafer[i], e->start_s);

@@ -23,8 +23,11 @@ typedef struct fw_recipe_asrun_reader {
 fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,
                                      char separator, fw_recipe_asrun_entry *e);
 
-/* YYYY-MM-DDTHH:MM or with :SS behind, of the years 1 to 9999 */
-bool fw_recipe_asrun_time_read(const char *s, double *time_s);
+/* recipe_words.c: YYYY-MM-DDTHH:MM or with :SS behind, of the years 1 to 9999; behind that Z, +02:00, or " UTC+02:00" as of a
+   plan, where it says how far that clock is ahead of UTC: *ahead_s, else NaN. time_s: of that clock */
+bool fw_recipe_asrun_time_read(const char *s, double *time_s, double *ahead_s);
+/* asrun_values.c: start_s and end_s of an entry, from what is written; FW-D717, FW-D718 */
+fw_status fw_recipe_asrun_times(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e);
 /* the times that it is judged by, as a word of its line; nothing where it has none */
 void fw_recipe_asrun_put_planned(const fw_recipe_asrun_entry *e, fw_text *out);
 

@@ -33,9 +33,8 @@ static void heading(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
         fw_text_escaped(out, run->lot);
         fw_text_add(out, "</b>");
     }
-    if (run->nwafer) fw_text_add(out, ", wafers ");
     for (int i = 0; i < run->nwafer; i++) {
-        fw_text_add(out, i ? ", " : "");
+        fw_text_add(out, i ? ", " : ", wafers ");
         fw_text_escaped(out, run->wafer[i]);
     }
     fw_text_printf(out, ". Plan %.12s, log up to %.12s, %d entries.</p>\n", run->plan, run->chain,
@@ -553,6 +552,7 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
     put_text(out, "schema", "flexwright.as-run/1");
     put_text(out, "flow", flow->id);
     put_text(out, "lot", run->lot);
+    put_text(out, "zone", run->zone);
     if (run->nwafer > 0) {
         fw_json_list(out, "wafers");
         for (int i = 0; i < run->nwafer; i++)

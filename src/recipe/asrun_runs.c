@@ -286,7 +286,7 @@ fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_
 /* ---- wafers in one machine at one time ---- */
 
 double fw_recipe_asrun_clock_s(const fw_recipe_asrun_entry *e) {
-    const bool to_the_second = strlen(e->start) > 16 && strlen(e->end) > 16;
+    const bool to_the_second = e->start[16] == ':' && e->end[16] == ':';
     return to_the_second ? 0.0 : 60.0;
 }
 

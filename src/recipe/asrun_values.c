@@ -7,6 +7,7 @@
 #include "recipe/recipe_words.h"
 #include "schedule/schedule.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* ---- numbers at the sites of a wafer with their unit ---- */
@@ -486,6 +487,75 @@ fw_status fw_recipe_asrun_ask_contradictions(const fw_recipe_asrun *run,
         FW_TRY(ask_time_of(run, e, &e->coupon[i], place, diags));
         FW_TRY(ask_mask_of(run, e, &e->coupon[i], place, diags));
     }
+    return FW_OK;
+}
+
+/* ---- times ----
+   Of a log with a zone, and where an entry says how far its clock is ahead of UTC, a duration is what passed in truth also
+   where the clock was changed meanwhile. Test: test_asrun.c, clocks_that_are_changed */
+
+/* "+02:00" */
+static const char *put_ahead(char text[16], double ahead_s) {
+    const int minutes = (int)lround(fabs(ahead_s) / 60.0);
+    snprintf(text, 16, "%c%02d:%02d", ahead_s < 0.0 ? '-' : '+', minutes / 60 % 100, minutes % 60);
+    return text;
+}
+
+/* a time of the clock of the log's zone that says no more of itself, as one of UTC: that clock has it once */
+static fw_status time_of_zone(const fw_recipe_asrun_reader *r, const char *name, const char *text,
+                              double *time_s) {
+    double utc_s[2] = {*time_s, *time_s};
+    char first[16], second[16];
+    const double clock_s = *time_s;
+    const int n = fw_schedule_zone_times(r->run->zone, clock_s, utc_s);
+    *time_s = utc_s[0];
+    if (n == 1) return FW_OK;
+    if (n < 1)
+        return fw_diag_error(r->diags, 717, r->place,
+                             "%s=%s: no clock of this log's zone (%s) shows that time, for it is "
+                             "set forward over it; correct the time, or write behind it how far "
+                             "the clock was ahead of UTC",
+                             name, text, r->run->zone);
+    return fw_diag_error(r->diags, 717, r->place,
+                         "%s=%s: the clock of this log's zone (%s) is set back over that time and "
+                         "shows it twice; write %s=%s%s before the change, %s=%s%s behind it",
+                         name, text, r->run->zone, name, text, put_ahead(first, clock_s - utc_s[0]),
+                         name, text, put_ahead(second, clock_s - utc_s[1]));
+}
+
+/* that a log has of its times is known of all of them, or of none */
+static fw_status check_said(const fw_recipe_asrun_reader *r, const char *name, const char *text,
+                            double ahead_s, double other_s) {
+    const bool begun = !isnan(r->run->ahead_s);
+    if (!isnan(ahead_s) || r->run->zone || (isnan(other_s) && !(begun && r->fresh))) return FW_OK;
+    return fw_diag_error(r->diags, 718, r->place,
+                         "%s=%s does not say how far its clock is ahead of UTC, and %s does: write "
+                         "Z or the like of +01:00 behind it, for else nobody knows how long it "
+                         "took over a change of the clocks",
+                         name, text,
+                         isnan(other_s) ? "an earlier entry of this log" : "the other time");
+}
+
+fw_status fw_recipe_asrun_times(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e) {
+    double ahead_s[2] = {(double)NAN, (double)NAN}, time_s[2] = {(double)NAN, (double)NAN};
+    const char *const text[2] = {e->start, e->end}, *const name[2] = {"start", "end"};
+    for (int k = 0; k < 2; k++)
+        if (text[k] && !fw_recipe_asrun_time_read(text[k], &time_s[k], &ahead_s[k]))
+            return FW_INTERNAL; /* it was looked at */
+    /* of UTC, or of the clock that is so far ahead of it as the first of all times that say so */
+    const double first_s = !isnan(r->run->ahead_s) ? r->run->ahead_s
+                           : !isnan(ahead_s[0])    ? ahead_s[0]
+                                                   : ahead_s[1];
+    for (int k = 0; k < 2; k++) {
+        if (!text[k]) continue;
+        if (text[1 - k]) FW_TRY(check_said(r, name[k], text[k], ahead_s[k], ahead_s[1 - k]));
+        if (!isnan(ahead_s[k]))
+            time_s[k] += (r->run->zone ? 0.0 : first_s) - ahead_s[k];
+        else if (r->run->zone)
+            FW_TRY(time_of_zone(r, name[k], text[k], &time_s[k]));
+    }
+    e->start_s = time_s[0], e->end_s = time_s[1];
+    e->ahead_s = first_s;
     return FW_OK;
 }
 

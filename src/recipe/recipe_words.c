@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "recipe/recipe_words.h"
+#include "recipe/asrun_parts.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -451,4 +452,43 @@ void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
         one_wafer(out, s);
     else
         all_wafers(out, s);
+}
+
+/* ---- times as they are written in a log ---- */
+
+static bool digits(const char *s, int n, int *value) {
+    *value = 0;
+    for (int i = 0; i < n; i++) {
+        if (s[i] < '0' || s[i] > '9') return false;
+        *value = 10 * *value + (s[i] - '0');
+    }
+    return true;
+}
+
+/* "Z", "+02:00", " UTC", " UTC+02:00"; nothing: not said */
+static bool ahead_read(const char *s, double *ahead_s) {
+    int hour, minute;
+    *ahead_s = (double)NAN;
+    if (!*s) return true;
+    *ahead_s = 0.0;
+    if (strcmp(s, "Z") == 0 || strcmp(s, " UTC") == 0) return true;
+    if (strncmp(s, " UTC", 4) == 0) s += 4;
+    if ((*s != '+' && *s != '-') || strlen(s) != 6 || s[3] != ':' || !digits(s + 1, 2, &hour) ||
+        !digits(s + 4, 2, &minute) || minute > 59)
+        return false;
+    *ahead_s = (*s == '-' ? -1.0 : 1.0) * (3600.0 * hour + 60.0 * minute);
+    return *ahead_s >= -12.0 * 3600.0 && *ahead_s <= 14.0 * 3600.0;
+}
+
+bool fw_recipe_asrun_time_read(const char *s, double *time_s, double *ahead_s) {
+    int hour, minute, second = 0;
+    long day;
+    if (strlen(s) < 16 || !fw_quantity_date_parse(s, &day) || s[10] != 'T' || s[13] != ':')
+        return false;
+    if (!digits(s + 11, 2, &hour) || !digits(s + 14, 2, &minute)) return false;
+    const bool seconds = s[16] == ':';
+    if (seconds && !digits(s + 17, 2, &second)) return false;
+    if (hour > 23 || minute > 59 || second > 59) return false;
+    *time_s = 86400.0 * (double)day + 3600.0 * hour + 60.0 * minute + second;
+    return ahead_read(s + (seconds ? 19 : 16), ahead_s);
 }

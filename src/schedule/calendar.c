@@ -245,42 +245,83 @@ static void clock_changes(fw_schedule_calendar *c, const rule rules[2], const do
     }
 }
 
-static bool posix_zone(const char *text, fw_schedule_calendar *c) {
-    rule rules[2];
-    double west_s, summer_s;
+typedef struct zone {
+    double ahead_s[2]; /* of UTC, in winter and in summer */
+    rule rules[2];     /* when summer begins and ends */
+    bool changed;      /* else it is ahead_s[0] all the time */
+} zone;
+
+static bool posix_zone(const char *text, zone *z) {
+    double west_s;
     text = span_of(behind_name(text), 24, &west_s);
     if (!text) return false;
-    const double winter_s = -west_s;
-    c->zoned = true;
-    c->zone_min = (int)lround(winter_s / 60.0);
+    z->ahead_s[0] = -west_s;
     if (!*text) return true;
     text = behind_name(text);
-    summer_s = winter_s + 3600.0;
+    z->ahead_s[1] = z->ahead_s[0] + 3600.0;
+    z->changed = true;
     if (text && *text != ',') {
         text = span_of(text, 24, &west_s);
-        summer_s = -west_s;
+        z->ahead_s[1] = -west_s;
     }
-    text = rule_of(rule_of(text, &rules[0]), &rules[1]);
-    if (!text || *text) return false;
-    clock_changes(c, rules, (const double[]){winter_s, summer_s});
-    return true;
+    text = rule_of(rule_of(text, &z->rules[0]), &z->rules[1]);
+    return text && !*text;
 }
 
-/* " UTC", " UTC+01:00", a rule or nothing, to the end of the text; zones reach from UTC-12:00 to UTC+14:00. "UTC+1" and
+static bool is_on_earth(double ahead_s) {
+    return ahead_s >= -12 * 3600.0 && ahead_s <= 14 * 3600.0;
+}
+
+/* "UTC", "UTC+01:00" or a rule, to the end of the text; zones reach from UTC-12:00 to UTC+14:00. "UTC+1" and
    the like are no rules: their sign is the other way round there, and nobody means that */
-static bool zone_of(const char *text, fw_schedule_calendar *c) {
-    static const char utc[] = " UTC";
+static bool zone_of(const char *text, zone *z) {
+    static const char utc[] = "UTC";
     double ahead_s = 0.0;
-    if (!*text) return true;
+    *z = (zone){.changed = false};
     if (strncmp(text, utc, sizeof utc - 1) != 0)
-        return *text == ' ' && posix_zone(text + 1, c) && c->zone_min >= -12 * 60 &&
-               c->zone_min <= 14 * 60;
+        return posix_zone(text, z) && is_on_earth(z->ahead_s[0]) && is_on_earth(z->ahead_s[1]);
     text += sizeof utc - 1;
     const char sign = *text, *end = sign ? clock_of(text + 1, &ahead_s) : text;
     if (!end || *end || (sign && sign != '+' && sign != '-')) return false;
+    z->ahead_s[0] = sign == '-' ? -ahead_s : ahead_s;
+    return is_on_earth(z->ahead_s[0]);
+}
+
+/* how far its clock is ahead of UTC at a time of UTC */
+static double zone_ahead_at(const zone *z, double utc_s) {
+    long civil[3];
+    if (!z->changed) return z->ahead_s[0];
+    fw_quantity_civil((long)floor(utc_s / day_s), civil);
+    double last = -(double)INFINITY, ahead = z->ahead_s[0];
+    for (long year = civil[0] - 1; year <= civil[0] + 1; year++)
+        for (int k = 0; k < 2; k++) { /* rule 0 begins summer, on the clock of winter */
+            const double at = change_in(&z->rules[k], year) - z->ahead_s[k];
+            if (at <= utc_s && at > last) last = at, ahead = z->ahead_s[1 - k];
+        }
+    return ahead;
+}
+
+int fw_schedule_zone_times(const char *text, double clock_s, double utc_s[2]) {
+    zone z;
+    int n = 0;
+    if (!zone_of(text, &z)) return -1;
+    const double least = z.changed ? fmin(z.ahead_s[0], z.ahead_s[1]) : z.ahead_s[0],
+                 most = z.changed ? fmax(z.ahead_s[0], z.ahead_s[1]) : z.ahead_s[0];
+    const double ahead[2] = {most, least}; /* the earlier time first */
+    for (int k = 0; k < (most > least ? 2 : 1); k++)
+        if (zone_ahead_at(&z, clock_s - ahead[k]) == ahead[k]) utc_s[n++] = clock_s - ahead[k];
+    return n;
+}
+
+/* behind the date of a calendar: a blank and a zone, or nothing */
+static bool calendar_zone(const char *text, fw_schedule_calendar *c) {
+    zone z;
+    if (!*text) return true;
+    if (*text != ' ' || !zone_of(text + 1, &z)) return false;
     c->zoned = true;
-    c->zone_min = (int)lround(ahead_s / 60.0) * (sign == '-' ? -1 : 1);
-    return c->zone_min >= -12 * 60 && c->zone_min <= 14 * 60;
+    c->zone_min = (int)lround(z.ahead_s[0] / 60.0);
+    if (z.changed) clock_changes(c, z.rules, z.ahead_s);
+    return true;
 }
 
 /* " from 2026-11-23", "T13:00" behind it, a zone behind that; a plan that begins in 9999 could end where dates have no
@@ -293,7 +334,7 @@ static bool date_of(const char *text, fw_schedule_calendar *c) {
     if (!c->dated) return false;
     text += n + sizeof "2026-11-23" - 1;
     if (*text == 'T') text = clock_of(text + 1, &c->first_s);
-    return text && zone_of(text, c);
+    return text && calendar_zone(text, c);
 }
 
 bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *c) {

@@ -135,6 +135,9 @@ typedef struct fw_schedule_options {
 /* "08:00-18:00", "08:00-12:00,13:00-18:00" with breaks between, or "none"; behind it " from 2026-11-23" where the plan
    begins on a date, "T13:00" where on a time of it, " UTC" or " UTC+01:00" where its zone is stated, or a rule of POSIX for one whose clocks are changed, " CET-1CEST,M3.5.0,M10.5.0/3";
    false: it is none of these */
+/* calendar.c: a time of the clock of a zone ("UTC", "UTC+01:00" or a rule of POSIX, as in a day) as times of UTC, s since 1970, the
+   earlier one first: how many there are, 0 where the clock passes over it, 2 where it is set back over it; -1: that is no zone */
+int fw_schedule_zone_times(const char *zone, double clock_s, double utc_s[2]);
 /* calendar.c: are the hours and dates of a laboratory's machines such? FW-D376. It is asked where a laboratory pack is read, also
    where nothing is scheduled */
 fw_status fw_schedule_tool_words(const fw_process_flow *flow, fw_diags *diags);

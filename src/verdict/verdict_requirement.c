@@ -261,7 +261,7 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion, const
                                      fw_verdict_places_error(motion, &m->device->probe[q->probe]),
                  lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
     const bool gap = !isnan(p->moved), /* neither is below 0 */
-        size = r->size = gap || m->device->probe[q->probe].row == FW_PROBE_IS_distance;
+        size = r->size = gap || fw_probe_is_size(&m->device->probe[q->probe]);
     r->swing = gap ? p->moved : fmax(fabs(p->maximum - p->origin), fabs(p->minimum - p->origin));
     if (q->measure == FW_MEASURE_PARASITIC) r->swing = fabs(p->across);
     if (q->measure == FW_MEASURE_PEAK_TO_PEAK) r->swing *= 2; /* either end may */

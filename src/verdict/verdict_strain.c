@@ -491,14 +491,20 @@ double fw_verdict_motion_model_error(const fw_mechanism *m, const fw_dynamics_mo
    unknown as more. */
 double fw_verdict_motion_beside(const fw_dynamics_motion *x) {
     const double most = 100, share = x->ledger.beside;
-    return share < 1 ? fmin(share / (1 - share), most) : most;
+    double largest = 0;
+    for (int i = 0; i < x->npin; i++)
+        largest = fmax(largest, fabs(x->peak[i].angle_rad));
+    const double more = x->ledger.beside_rad > 0 ? x->ledger.beside_rad / largest : 0;
+    return share < 1 ? fmin(share / (1 - share) + more, most) : most;
 }
 
 /* rad: the part of it in every peak's error_rad */
 double fw_verdict_motion_beside_rad(const fw_dynamics_motion *x) {
     const double out = x->ledger.left_out + x->ledger.beside,
                  all = out > 0 ? fw_dynamics_motion_left_out(x) : 0;
-    return isfinite(all) && out > 0 ? all * x->ledger.beside / out : 0;
+    if (!isfinite(all)) return 0;
+    return x->ledger.beside_rad +
+           (out > 0 ? (all - x->ledger.beside_rad) * x->ledger.beside / out : 0);
 }
 
 /* ---- how near the two of a contact come in a motion (verdict_stiction.c judges it) ---- */

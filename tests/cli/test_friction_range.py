@@ -17,7 +17,7 @@ except ImportError:  # the system's python has it where another one comes first
     os.environ["FW_OTHER_PYTHON"] = "1"
     os.execv(other, [other, *sys.argv])
 
-from common import ALL, run
+from common import ALL, ROOT, run
 
 STEPS, INNER = 24, 160
 
@@ -336,6 +336,27 @@ class ModesBetween(unittest.TestCase):
                     self.assertAlmostEqual(high / stuck[rubs], 1, 10)
                 else:
                     self.assertIsNone(high)
+
+
+
+class Sliders(unittest.TestCase):
+    def test_errors_hold_what_a_tighter_run_finds(self):
+        """six sliders, of which a run of the accuracy that is asked misses an event that a tighter one has, and the run that it is compared
+        with misses it, too: the first slider was off by 1.5 of its error, and the accuracy was said to be 0. A scene of 20 ms: the fourth by 5"""
+        path = ROOT / "tests/data/friction/six-sliders.xml"
+        for duration in ("0.05 s", "0.02 s"):
+            text = path.read_text().replace('duration="0.05 s"', f'duration="{duration}"')
+            def said(accuracy):
+                done = run("simulate", "-", "--accuracy", accuracy, "--json", input=text)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                return json.loads(done.stdout)
+            true = said("1e-6")
+            for accuracy in ("1e-1", "1e-2", "1e-3"):
+                found = said(accuracy)
+                self.assertTrue(0 < found["accuracy"]["estimated"] <= float(accuracy), found["accuracy"])
+                for p, q in zip(found["probes"], true["probes"]):
+                    for value, error in (("final", "final_error"), ("maximum", "error"), ("minimum", "error")):
+                        self.assertLessEqual(abs(p[value] - q[value]), 0.5 * (p[error] + q[error]), (duration, accuracy, p, q))
 
 
 if __name__ == "__main__":

@@ -188,7 +188,7 @@ static void a_log(fw_arena *arena, fw_diags *diags, const char *text, size_t n) 
     /* words of --entry: what is taken is read again */
     const char *first, *line, *words = fw_arena_strndup(arena, text, n);
     fw_diags own = fw_diags_new(arena);
-    if (!words || fw_recipe_asrun_begin(arena, flow, plan, "lot", "3", &first) != FW_OK) return;
+    if (!words || fw_recipe_asrun_begin(arena, flow, plan, "lot", "3", NULL, &first) != FW_OK) return;
     if (fw_recipe_asrun_read(arena, flow, plan, "lot.log", first, strlen(first), &own, &run) !=
         FW_OK)
         wrong("a log that begins");

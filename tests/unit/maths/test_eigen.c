@@ -74,11 +74,41 @@ static void refusals(void **state) {
     fw_arena_free(arena);
 }
 
+/* a large one is the same problem, and whoever is asked to stop does not wait for its end */
+static void stops_in_time(void **state) {
+    (void)state;
+    enum { N = 300 };
+    fw_arena *arena = fw_arena_new(0);
+    fw_cancel cancel = {0};
+    fw_arena_stop_with(arena, &cancel);
+    double *a = fw_arena_array(arena, double, N * N), *copy = fw_arena_array(arena, double, N * N),
+           *x = fw_arena_array(arena, double, N * N), re[N], im[N], apart = 0;
+    uint64_t seed = 7;
+    assert_true(a && copy && x);
+    for (int i = 0; i < N * N; i++)
+        copy[i] = a[i] = next(&seed);
+    assert_int_equal(fw_maths_eigen_general(arena, N, a, re, im, x), FW_OK);
+    for (int k = 0; k < N; k++) {
+        if (im[k] != 0) continue;
+        for (int i = 0; i < N; i++) {
+            double left = -re[k] * x[k * N + i];
+            for (int j = 0; j < N; j++)
+                left += copy[i * N + j] * x[k * N + j];
+            apart = fmax(apart, fabs(left));
+        }
+    }
+    assert_true(apart < 1e-11);
+    memcpy(a, copy, N * N * sizeof *a);
+    fw_cancel_request(&cancel, 1);
+    assert_int_equal(fw_maths_eigen_general(arena, N, a, re, im, x), FW_CANCELLED);
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(general_pairs_satisfy_their_equation),
         cmocka_unit_test(roots_of_unity),
         cmocka_unit_test(refusals),
-    };
+                                       cmocka_unit_test(stops_in_time)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -75,6 +75,9 @@ static void values(void **state) {
         {"20 Cel", {.K = 1}, 293.15},
         {"-40 Cel", {.K = 1}, 233.15},
         {"20 Cel - 40 Cel", {.K = 1}, -20},
+        {"0.5*(20 Cel + 40 Cel)", {.K = 1}, 303.15},
+        {"2*(40 Cel - 20 Cel)", {.K = 1}, 40},
+        {"20 Cel/300 K*300 K", {.K = 1}, 293.15},
         {"-40 Cel - 20 Cel", {.K = 1}, -60},
         {"-40 K", {.K = 1}, -40},
         {"1e3", pure, 1000},
@@ -136,6 +139,9 @@ static void errors(void **state) {
         {"sinn(1)", pure, 23, 0, "'sin'"},
         {"sqrt(1, 2)", pure, 23, 0, "1 argument, 2 given"},
         {"atan2(1)", pure, 23, 0, "2 arguments, 1 given"},
+        {"2*20 Cel", {.K = 1}, 719, 1, "586.3 K"}, /* 40 Cel is meant, or nothing */
+        {"20 Cel*2", {.K = 1}, 719, 6, "586.3 K"},
+        {"(20 Cel)/2", {.K = 1}, 719, 8, "in K"},
         {"1 um + 1 mg", length, 26, 5, "a length cannot be added to a mass"},
         {"1 um - 1", length, 26, 5, "a pure number cannot be subtracted from a length"},
         {"1 um + 2 um deg", length, 26, 5, "m rad"}, /* only products are forgiven */

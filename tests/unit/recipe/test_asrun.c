@@ -18,7 +18,7 @@ static const char plan[] = "00112233445566778899aabbccddeeff00112233445566778899
 
 static double now = (double)NAN;      /* of the clock; NaN: there is none */
 static const fw_recipe_counted all_count = {0};
-static const char *lot_wafers = NULL; /* of logs that begin */
+static const char *lot_wafers = NULL, *lot_zone = NULL; /* of logs that begin */
 static int setup(void **state) {
     (void)state;
     arena = fw_arena_new(0);
@@ -28,7 +28,7 @@ static int setup(void **state) {
 }
 static int teardown(void **state) {
     (void)state;
-    lot_wafers = NULL;
+    lot_wafers = lot_zone = NULL;
     now = (double)NAN;
     fw_arena_free(arena);
     return 0;
@@ -57,7 +57,7 @@ static const char *with(const char *log, const char *words, int number) {
 
 static const char *begun(void) {
     const char *line;
-    assert_int_equal(fw_recipe_asrun_begin(arena, flow, plan, "lot 7", lot_wafers, &line), FW_OK);
+    assert_int_equal(fw_recipe_asrun_begin(arena, flow, plan, "lot 7", lot_wafers, lot_zone, &line), FW_OK);
     return line;
 }
 
@@ -192,6 +192,66 @@ static void what_is_written_is_read(void **state) {
     assert_near(e->measured[0].number, 7.9, 0.0);
 }
 
+/* 150 min of the night in which the clock is set back are 90 min of what it shows, and 9 min of that in which it is set
+   forward are 69 */
+static void clocks_that_are_changed(void **state) {
+    (void)state;
+    static const char zone[] = "CET-1CEST,M3.5.0,M10.5.0/3";
+    static const struct {
+        const char *zone, *start, *end;
+        double took_min; /* 0: refused with */
+        int number;
+    } entry[] = {
+        {zone, "2026-10-25T01:00", "2026-10-25T03:00", 180, 0},
+        {zone, "2026-10-25T01:00", "2026-10-25T02:30", 0, 717},
+        {zone, "2026-10-25T01:00", "2026-10-25T02:30+01:00", 150, 0},
+        {zone, "2026-10-25T01:00", "2026-10-25T00:30Z", 90, 0},
+        {zone, "2026-10-25T02:50+02:00", "2026-10-25T02:10+01:00", 20, 0},
+        {zone, "2026-10-25T02:50+02:00", "2026-10-25T02:40 UTC+02:00", 0, 282},
+        {zone, "2026-03-29T01:55", "2026-03-29T03:04", 9, 0},
+        {zone, "2026-03-29T02:30", "2026-03-29T03:04", 0, 717},
+        {zone, "2026-03-29T01:30", "2026-03-29T02:00", 0, 717},
+        {zone, "2026-11-20T10:00", "2026-11-20T10:20", 20, 0},
+        {"UTC+05:30", "2026-10-25T01:00", "2026-10-25T02:30", 90, 0},
+        {"UTC", "2026-10-25T01:00", "2026-10-25T02:30+01:00", 30, 0},
+        {"NZST-12NZDT,M9.5.0,M4.1.0/3", "2026-04-05T01:00", "2026-04-05T04:00", 240, 0}, /* south */
+        {NULL, "2026-10-25T01:00", "2026-10-25T02:30", 90, 0},
+        {NULL, "2026-10-25T01:00+02:00", "2026-10-25T02:30+01:00", 150, 0},
+        {NULL, "2026-10-24T23:00Z", "2026-10-25T02:30+01:00", 150, 0},
+        {NULL, "2026-10-25T01:00+02:00", "2026-10-25T02:30", 0, 718},
+        {NULL, "2026-10-25T01:00", "2026-10-25T02:30+01:00", 0, 718}};
+    for (size_t i = 0; i < sizeof entry / sizeof entry[0]; i++) {
+        fw_recipe_asrun run;
+        lot_zone = entry[i].zone;
+        const char *log = with(begun(), fw_arena_printf(arena, "C20; start=%s; end=%s; by=A", entry[i].start, entry[i].end),
+                               entry[i].number);
+        if (entry[i].number) continue;
+        assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+        assert_near(run.entry[0].end_s - run.entry[0].start_s, 60.0 * entry[i].took_min, 0);
+        assert_true(lot_zone ? strcmp(run.zone, lot_zone) == 0 : !run.zone);
+    }
+    /* waits between entries, too, and who once says it goes on saying it */
+    fw_recipe_asrun run;
+    lot_zone = NULL;
+    const char *log = with(begun(), "C20; start=2026-10-25T00:00; end=2026-10-25T00:09; by=AB", 0);
+    log = with(log, "C20; start=2026-10-25T02:00+02:00; end=2026-10-25T02:10+02:00; by=AB", 0);
+    log = with(log, "C21; start=2026-10-25T02:00+01:00; end=2026-10-25T01:05Z; by=AB", 0);
+    with(log, "C22; start=2026-10-25T03:00; end=2026-10-25T03:20; by=AB; second=CD", 718);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_near(run.entry[1].start_s - run.entry[0].end_s, 60.0 * 111, 0);
+    assert_near(run.entry[2].start_s - run.entry[1].end_s, 60.0 * 50, 0);
+    assert_near(run.entry[2].end_s - run.entry[2].start_s, 300.0, 0);
+    fw_text text = fw_text_new(arena);
+    lot_zone = zone;
+    log = with(begun(), "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB", 0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_non_null(strstr(text.data, "times of CET-1CEST,M3.5.0,M10.5.0/3"));
+    fw_text json = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_non_null(strstr(json.data, "\"zone\":\"CET-1CEST,M3.5.0,M10.5.0/3\""));
+}
+
 static void dates(void **state) {
     (void)state;
     static const struct {
@@ -212,7 +272,9 @@ static void dates(void **state) {
     static const char *const wrong[] = {"2026-11-31T00:00",  "2026-02-29T00:00", "2100-02-29T00:00",
                                         "2026-13-01T00:00",  "2026-00-01T00:00", "2026-11-20T24:00",
                                         "2026-11-20T10:60",  "2026-11-20 10:00", "20.11.2026",
-                                        "2026-11-20T10:00Z", "2026-11-20T10:0a"};
+                                        "2026-11-20T10:00z", "2026-11-20T10:0a",
+                                        "2026-11-20T10:00+1", "2026-11-20T10:00+15:00",
+                                        "2026-11-20T10:00 CET", "2026-11-20T10:00+01:60"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         with(begun(), fw_arena_printf(arena, "C20; start=%s; end=2026-11-21T00:00; by=A", wrong[i]),
              282);
@@ -1763,6 +1825,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(runs_add_up, setup, teardown),
         cmocka_unit_test_setup_teardown(what_was_put_right_stands, setup, teardown),
         cmocka_unit_test_setup_teardown(dates, setup, teardown),
+        cmocka_unit_test_setup_teardown(clocks_that_are_changed, setup, teardown),
         cmocka_unit_test_setup_teardown(refused_entries, setup, teardown),
         cmocka_unit_test_setup_teardown(changes_are_seen, setup, teardown),
         cmocka_unit_test_setup_teardown(answers_are_one_or_of_all_sites, setup, teardown),
