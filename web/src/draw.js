@@ -101,14 +101,17 @@ export class Draw {
         this.mechanism.compareWith(p, p && restOf(p));
     }
 
-    /** The tree of the text and its places; null while it is no XML. */
-    #read() {
+    /** The tree of the text and its places; null while it is no XML. What is held is taken as it is now: whoever plans a move has
+     *  the same places before and after it. but: paths of what is held that do not count. */
+    #read(but = []) {
         if (this.readOf !== state.text) {
             this.readOf = state.text;
             this.root = parse(state.text, (name) => this.keys.get(name) ?? null) ?? this.root;
         }
         const rests = new Map((state.picture?.bodies ?? []).filter((b) => b.rest).map((b) => [b.id, b.rest]));
-        this.places = this.root ? new Places(this.root, this.units, state.set, rests) : null;
+        const held = { ...state.set };
+        for (const path of but) delete held[path];
+        this.places = this.root ? new Places(this.root, this.units, held, rests) : null;
     }
 
     #refresh() {
@@ -336,6 +339,7 @@ export class Draw {
 
     #down(event) {
         if (event.button !== 0 || !this.places) return;
+        this.#refresh(); // a move that is on its way to the text counts: what is taken up now stands where it is seen
         if (!this.points.length) this.origin = null;
         this.#still();
         if (this.tool) {
@@ -398,7 +402,7 @@ export class Draw {
             if (Math.hypot(event.clientX - d.at[0], event.clientY - d.at[1]) < CLICK_PIXELS) return;
             d.handle = d.candidate;
             this.view.fitted = false;
-            d.places = this.places;
+            this.#taken();
         }
         this.#still();
         const p = this.view.at(event);
@@ -411,6 +415,16 @@ export class Draw {
         this.#drag(snapped);
     }
 
+    /** What is dragged, in the text as it is without the drag: at its beginning, and where the text has changed under it. */
+    #taken() {
+        const d = this.drag;
+        d.of = state.text;
+        this.#read(d.held.keys());
+        this.list = this.#handlesOf(this.places);
+        d.places = this.places;
+        d.handle = this.list.find((x) => x.id === d.candidate.id) ?? d.candidate;
+    }
+
     /** Elements that move with a handle: none of their points is a place to snap to. */
     #together(handle) {
         return [handle.element, ...handle.wants(this.drag.places, handle.at).map((w) => w.element), ...(handle.body && handle.element.name === "body" ? handle.element.children.flatMap((c) => [c, ...c.children]) : [])];
@@ -418,6 +432,7 @@ export class Draw {
 
     #drag(snapped) {
         const d = this.drag;
+        if (d.of !== state.text) this.#taken();
         const now = plan(d.places, d.handle, snapped.at);
         d.now = now;
         d.wanted = snapped.at;
@@ -452,10 +467,17 @@ export class Draw {
         if (!d?.handle) return;
         this.#clear();
         if (d.held.size && ![...d.held.keys()].some((path) => path in state.set)) return this.#refresh(); // it was taken while it was held
-        await this.#commit(d.handle, d.now, d.wanted, d.places);
+        if (d.of !== state.text) {
+            this.drag = d;
+            this.#taken();
+            this.drag = null;
+            d.now = plan(d.places, d.handle, d.wanted);
+            holdTogether(d.now.changes, d.held.keys());
+        }
+        await this.#commit(d.handle, d.now, d.wanted);
     }
 
-    async #commit(handle, now, wanted, places) {
+    async #commit(handle, now, wanted) {
         const why = await letGoTogether(now.changes, `${handle.label} moved`);
         this.#refresh();
         const short = Math.max(Math.abs(wanted[0] - now.target[0]), Math.abs(wanted[1] - now.target[1]));
@@ -585,7 +607,9 @@ export class Draw {
 
     async #goto(handle, target) {
         const now = plan(this.places, handle, target);
-        const why = await this.#commit(handle, now, target, this.places);
+        holdTogether(now.changes); // the next step begins where this one ends, also before it is in the text
+        this.#refresh();
+        const why = await this.#commit(handle, now, target);
         const at = this.list.find((x) => x.id === handle.id)?.at;
         if (at) announce(`${handle.label}: x ${um(at[0])}, y ${um(at[1])}`);
         return why;
