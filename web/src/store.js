@@ -14,6 +14,7 @@ export const state = {
     lost: null, // status of the failure since which the server does not answer, or answers this session no more
     lab: {}, // laboratory packs that are in use: name -> text
     labRows: {}, // what is entered of them: flow -> id -> {value, u, status}
+    labSources: {}, // where they are from: flow -> words
     options: {}, // scene, method, integrator, stabilise, rtol, accuracy, effects, hinge_model
     rates: false, // velocities of the motion are looked at, and asked for
     preview: null, // last good flexwright.preview/1
