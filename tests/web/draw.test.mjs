@@ -110,16 +110,21 @@ describe("a gripper from an empty page", () => {
     });
 
     test("a stage, with the mouse alone", async () => {
+        await tool(page, "force");
         await page.click("#new");
         await page.click('.template:has-text("Empty page")');
         await page.click("dialog .drop"); // the gripper was not saved
         await page.waitForSelector("#right .problems:has-text('Nothing is drawn yet')");
+        assert.equal(await page.getAttribute('.draw-tools [data-tool="select"]', "aria-pressed"), "true"); // the tool was for the device before
         await tool(page, "bar");
         await page.selectOption('label:has-text("belongs to") select', "");
         for (const x of [-500, 500]) await changed(page, () => drag(page, [x, 0], [x, 900]));
         await changed(page, () => drag(page, [-500, 900], [500, 900]));
         await tool(page, "hinge");
         for (const at of [[-500, 0], [500, 0], [-500, 900], [500, 900]]) await changed(page, () => click(page, at));
+        await tool(page, "hinge");
+        await click(page, [0, 400]); // beside the links
+        await page.waitForSelector('.notice:has-text("choose that under \\"holds\\"")');
         await tool(page, "force");
         await changed(page, () => drag(page, [0, 900], [200, 900]));
         await verdict(page, "accept");

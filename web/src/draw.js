@@ -21,6 +21,7 @@ import { TOOLS } from "./tools.js";
 const CLICK_PIXELS = 4; // less is no drag
 const TOUCH_PIXELS = 10; // around a body that still hits it
 const TIP_PIXELS = 62; // from a load to the handle of its direction
+const TIP_MARGIN = 14; // of that handle, from the edge of the picture
 const EMPTY = [-1000, -800, 1000, 1200]; // um, of a page without anything
 const GRIDS = [["", "grid: auto"], ["0", "no grid"], ["1", "1 µm"], ["5", "5 µm"], ["10", "10 µm"], ["50", "50 µm"], ["100", "100 µm"]];
 
@@ -66,6 +67,7 @@ export class Draw {
         this.#pointer();
         this.#keys();
         on("text", () => this.#refresh());
+        on("another", () => this.tool && this.#use(null)); // what is drawn on next is another device
         on("pinned", () => this.visible && this.#pinned());
         on("picture", () => this.visible && this.#base());
         on("answer", () => this.#refresh());
@@ -173,6 +175,7 @@ export class Draw {
                 "aria-label": `${x.label}, x ${um(x.at[0])}, y ${um(x.at[1])}${words ? `; ${words}` : ""}`, "aria-pressed": String(x.id === this.chosen),
             }, s("circle", { r: 12, class: "reach" }), LOOKS[x.look](), s("title", {}, words ? `${x.label}: ${words}` : x.label), words ? s("text", { class: "fault", x: 8, y: -6 }, "!") : null);
             g.at = x.at;
+            g.from = x.turns ? x.turns(places) : null;
             return g;
         }));
         this.arrows = list.filter((x) => x.turns).map((x) => ({ from: x.turns(places), to: x.at }));
@@ -214,18 +217,31 @@ export class Draw {
     #place() {
         const { view } = this;
         for (const g of this.handles.children) {
-            const [x, y] = view.toScreen(...g.at);
+            const [x, y] = g.from ? this.#tip(g.from, g.at)[1] : view.toScreen(...g.at);
             g.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
         }
         const step = this.grid === "" ? gridStep(view.k) : Number(this.grid);
         this.lines.setAttribute("d", step ? this.#grid(step) : "");
         const arrows = (this.arrows ?? []).map((a) => {
-            const [p, q] = [view.toScreen(...a.from), view.toScreen(...a.to)];
+            const [p, q] = this.#tip(a.from, a.to);
             return `M${p.map((v) => v.toFixed(1)).join(" ")}L${q.map((v) => v.toFixed(1)).join(" ")}`;
         });
         this.stems ??= this.view.overlay.insertBefore(s("path", { class: "tip-stem", "aria-hidden": "true" }), this.handles);
         this.stems.setAttribute("d", arrows.join(""));
         if (this.drawing) this.#rubber();
+    }
+
+    /** Where an arrow begins and ends on the screen: shorter where its handle would be out of the picture. */
+    #tip(from, to) {
+        const [p, q] = [this.view.toScreen(...from), this.view.toScreen(...to)];
+        let share = 1;
+        this.view.size.forEach((size, k) => {
+            const way = q[k] - p[k];
+            const end = Math.min(Math.max(q[k], TIP_MARGIN), size - TIP_MARGIN);
+            if (end !== q[k] && p[k] > 0 && p[k] < size) share = Math.min(share, (end - p[k]) / way);
+        });
+        share = Math.max(share, 0.4); // it does not lie on the load itself
+        return [p, q.map((v, k) => p[k] + share * (v - p[k]))];
     }
 
     #grid(step) {
