@@ -73,15 +73,14 @@ static const char *none_is_zero(fw_arena *arena, const fw_process_accept *a, con
     const bool number = a->low[0] || a->high[0],
                may = !a->low[0] || a->low[0] == '-' || strcmp(a->low, "0") == 0;
     fw_text zero = fw_text_new(arena);
-    fw_word word;
     int n = 0;
+    fw_word word;
     for (const char *at = value; number && may && fw_word_next(&at, " ", &word); n++) {
         if (!fw_word_is(word, "no") && !fw_word_is(word, "none")) return value;
         fw_text_add(&zero, n ? " 0" : "0");
     }
     if (n == 0) return value;
-    if (strcmp(a->unit, "1") != 0 && strcmp(a->unit, "yes/no") != 0)
-        fw_text_printf(&zero, " %s", a->unit);
+    if (strcmp(a->unit, "1") != 0) fw_text_printf(&zero, " %s", a->unit);
     return fw_text_end(&zero) == FW_OK ? zero.data : NULL;
 }
 
