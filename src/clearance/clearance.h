@@ -111,9 +111,10 @@ typedef struct fw_clearance_least {
     fw_clearance_pose pose[2]; /* there */
     double moved_m;            /* how far the pair moved at most; HUGE_VAL: not known */
     double start_m;            /* distance of the pair where the motion begins */
-    double share;              /* of moved_m: where they meet first; 1: they do not */
-    long looked;               /* distances that were computed */
-    bool given_up;             /* too many: low_m is what was proved by then */
+    double share;              /* of went_m: where they meet first; 1: they do not */
+    double went_m; /* where they meet: how far the pair is from its start where it is farthest */
+    long looked;   /* distances that were computed */
+    bool given_up; /* too many: low_m is what was proved by then */
 } fw_clearance_least;
 
 /* before anything was looked at */

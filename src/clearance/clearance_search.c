@@ -285,7 +285,7 @@ static void meets_first(search *s, const fw_clearance_region *all, int p) {
         if (!before || (other.at.bound && !least->at.bound)) continue;
         s->moved_m[k] = other.moved_m;
         const double share = other.share;
-        record(s, k, &other, 0, &other.at);
+        record(s, k, &other, 0, &other.at); /* went_m with it */
         least->share = share;
         least->start_m = start_distance(s, k);
     }

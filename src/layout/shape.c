@@ -466,6 +466,50 @@ fw_status fw_layout_shapes_say_closed(fw_layout_drawing *d, int body) {
 
 /* ---- what hinges take of it ---- */
 
+static const double IN_STRIP_M = 0.1e-6; /* what is rounded off */
+
+/* Of a straight strip that ends, across, in the middle of its own hinge at w: is all of this contour within it? The half of
+   the hinge's place is then what the hinge needs of a link that is drawn to its centre, as it is to be. Longer than wide:
+   what is not is a plate, of which as much of its mass is gone */
+static bool in_strip_to(const fw_geometry_contour *strip, fw_geometry_vec2 w,
+                        const fw_geometry_contour *lost) {
+    for (int k = 0; strip->count == 4 && k < 4; k++) {
+        const fw_geometry_vec2 a = strip->segment[k].a, b = strip->segment[k].b,
+                               to = strip->segment[(k + 1) % 4].b;
+        const double wide = fw_norm(fw_sub(b, a)), length = fw_norm(fw_sub(to, b));
+        const fw_geometry_vec2 u = fw_towards(b, to), v = fw_towards(a, b),
+                               middle = fw_add(a, 0.5 * wide, v);
+        bool within = length > wide && fabs(vec_dot(u, v)) < 1e-6 &&
+                      fw_norm(fw_sub(w, middle)) < 10 * IN_STRIP_M;
+        for (int i = 0; i < lost->count && within; i++) {
+            const fw_geometry_vec2 p = fw_sub(lost->segment[i].a, middle);
+            const double along = vec_dot(p, u), across = fabs(vec_dot(p, v));
+            within = along > -IN_STRIP_M && along < length + IN_STRIP_M &&
+                     across < 0.5 * wide + IN_STRIP_M;
+        }
+        if (within) return true;
+    }
+    return false;
+}
+
+static bool is_own(const fw_layout_drawing *d, int hinge, int body) {
+    return d->hinge[hinge].side[0].body == body || d->hinge[hinge].side[1].body == body;
+}
+
+/* what a link loses to the hinge that it ends in is no mistake */
+static bool ends_in_hinge(fw_layout_drawing *d, int body, int hinge,
+                          const fw_geometry_contour *lost) {
+    const fw_device_body *b = &d->device->body[body];
+    for (int i = 0; is_own(d, hinge, body) && i < b->nshape; i++) {
+        fw_geometry_contour world;
+        if (b->shape[i].text || b->shape[i].hole) continue;
+        if (to_world(d, body, &b->shape[i].contour, &world) == FW_OK &&
+            in_strip_to(&world, d->hinge[hinge].side[0].local.origin, lost))
+            return true;
+    }
+    return false;
+}
+
 fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
     const double told_m2 = 25e-12, /* less is no more than a rounded corner */
         weighs = 0.05;             /* of what is drawn: more is felt in every frequency */
@@ -486,7 +530,8 @@ fw_status fw_layout_shapes_say_cut(fw_layout_drawing *d, int body) {
         if (within.count == 0) continue;
         FW_TRY(fw_geometry_region_boolean(d->arena, &within, &drawn, FW_DIFFERENCE, &lost));
         for (int i = 0; i < lost.count; i++)
-            area += fw_geometry_contour_area(&lost.contour[i]);
+            if (!ends_in_hinge(d, body, j, &lost.contour[i]))
+                area += fw_geometry_contour_area(&lost.contour[i]);
         if (area < told_m2) continue;
         all += area;
         if (area > most) most = area, worst = j;

@@ -46,6 +46,22 @@ static int answers_of(const char *value) {
     return n;
 }
 
+/* "no" or "none", once or for each site, of what is a number and may be 0: that number, in the unit of the sheet; else value */
+static const char *none_is_zero(fw_arena *arena, const fw_process_accept *a, const char *value) {
+    const bool number = a->low[0] || a->high[0],
+               may = !a->low[0] || a->low[0] == '-' || strcmp(a->low, "0") == 0;
+    fw_text zero = fw_text_new(arena);
+    int n = 0;
+    fw_word word;
+    for (const char *at = value; number && may && fw_word_next(&at, " ", &word); n++) {
+        if (!fw_word_is(word, "no") && !fw_word_is(word, "none")) return value;
+        fw_text_add(&zero, n ? " 0" : "0");
+    }
+    if (n == 0) return value;
+    if (strcmp(a->unit, "1") != 0) fw_text_printf(&zero, " %s", a->unit);
+    return fw_text_end(&zero) == FW_OK ? zero.data : NULL;
+}
+
 /* as the step calls it, or as the sheet prints it: "aluminium left on coupon al-step" */
 static const fw_process_accept *measure_named(const fw_process_step *step, const char *name) {
     static const char on[] = " on coupon ";
@@ -64,8 +80,6 @@ static const fw_process_accept *measure_named(const fw_process_step *step, const
 static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                               const char *name, const char *value) {
     const fw_process_accept *a = measure_named(e->step, name);
-    fw_recipe_measured m = {
-        .measure = a ? a->measure : name, .value = value, .number = (double)NAN};
     /* without its plan, whose values may stand in the name of a measure, only coupons are wanted; of a former plan what has a
        name in this one */
     if (!r->bound && (!r->former || !a)) return FW_OK;
@@ -79,6 +93,8 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
         return fw_recipe_asrun_unknown(
             r, fw_arena_printf(r->arena, "step %s measures no", e->step->id), name, known, n);
     }
+    FW_NEED(value = none_is_zero(r->arena, a, value));
+    fw_recipe_measured m = {.measure = a->measure, .value = value, .number = (double)NAN};
     for (int i = 0; i < FW_RECIPE_SITES; i++)
         m.site[i] = (double)NAN;
     int answers = answers_of(value);

@@ -115,10 +115,39 @@ static const char *way_text(fw_arena *arena, const fw_verdict *v,
                            most == least ? "" : " in ", most == least ? "" : most->scene);
 }
 
-/* the least of all scenes and required poses; what meets, or is not known, is among the reasons already */
+/* "A and B 3.2 um (2.8 to 3.6) in close", behind one of the same pair and scene "3.2 um (2.8 to 3.6)" */
+static const char *near_text(fw_arena *arena, const fw_verdict_clearance *c,
+                             const fw_verdict_clearance *behind) {
+    char m[32], low[32], high[32];
+    const fw_clearance_meet *at = &c->least.at, *of = behind ? &behind->least.at : NULL;
+    const bool same = of && strcmp(at->a, of->a) == 0 && strcmp(at->b, of->b) == 0 &&
+                      strcmp(c->scene, behind->scene) == 0;
+    const char *text =
+        fw_arena_printf(arena, "%s um (%s to %s)", fw_number_text(m, sizeof m, 1e6 * c->m, 3),
+                        fw_number_text(low, sizeof low, 1e6 * c->low_m, 3),
+                        fw_number_text(high, sizeof high, 1e6 * c->high_m, 3));
+    if (!text || same) return text;
+    return fw_arena_printf(arena, "%s and %s %s in %s", at->a, at->b, text, c->scene);
+}
+
+/* of all corners that were run, the one of which the least is surely left; NULL: none was looked for */
+static const fw_verdict_fabricated_corner *nearest_corner(const fw_verdict *v) {
+    const fw_verdict_fabricated_corner *least = NULL;
+    for (int i = 0; i < v->nvariant; i++) {
+        const fw_verdict_fabricated_verdict *f = v->variant[i].fabricated;
+        for (int k = 0; f && k < f->ncorner; k++) {
+            const fw_verdict_fabricated_corner *c = &f->corner[k];
+            if (c->clearance && (!least || c->clearance->low_m < least->clearance->low_m))
+                least = c;
+        }
+    }
+    return least;
+}
+
+/* The least of all scenes and required poses; what meets, or is not known, is among the reasons already. Where corners
+   were run and clearances count, the less of drawn and made comes first, and the other behind it. */
 static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     const fw_verdict_clearance *least = NULL;
-    char drawn[32], low[32], high[32];
     for (int i = 0; i < v->nvariant; i++)
         for (int k = 0; k < v->variant[i].nclearance; k++) {
             const fw_verdict_clearance *c = &v->variant[i].clearance[k];
@@ -127,12 +156,23 @@ static fw_status nearest(fw_arena *arena, const fw_verdict *v, fw_report_summary
     if (!least || least->least.m <= 0 || !isfinite(least->low_m)) return FW_OK;
     const char *way = way_text(arena, v, least);
     FW_NEED(way);
-    return add(s, "nearest",
-               fw_arena_printf(
-                   arena, "%s and %s %s um (%s to %s) in %s%s", least->least.at.a,
-                   least->least.at.b, fw_number_text(drawn, sizeof drawn, 1e6 * least->least.m, 3),
-                   fw_number_text(low, sizeof low, 1e6 * least->low_m, 3),
-                   fw_number_text(high, sizeof high, 1e6 * least->high_m, 3), least->scene, way));
+    const fw_verdict_fabricated_corner *corner = nearest_corner(v);
+    if (!corner || corner->clearance->least.m <= 0 || !isfinite(corner->clearance->low_m))
+        return add(s, s->has_made ? "nearest, as drawn" : "nearest",
+                   fw_arena_printf(arena, "%s%s", near_text(arena, least, NULL), way));
+    const bool less = corner->clearance->low_m < least->low_m;
+    const char *made = near_text(arena, corner->clearance, less ? NULL : least),
+               *drawn = near_text(arena, least, less ? corner->clearance : NULL);
+    FW_NEED(made && drawn ? made : NULL);
+    const bool nominal = !corner->what || strcmp(corner->what, "nominal") == 0;
+    const char *at = nominal ? "" : fw_arena_printf(arena, ", with %s", corner->what);
+    FW_NEED(at);
+    if (less)
+        return add(s, "nearest, as made at the corners run",
+                   fw_arena_printf(arena, "%s%s; as drawn %s%s", made, at, drawn, way));
+    return add(
+        s, "nearest, as drawn",
+        fw_arena_printf(arena, "%s%s; as made at the corners run %s%s", drawn, way, made, at));
 }
 
 /* ---- why it is not accepted, each reason once ---- */

@@ -169,7 +169,8 @@ typedef struct walk {
     long found;   /* numbers that were met */
     bool strange; /* something else than a number was met */
     char *why;
-    size_t n; /* bytes of why */
+    size_t n;          /* bytes of why */
+    char several[200]; /* what names the elements that are meant of the first list; "": none */
 } walk;
 
 static void say(walk *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -270,6 +271,32 @@ static bool selected(const json_t *item, const char *selector, size_t n) {
     return true;
 }
 
+/* "[stroke,draw,final]": every word that names an element, or its number where it has none */
+static void selector_of(const json_t *item, size_t number, char *text, size_t n) {
+    static const char *const naming[] = {"id", "name", "probe", "part", "flow", "scene", "measure"};
+    size_t used = (size_t)snprintf(text, n, "[");
+    for (size_t k = 0; k < sizeof naming / sizeof naming[0]; k++) {
+        const char *word = json_string_value(json_object_get(item, naming[k]));
+        if (word && used + strlen(word) + 3 < n)
+            used += (size_t)snprintf(text + used, n - used, "%s%s", used > 1 ? "," : "", word);
+    }
+    if (used == 1) used += (size_t)snprintf(text + used, n - used, "%zu", number);
+    snprintf(text + used, n - used, "]");
+}
+
+/* what would name this one alone, beside those that are meant as well */
+static void note_one(walk *w, const json_t *item, size_t number) {
+    static const char more[] = ", ...";
+    char one[120];
+    const size_t used = strlen(w->several), room = sizeof w->several - used;
+    selector_of(item, number, one, sizeof one);
+    if (strstr(w->several, one)) snprintf(one, sizeof one, "[%zu]", number); /* named alike */
+    if (strlen(one) + sizeof more + 2 < room)
+        snprintf(w->several + used, room, "%s%s", used > 0 ? ", " : "", one);
+    else if (used > sizeof more && strcmp(w->several + used - (sizeof more - 1), more) != 0)
+        snprintf(w->several + used, room, "%s", more);
+}
+
 static void go(walk *w, const json_t *node, const char *path);
 
 static void into_list(walk *w, const json_t *node, const char *path) {
@@ -280,12 +307,14 @@ static void into_list(walk *w, const json_t *node, const char *path) {
         say(w, "what stands before [%.*s] is no list", (int)n, selector);
         return;
     }
+    const bool first = w->several[0] == '\0';
     long index = 0;
     for (size_t k = 0; number && k < n; k++)
         index = 10 * index + (selector[k] - '0');
     for (size_t i = 0; i < items; i++) {
         const json_t *item = json_array_get(node, i);
         if (!(all || (number ? (long)i == index : selected(item, selector, n)))) continue;
+        if (first) note_one(w, item, i);
         met++;
         go(w, item, rest);
     }
@@ -367,8 +396,10 @@ bool fw_study_response_find(const fw_study_response *response, const json_t *roo
     why[0] = '\0';
     go(&w, root, response->path);
     if (w.found > 1 && response->asked->take == FW_TAKE_ONE)
-        say(&w, "it leads to %ld numbers; name one of them, or say take=\"largest\", least or sum",
-            w.found);
+        say(&w,
+            "it leads to %ld numbers, of %s: name one of them, or say take=\"largest\", least or "
+            "sum",
+            w.found, w.several);
     *value = w.found > 0 ? w.value : (double)NAN;
     return why[0] == '\0';
 }

@@ -2,7 +2,6 @@
 /* What a study says on a terminal, before it starts and when it is done; and its table. */
 #include "base/output.h"
 #include "study/study_parts.h"
-#include "study/study.h"
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -90,14 +89,13 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
 }
 
 /* Dies that a size at a wanted yield usually asks: three first estimates, and of one device a yield by few and by all, at
-   every combination of the ends of what is only assumed; of each device of its own searches two. Nobody knows how many
-   devices have to be asked until one has the yield. */
+   every combination of the ends of what is only assumed; of each device of its own searches two. */
 static fw_status usual_dies(const fw_study *study, long *n, long *inside) {
     fw_study *dies = study->dies;
     *n = *inside = 0;
     if (!(study->asked->yield > 0)) return FW_OK;
-    const long all = dies->asked->samples, least = FW_CHANCE_BUDGET_LEAST;
-    const long few = (long)fmax(ceil(6 / (1 - study->asked->yield)), (double)least);
+    const long all = dies->asked->samples, least = FW_CHANCE_BUDGET_LEAST,
+               few = (long)fmax(ceil(6 / (1 - study->asked->yield)), (double)least);
     *n = fw_study_count(study);
     for (int flow = 0; flow < dies->plan->nflow; flow++) {
         fw_study_yielding y;
@@ -113,6 +111,8 @@ static void about(const fw_study *study, fw_text *out, double devices) {
     if (!(study->seconds_each > 0)) return;
     fw_text_add(out, ", about ");
     seconds(out, study->seconds_each * devices / fw_study_jobs(study));
+    if (study->asked->kind == FW_STUDY_IS_size)
+        fw_text_add(out, " to four times that, as the search comes near limits");
 }
 
 static void say_inside(const fw_study *study, fw_text *out, long n) {

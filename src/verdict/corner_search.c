@@ -199,6 +199,26 @@ static fw_status take_requirements(const fw_verdict_search *s,
     return FW_OK;
 }
 
+/* of scenes, the one of which the least is surely left; only where clearances count it was looked for (variant.c) */
+static fw_status take_clearance(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
+                                fw_verdict_fabricated_corner *corner) {
+    const fw_verdict_clearance *least = NULL;
+    fw_verdict_clearance *kept;
+    for (int i = 0; s->clearances && !s->options.decision_only && i < now->nclearance; i++) {
+        const fw_verdict_clearance *c = &now->clearance[i];
+        if (c->box == FW_NONE && (!least || c->low_m < least->low_m)) least = c;
+    }
+    if (!least || !least->least.at.a || !least->least.at.b) return FW_OK;
+    FW_NEED(corner->clearance = kept = fw_arena_one(s->arena, fw_verdict_clearance));
+    *kept = *least;
+    kept->way = (fw_clearance_way){.share = 0};
+    kept->flow = s->v->variant->flow;
+    FW_NEED(kept->scene = fw_arena_strdup(s->arena, least->scene));
+    FW_NEED(kept->least.at.a = fw_arena_strdup(s->arena, least->least.at.a));
+    FW_NEED(kept->least.at.b = fw_arena_strdup(s->arena, least->least.at.b));
+    return FW_OK;
+}
+
 /* copies what stays: the run's own arena is given back */
 static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                       fw_verdict_fabricated_corner *corner, double *ln) {
@@ -210,6 +230,7 @@ static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdi
     FW_TRY(fw_verdict_shaken_keep(s->arena, now, &corner->shaken));
     FW_TRY(take_reason(s, now, corner));
     FW_TRY(fw_verdict_stators_keep(s->arena, now, corner));
+    FW_TRY(take_clearance(s, now, corner));
     take_checks(s, now, ln);
     if (s->by_value) take_by_value(s, now, s->by_value);
     return FW_OK;

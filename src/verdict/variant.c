@@ -342,8 +342,9 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (v->motion[i])
             FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->loads, v->motion[i]->level));
         FW_TRY(fw_verdict_bending_judge(arena, (int)i, v->motion[i], v));
-        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout, brief || options->bounded,
-                                          diags, v));
+        const bool told = options->ways && !options->decision_only; /* of a corner: how near */
+        FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout,
+                                          (brief && !told) || options->bounded, diags, v));
         FW_TRY(watch[0].status != FW_OK ? watch[0].status : watch[1].status);
         if (v->motion[i] && seen[0]) {
             const fw_verdict_strain_monitor *saw = v->motion[i]->observed,

@@ -215,13 +215,13 @@ typedef struct fw_verdict_fabricated_corner {
     const double *x;         /* (ninput) */
     const signed char *sign; /* how hinges differ (verdict_fabrication.h); NULL: not at all */
     const char *what;        /* "nominal", "printed edge -0.15 um, thickness 49 um" */
-    /* (nhinge) worst over the scenes; utilisation 0 where `why` says that nothing was run */
-    fw_verdict_hinge_verdict *hinge;
-    const char *why;                     /* what speaks against it beside its hinges, or NULL */
-    int number;                          /* FW-Dnnn of `why`; 0: it has none */
-    const char *scene;                   /* of `why`; NULL: of none (a flexure is gone) */
-    double keep;                         /* share of its loads that it may bear */
-    bool not_by_loads, not_by_width;     /* of `why`, as in fw_verdict_reason */
+    fw_verdict_hinge_verdict *hinge; /* (nhinge) worst of all scenes; uses 0: nothing was run */
+    const fw_verdict_clearance *clearance; /* the least; NULL: none was looked for */
+    const char *why;                       /* what speaks against it beside its hinges, or NULL */
+    int number;                            /* FW-Dnnn of `why`; 0: it has none */
+    const char *scene;                     /* of `why`; NULL: of none (a flexure is gone) */
+    double keep;                           /* share of its loads that it may bear */
+    bool not_by_loads, not_by_width;       /* of `why`, as in fw_verdict_reason */
     fw_verdict_requirement *requirement; /* (nrequirement) of the variant; NULL: nothing was run */
     const fw_verdict_shaken *shaken;     /* (nscene) NULL: nothing was run */
     const fw_wiring_moved *stator;       /* (nstator) how near what moves comes to stators */

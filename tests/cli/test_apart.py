@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import re
 import shutil
 import tempfile
 import unittest
@@ -43,6 +44,41 @@ class Apart(unittest.TestCase):
         self.assertNotIn("narrower", json.dumps(alike["hinges"]))
         # what would have to be known is tried with the hinges as they differ there
         self.assertRegex(json.dumps(much["reasons"]), r"accepted where [^\"]* is known to be at (most|least)")
+
+
+class Nearest(unittest.TestCase):
+    """Two jaws that keep 32 um as drawn, and next to nothing at the corner of the flow where they go farthest."""
+
+    def judged(self, pull_uN):
+        jaws = ROOT / "tests/data/jaws-that-close.xml"
+        pulls = [f"--set=tendon[{cable}]/@pull={pull_uN} uN" for cable in ("cable-1", "cable-1-mirrored")]
+        done = run("check", jaws, *pulls, "--json")
+        self.assertIn(done.returncode, (0, 3, 4), done.stderr)
+        return json.loads(done.stdout)
+
+    def test_the_line_says_which_it_is_and_has_the_least_as_made(self):
+        told = self.judged(50)
+        self.assertEqual(told["verdict"], "accept")
+        line = {x["label"]: x["text"] for x in told["summary"]}["nearest, as made at the corners run"]
+        made, drawn = re.match(r"link part-1 and link part-1-mirrored (\S+) um \(\S+ to \S+\) in scene-1, with .*; as drawn (\S+) um \(\S+ to \S+\)$", line).groups()
+        self.assertAlmostEqual(float(drawn), 1e6 * told["clearances"][0]["clearance_m"], delta=0.06)
+        # 0.3 uN more, and the corner itself says what is left there: 0.895 um
+        more = self.judged(50.3)["flows"][0]["as_fabricated"]["corners"][-1]["why"]
+        left = float(re.search(r"(\S+) um as made", more)[1])
+        self.assertTrue(left < float(made) < left + 1, (left, made))
+
+    def test_where_no_corner_counts_it_is_as_drawn(self):
+        labels = [x["label"] for x in self.judged(10)["summary"]]
+        self.assertIn("nearest, as drawn", labels)
+
+    def test_the_share_that_would_just_not_meet(self):
+        def why(pull_uN):
+            return self.judged(pull_uN)["flows"][0]["as_fabricated"]["corners"][-1]["why"] or ""
+        pull = 50.9
+        share = float(re.search(r"with (\S+) % of that motion they would just not meet", why(pull))[1]) / 100
+        self.assertNotRegex(why(pull * (share - 0.002)), r"mirrored meet in")
+        self.assertRegex(why(pull * (share + 0.003)), r"mirrored meet in")
+
 
 
 if __name__ == "__main__":

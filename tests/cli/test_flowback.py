@@ -170,7 +170,7 @@ class Flowback(unittest.TestCase):
 
     def test_words_as_they_are_printed(self):
         """ids of wafers with - between two, measures with the coupon that they are read on, coupons by the name that the sheet
-        has; "no" where a number is limited is refused, since "yes" would be one as well; a step of all wafers, one after the
+        has; "no" and "none" are 0 where a number is limited that may be 0, and "yes" is none; a step of all wafers, one after the
         other, takes as many times as long as there are loads"""
         day = self.here / "day.txt"
         day.write_text("S02; start=2025-06-02T08:00; end=2025-06-02T08:35; by=AB; wafer=A1-A3\n"
@@ -184,7 +184,13 @@ class Flowback(unittest.TestCase):
         steps = {s["id"]: s for s in json.loads(self.expect(self.command("--json")).stdout)["steps"]}
         self.assertEqual(steps["S05"]["judged"], "in window")
         self.assertEqual(steps["S18"]["measured"][0]["measure"], "aluminium left")
-        for words, says in (("S18; wafer=A1; grass on the floor=no", "its limits are numbers"), ("S02; wafer=A3-A1", "no wafer 'A3-A1'")):
+        when = "; start=2025-06-02T14:00; end=2025-06-02T16:05; by=AB"
+        for wafer, word in (("A1", "no"), ("A3", "none"), ("B4", "0")):
+            self.expect(self.command("--entry", f"S18; wafer={wafer}; grass on the floor={word}{when}"))
+        told = [m for s in json.loads(self.expect(self.command("--json")).stdout)["steps"] for e in (s, *s.get("others", [])) for m in e.get("measured", [])
+                if m["measure"] == "grass on the floor"]
+        self.assertEqual([(m["value"], m["accepted"]) for m in told], 3 * [(0, True)])
+        for words, says in (("S18; wafer=A1; grass on the floor=yes", "its limits are numbers"), ("S01; wafer=A1; thickness=none", "thickness=none"), ("S02; wafer=A3-A1", "no wafer 'A3-A1'")):
             result = self.expect(self.command("--entry", words + "; start=2025-06-02T14:00; end=2025-06-02T16:05; by=AB"), 3)
             self.assertIn(says, result.stderr)
 

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, axeSource, close, finish, open, serve, setText, source, text, verdict, view } from "./helper.mjs";
+import { ALL, answered, axeSource, close, finish, open, serve, setText, source, text, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -110,16 +110,21 @@ describe("a gripper from an empty page", () => {
     });
 
     test("a stage, with the mouse alone", async () => {
+        await tool(page, "force");
         await page.click("#new");
         await page.click('.template:has-text("Empty page")');
         await page.click("dialog .drop"); // the gripper was not saved
         await page.waitForSelector("#right .problems:has-text('Nothing is drawn yet')");
+        assert.equal(await page.getAttribute('.draw-tools [data-tool="select"]', "aria-pressed"), "true"); // the tool was for the device before
         await tool(page, "bar");
         await page.selectOption('label:has-text("belongs to") select', "");
         for (const x of [-500, 500]) await changed(page, () => drag(page, [x, 0], [x, 900]));
         await changed(page, () => drag(page, [-500, 900], [500, 900]));
         await tool(page, "hinge");
         for (const at of [[-500, 0], [500, 0], [-500, 900], [500, 900]]) await changed(page, () => click(page, at));
+        await tool(page, "hinge");
+        await click(page, [0, 400]); // beside the links
+        await page.waitForSelector('.notice:has-text("choose that under \\"holds\\"")');
         await tool(page, "force");
         await changed(page, () => drag(page, [0, 900], [200, 900]));
         await verdict(page, "accept");
@@ -295,6 +300,70 @@ describe("what is there is dragged", () => {
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {});
         await page.click("#undo");
         assert.equal(await text(page), xml);
+    });
+
+    test("a drag is the same in however many moves the pointer does it: what is asked for, what is written, and what undo takes back", async () => {
+        const asked = []; // what is held, of every preview
+        page.on("request", (r) => r.url().endsWith("/api/preview") && asked.push(JSON.parse(r.postData()).set));
+        const held = () => page.evaluate(() => ({ ...globalThis.flexwright.state.set }));
+        const cases = [ // a device, what is clicked first, what is taken, by so many pixels
+            ["reference-six-bar", null, "device/six-bar/hinge[B]", [-15, -18]],
+            ["free-form-gripper", [-680, 600], "device/mechanism/body[left]/outline/line[1]", [-17, -23]],
+            ["four-tendons", null, /eyelet/, [31, 27]],
+            ["free-form-four-bar", [900, 1500], "device/mechanism/body[coupler]", [-22, -31]],
+        ];
+        for (const [name, first, which, by] of cases) {
+            const xml = await load(name);
+            await page.keyboard.press("Escape");
+            if (first) await click(page, first);
+            const [id, at] = await page.evaluate(([s, regular]) => {
+                const { draw } = globalThis.flexwright.parts;
+                const h = draw.list.find((x) => (regular ? new RegExp(s).test(x.id) && [...draw.handles.children].some((g) => g.dataset.id === x.id) : x.id === s));
+                return [h.id, h.at];
+            }, typeof which === "string" ? [which, false] : [which.source, true]);
+            let one = null;
+            for (const n of ALL || name === "reference-six-bar" ? [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13] : [1, 2, 6]) {
+                const a = await pixels(page, at);
+                const b = [a[0] + by[0], a[1] + by[1]];
+                const way = (i) => [a[0] + ((b[0] - a[0]) * i) / n, a[1] + ((b[1] - a[1]) * i) / n];
+                await page.mouse.move(...a);
+                await page.mouse.down();
+                for (let i = 1; i <= n; i++) {
+                    await page.mouse.move(...way(i));
+                    if (i % 2) await page.mouse.move(way(i)[0] + 0.2, way(i)[1] - 0.2); // a hand is not still, and both come to the same place
+                    if (i % 3 === 0) await page.mouse.move(...way(i));
+                }
+                await page.mouse.move(...b);
+                await page.waitForFunction(() => globalThis.flexwright.settled(false));
+                const set = await held();
+                assert.deepEqual(asked.at(-1), set, `${id}, ${n} moves: what is asked for is what is held`);
+                await changed(page, () => page.mouse.up());
+                await page.waitForFunction(() => globalThis.flexwright.settled(false));
+                const now = await text(page);
+                one ??= { set, now };
+                assert.ok(Object.keys(one.set).length > 0, id);
+                assert.deepEqual(set, one.set, `${id}, ${n} moves: what is held`);
+                assert.equal(now, one.now, `${id}, ${n} moves: what is written`);
+                assert.deepEqual(await held(), {});
+                await page.keyboard.press("Control+z");
+                await page.waitForFunction((t) => globalThis.flexwright.state.text === t && globalThis.flexwright.settled(false), xml);
+            }
+        }
+    });
+
+    test("a drag that begins before the last one is in the text, and arrow keys faster than the text, lose nothing", async () => {
+        const xml = await load("free-form-gripper");
+        const slow = (route) => setTimeout(() => route.continue().catch(() => {}), 250);
+        await page.route("**/api/edit", slow);
+        await drag(page, [-600, 0], [-660, 0]);
+        await drag(page, [-660, 0], [-720, 0]);
+        await page.waitForFunction(() => globalThis.flexwright.settled(false) && !Object.keys(globalThis.flexwright.state.set).length);
+        assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.72 mm"'));
+        await handle("device/mechanism/revolute[A]").focus();
+        for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowRight");
+        await page.waitForFunction(() => globalThis.flexwright.settled(false) && !Object.keys(globalThis.flexwright.state.set).length);
+        assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.705 mm"'));
+        await page.unroute("**/api/edit", slow);
     });
 
     test("what is dragged is saved as it is shown, and goes on from there", async () => {

@@ -62,7 +62,8 @@ export function watcher() {
         const banner = document.querySelector("#banner");
         const made = banner.querySelector(".as-drawn")?.textContent === "as it will be made";
         if (banner.dataset.of === "present" && !(made ? is.full : is.preview)) say(`banner: ${banner.textContent.slice(0, 60)}`);
-        for (const e of document.querySelectorAll("#right > .card[data-of='present'], #panel-motion [data-of='present']"))
+        // a view that is hidden keeps the answer that it showed last, and is compared when it is seen again
+        for (const e of document.querySelectorAll("#right > .card[data-of='present'], #panel-motion:not([hidden]) [data-of='present']"))
             if (!(e.matches(".stage, .player") ? is.picture : is.preview) && !e.matches(".problems, .notes")) say(`${e.className} ${e.textContent.slice(0, 40)}`);
         if (parts.verdict.full.content.dataset.of === "present" && !is.full) say("as fabricated");
         if (banner.dataset.of === "present") // what a field says is what the verdict is of
@@ -395,6 +396,36 @@ export const actions = {
             }
         } finally {
             await page.mouse.up();
+        }
+    },
+    /** A handle of the drawing, by the mouse, in any number of moves: what is written is what one move to the same place writes. */
+    async drag(page, d, settle) {
+        const settled = () => page.waitForFunction(() => globalThis.flexwright.settled(false) && !globalThis.flexwright.parts.draw.drag);
+        await page.click("#tab-draw");
+        try {
+            await settle();
+            const handles = page.locator(".draw-handle");
+            const n = await handles.count();
+            if (!n) return;
+            const box = await handles.nth(d.below(n)).locator(".reach").boundingBox();
+            const a = [box.x + box.width / 2, box.y + box.height / 2];
+            const b = a.map((v) => v + (d.below(2) ? 1 : -1) * (8 + d.below(30)));
+            const before = await textOf(page);
+            const written = async (moves) => {
+                await page.mouse.move(...a);
+                await page.mouse.down();
+                for (let i = 1; i <= moves; i++) await page.mouse.move(...a.map((v, k) => v + ((b[k] - v) * i) / moves));
+                await page.mouse.up();
+                await settled();
+                return textOf(page);
+            };
+            const first = await written(1 + d.below(13));
+            if (first !== before) await page.evaluate(() => globalThis.flexwright.parts.editor.undo());
+            assert.equal(await textOf(page), before, "one drag is one step of the history");
+            await settled();
+            assert.equal(await written(1), first, `dragged from ${a} to ${b}`);
+        } finally {
+            await page.click("#tab-motion");
         }
     },
     /** A slow answer: what is there looks old; then it comes, or is overtaken, or is cancelled. */

@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
-import { answered, axeSource, close, finish, open, program, serve, setText, source, text, view, SMALL } from "./helper.mjs";
+import { answered, axeSource, close, finish, open, program, ready, serve, setText, source, text, view, SMALL } from "./helper.mjs";
 
 after(finish);
 
@@ -292,5 +292,17 @@ describe("studies", () => {
         assert.ok(seen.every(Boolean));
         const [zip] = await Promise.all([page.waitForEvent("download"), page.click(`${card} a:has-text("All files")`)]);
         assert.equal(readFileSync(await zip.path()).subarray(0, 2).toString(), "PK");
+    });
+
+    test("loaded anew the page has the study that had ended: of the present input, with its device to be applied", async () => {
+        const { found } = await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result);
+        page.on("dialog", (d) => d.accept());
+        await page.reload();
+        await ready(page);
+        await view(page, "explore");
+        await page.waitForSelector(`${card} [data-act="apply"]`);
+        assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present");
+        assert.equal(await page.locator(`${card} [data-act^="resume"]`).count(), 0);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result.found), found);
     });
 });

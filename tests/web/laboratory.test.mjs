@@ -52,6 +52,8 @@ describe("numbers of the laboratory", () => {
         await page.click("#lab-use");
         assert.match(await page.textContent(".laboratory .messages"), /al\.R: a number is needed, not "fast"/);
         await row("al.R").locator("input").first().fill("38.5");
+        await page.click("#lab-save"); // the program would refuse the pack
+        assert.match(await page.textContent(".laboratory .messages"), /al\.R: its standard uncertainty is needed, too/);
         await page.click("#lab-use");
         assert.match(await page.textContent(".laboratory .messages"), /al\.R: its standard uncertainty is needed, too/);
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.lab), {});
@@ -68,7 +70,7 @@ describe("numbers of the laboratory", () => {
         await page.evaluate(() => (document.querySelector("details.as-run").open = true));
         await read(0);
         assert.match(await page.textContent(".as-run"), /thickness 48 to 52 um; up to 5 values/);
-        await fill("file", "lot7");
+        await fill("file", "lot7.log"); // as the list names it
         await fill("wafers: how many, or their names with commas between", "2");
         await fill("begun", "2026-11-20T10:00");
         await fill("ended", "2026-11-20T09:00");
@@ -214,6 +216,10 @@ describe("numbers of the laboratory", () => {
         await view(page, "recipe");
         await page.waitForFunction(() => globalThis.flexwright.parts.recipe.body.dataset.of === "present", null, { timeout: 60000 });
         assert.match(await row("al.R").textContent(), /^sputter rate.*al\.R/);
+        assert.equal(await page.inputValue(".lab-source"), "our notebook <7>");
+        await page.evaluate(() => (document.querySelector("details.laboratory").open = true));
+        await page.click("#lab-use"); // and what is used anew is still from there
+        assert.match(await page.evaluate(() => Object.values(globalThis.flexwright.state.lab)[0]), /<source [^>]*>our notebook &lt;7&gt;<\/source>/);
         assert.equal((await recipe()).steps.find((s) => s.id === "S03").not_computable.length, 0);
     });
 

@@ -121,4 +121,24 @@ describe("on a phone", () => {
         const [from, to] = await page.evaluate(() => globalThis.flexwright.parts.motion.angles.window);
         assert.ok(to - from < 6 && from > 0 && to < 10, `${from} ${to}`);
     });
+
+    test("the handle of a load's direction is in the picture, where its arrow would end outside, too", async () => {
+        const arm = `<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie"/>
+            <mechanism><body id="arm" x="0 um" y="0 um"><bar x="0 um" y="0 um" to-x="1500 um" to-y="0 um" width="120 um"/></body>
+            <revolute id="A" a="ground" a-x="0 um" a-y="0 um" b="arm" b-x="0 um" b-y="0 um" hinge="f"/></mechanism>
+            <flexure id="f" kind="csfh" radius="80 um" angle="240 deg" width="8 um" gap="10 um"/>
+            <scene name="s" duration="20 ms"><force on="arm" x="1500 um" y="0 um" fx="10 uN" fy="1 uN"/></scene></device>`;
+        const before = await page.evaluate(() => globalThis.flexwright.state.text);
+        await page.evaluate((t) => globalThis.flexwright.parts.editor.replace(t), arm);
+        await view(page, "draw");
+        await page.waitForSelector(".draw-handle.tip");
+        await page.evaluate(() => globalThis.flexwright.parts.draw.view.fit());
+        const [tip, svg] = await page.evaluate(() => ["#panel-draw .draw-handle.tip .reach", "#panel-draw .draw-stage > svg"].map((q) => {
+            const r = document.querySelector(q).getBoundingClientRect();
+            return [r.left + (q.includes("reach") ? 12 : 0), r.right - (q.includes("reach") ? 12 : 0)];
+        }));
+        assert.ok(tip[1] <= svg[1] - 10 && tip[0] >= svg[0], `${tip} in ${svg}`);
+        await page.evaluate((t) => globalThis.flexwright.parts.editor.replace(t), before);
+        await view(page, "motion");
+    });
 });

@@ -263,8 +263,9 @@ export class AsRun {
         const { words, why } = this.#words();
         if (why) return this.#refuse([why]);
         const begins = this.first;
-        if (begins && !NAME.test(begins.file.value.trim())) return this.#refuse(["The name of the log's file is of letters, digits, - and _."]);
-        const name = begins ? `${begins.file.value.trim()}.log` : this.name;
+        const file = begins?.file.value.trim().replace(/\.log$/, ""); // as the list names it
+        if (begins && !NAME.test(file)) return this.#refuse(["The name of the log's file is of letters, digits, - and _."]);
+        const name = begins ? `${file}.log` : this.name;
         if (begins && this.logs.includes(name)) return this.#refuse([`${name} is there already: choose it above, or give another name.`]);
         const add = this.form.querySelector("#log-add");
         add.disabled = true;

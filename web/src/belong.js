@@ -33,6 +33,7 @@ export function anotherDevice(text) {
     if (text === state.text) return;
     texts.delete(text); // it is no text of before, though it may be the same
     begun.push(numberOf(text));
+    emit("another");
 }
 
 const deviceOf = (text) => begun.filter((first) => first <= text).length;

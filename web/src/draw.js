@@ -21,6 +21,7 @@ import { TOOLS } from "./tools.js";
 const CLICK_PIXELS = 4; // less is no drag
 const TOUCH_PIXELS = 10; // around a body that still hits it
 const TIP_PIXELS = 62; // from a load to the handle of its direction
+const TIP_MARGIN = 14; // of that handle, from the edge of the picture
 const EMPTY = [-1000, -800, 1000, 1200]; // um, of a page without anything
 const GRIDS = [["", "grid: auto"], ["0", "no grid"], ["1", "1 µm"], ["5", "5 µm"], ["10", "10 µm"], ["50", "50 µm"], ["100", "100 µm"]];
 
@@ -66,6 +67,7 @@ export class Draw {
         this.#pointer();
         this.#keys();
         on("text", () => this.#refresh());
+        on("another", () => this.tool && this.#use(null)); // what is drawn on next is another device
         on("pinned", () => this.visible && this.#pinned());
         on("picture", () => this.visible && this.#base());
         on("answer", () => this.#refresh());
@@ -101,14 +103,17 @@ export class Draw {
         this.mechanism.compareWith(p, p && restOf(p));
     }
 
-    /** The tree of the text and its places; null while it is no XML. */
-    #read() {
+    /** The tree of the text and its places; null while it is no XML. What is held is taken as it is now: whoever plans a move has
+     *  the same places before and after it. but: paths of what is held that do not count. */
+    #read(but = []) {
         if (this.readOf !== state.text) {
             this.readOf = state.text;
             this.root = parse(state.text, (name) => this.keys.get(name) ?? null) ?? this.root;
         }
         const rests = new Map((state.picture?.bodies ?? []).filter((b) => b.rest).map((b) => [b.id, b.rest]));
-        this.places = this.root ? new Places(this.root, this.units, state.set, rests) : null;
+        const held = { ...state.set };
+        for (const path of but) delete held[path];
+        this.places = this.root ? new Places(this.root, this.units, held, rests) : null;
     }
 
     #refresh() {
@@ -170,6 +175,7 @@ export class Draw {
                 "aria-label": `${x.label}, x ${um(x.at[0])}, y ${um(x.at[1])}${words ? `; ${words}` : ""}`, "aria-pressed": String(x.id === this.chosen),
             }, s("circle", { r: 12, class: "reach" }), LOOKS[x.look](), s("title", {}, words ? `${x.label}: ${words}` : x.label), words ? s("text", { class: "fault", x: 8, y: -6 }, "!") : null);
             g.at = x.at;
+            g.from = x.turns ? x.turns(places) : null;
             return g;
         }));
         this.arrows = list.filter((x) => x.turns).map((x) => ({ from: x.turns(places), to: x.at }));
@@ -211,18 +217,31 @@ export class Draw {
     #place() {
         const { view } = this;
         for (const g of this.handles.children) {
-            const [x, y] = view.toScreen(...g.at);
+            const [x, y] = g.from ? this.#tip(g.from, g.at)[1] : view.toScreen(...g.at);
             g.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
         }
         const step = this.grid === "" ? gridStep(view.k) : Number(this.grid);
         this.lines.setAttribute("d", step ? this.#grid(step) : "");
         const arrows = (this.arrows ?? []).map((a) => {
-            const [p, q] = [view.toScreen(...a.from), view.toScreen(...a.to)];
+            const [p, q] = this.#tip(a.from, a.to);
             return `M${p.map((v) => v.toFixed(1)).join(" ")}L${q.map((v) => v.toFixed(1)).join(" ")}`;
         });
         this.stems ??= this.view.overlay.insertBefore(s("path", { class: "tip-stem", "aria-hidden": "true" }), this.handles);
         this.stems.setAttribute("d", arrows.join(""));
         if (this.drawing) this.#rubber();
+    }
+
+    /** Where an arrow begins and ends on the screen: shorter where its handle would be out of the picture. */
+    #tip(from, to) {
+        const [p, q] = [this.view.toScreen(...from), this.view.toScreen(...to)];
+        let share = 1;
+        this.view.size.forEach((size, k) => {
+            const way = q[k] - p[k];
+            const end = Math.min(Math.max(q[k], TIP_MARGIN), size - TIP_MARGIN);
+            if (end !== q[k] && p[k] > 0 && p[k] < size) share = Math.min(share, (end - p[k]) / way);
+        });
+        share = Math.max(share, 0.4); // it does not lie on the load itself
+        return [p, q.map((v, k) => p[k] + share * (v - p[k]))];
     }
 
     #grid(step) {
@@ -336,6 +355,7 @@ export class Draw {
 
     #down(event) {
         if (event.button !== 0 || !this.places) return;
+        this.#refresh(); // a move that is on its way to the text counts: what is taken up now stands where it is seen
         if (!this.points.length) this.origin = null;
         this.#still();
         if (this.tool) {
@@ -398,7 +418,7 @@ export class Draw {
             if (Math.hypot(event.clientX - d.at[0], event.clientY - d.at[1]) < CLICK_PIXELS) return;
             d.handle = d.candidate;
             this.view.fitted = false;
-            d.places = this.places;
+            this.#taken();
         }
         this.#still();
         const p = this.view.at(event);
@@ -411,6 +431,16 @@ export class Draw {
         this.#drag(snapped);
     }
 
+    /** What is dragged, in the text as it is without the drag: at its beginning, and where the text has changed under it. */
+    #taken() {
+        const d = this.drag;
+        d.of = state.text;
+        this.#read(d.held.keys());
+        this.list = this.#handlesOf(this.places);
+        d.places = this.places;
+        d.handle = this.list.find((x) => x.id === d.candidate.id) ?? d.candidate;
+    }
+
     /** Elements that move with a handle: none of their points is a place to snap to. */
     #together(handle) {
         return [handle.element, ...handle.wants(this.drag.places, handle.at).map((w) => w.element), ...(handle.body && handle.element.name === "body" ? handle.element.children.flatMap((c) => [c, ...c.children]) : [])];
@@ -418,6 +448,7 @@ export class Draw {
 
     #drag(snapped) {
         const d = this.drag;
+        if (d.of !== state.text) this.#taken();
         const now = plan(d.places, d.handle, snapped.at);
         d.now = now;
         d.wanted = snapped.at;
@@ -452,10 +483,17 @@ export class Draw {
         if (!d?.handle) return;
         this.#clear();
         if (d.held.size && ![...d.held.keys()].some((path) => path in state.set)) return this.#refresh(); // it was taken while it was held
-        await this.#commit(d.handle, d.now, d.wanted, d.places);
+        if (d.of !== state.text) {
+            this.drag = d;
+            this.#taken();
+            this.drag = null;
+            d.now = plan(d.places, d.handle, d.wanted);
+            holdTogether(d.now.changes, d.held.keys());
+        }
+        await this.#commit(d.handle, d.now, d.wanted);
     }
 
-    async #commit(handle, now, wanted, places) {
+    async #commit(handle, now, wanted) {
         const why = await letGoTogether(now.changes, `${handle.label} moved`);
         this.#refresh();
         const short = Math.max(Math.abs(wanted[0] - now.target[0]), Math.abs(wanted[1] - now.target[1]));
@@ -585,7 +623,9 @@ export class Draw {
 
     async #goto(handle, target) {
         const now = plan(this.places, handle, target);
-        const why = await this.#commit(handle, now, target, this.places);
+        holdTogether(now.changes); // the next step begins where this one ends, also before it is in the text
+        this.#refresh();
+        const why = await this.#commit(handle, now, target);
         const at = this.list.find((x) => x.id === handle.id)?.at;
         if (at) announce(`${handle.label}: x ${um(at[0])}, y ${um(at[1])}`);
         return why;

@@ -54,13 +54,15 @@ function mixedEnds() {
     notice({ kind: "info", stay: true, text: `${state.file.name} mixes line ends; saving writes all of them as ${state.file.eol === "\n" ? "LF" : "CR LF"}.` });
 }
 
+let back = null; // the strip that says that a draft is back, until somebody has answered or all of it is saved
+
 async function restore(editor) {
     const draft = await kept();
     if (!draft || draft.text === state.text) return;
     if (state.file && draft.version !== state.file.version) return conflict(editor, state.file, draft.text);
     const before = state.text;
     editor.replace(draft.text);
-    notice({ kind: "info", stay: true, text: "Changes that were not saved are back.", actions: [[state.file ? "Take the file's instead" : "Begin anew instead", () => editor.replace(before)], ["Keep them", () => {}]] });
+    back = notice({ kind: "info", stay: true, text: "Changes that were not saved are back.", actions: [[state.file ? "Take the file's instead" : "Begin anew instead", () => editor.replace(before)], ["Keep them", () => {}]] });
 }
 
 // ---- the file changes on disk ----
@@ -110,6 +112,8 @@ let open = null; // {editor, now, mine, strip} while nobody has answered
 
 function settle() {
     open?.strip.remove();
+    back?.remove();
+    back = null;
     open = null;
     keep(state.text, changed() ? state.file.version : null);
 }
@@ -225,6 +229,8 @@ function download() {
     link.download = `${/<device[^>]*?\sname="([\w.-]+)"/.exec(state.text)?.[1] ?? "device"}.xml`;
     link.click();
     state.base = state.text;
+    back?.remove();
+    back = null;
     keep(state.text, null);
     emit("file");
 }

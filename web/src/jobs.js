@@ -94,6 +94,13 @@ export async function elsewhere() {
     return all.filter((job) => !jobs.has(job.id));
 }
 
+/** A job that has ended and that another page has begun, or this one before it was loaded anew, with what it gave. */
+export async function takeUp(id) {
+    const job = await get(`/api/jobs/${id}`);
+    jobs.set(id, job);
+    return job;
+}
+
 /** A list of all that waits or runs, each with a button that ends it; gone(): one was ended. */
 async function waitingList(gone) {
     const all = (await get("/api/jobs")).jobs.filter((job) => !ENDED.has(job.state));

@@ -41,18 +41,23 @@ export function restorePacks() {
     try {
         const kept = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}");
         state.labRows = kept.rows ?? {};
+        state.labSources = kept.sources ?? {};
         state.lab = kept.lab ?? {};
     } catch {
         // a store that is closed keeps nothing
     }
 }
 
-function changed(words) {
+function keepPacks() {
     try {
-        sessionStorage.setItem(KEPT, JSON.stringify({ lab: state.lab, rows: state.labRows }));
+        sessionStorage.setItem(KEPT, JSON.stringify({ lab: state.lab, rows: state.labRows, sources: state.labSources }));
     } catch {
         // likewise
     }
+}
+
+function changed(words) {
+    keepPacks();
     emit("change");
     emit("lab");
     announce(words);
@@ -64,7 +69,10 @@ export class Laboratory {
         this.known = [];
         this.rows = h("tbody", {});
         this.other = select("Another number", [["", "another number…"]], "", (id) => this.#addRow(id));
-        this.source = h("input", { "aria-label": "Where these numbers are from", placeholder: "where they are from", class: "lab-source" });
+        this.source = h("input", { "aria-label": "Where these numbers are from", placeholder: "where they are from", class: "lab-source", oninput: () => {
+            state.labSources[this.flow] = this.source.value;
+            keepPacks();
+        } });
         this.said = h("p", { class: "doc", role: "status" });
         this.wrong = h("ul", { class: "messages warn-text" });
         this.table = h("table", { class: "plain lab-table" }, h("thead", {}, h("tr", {}, ["number", "value", "± (standard uncertainty)", "unit", "how it is known", "in use"].map((x) => h("th", { scope: "col" }, x)))), this.rows);
@@ -95,6 +103,7 @@ export class Laboratory {
         this.known = known;
         this.box.hidden = flow === null;
         if (flow === null) return;
+        if (before !== flow) this.source.value = state.labSources[flow] ?? "";
         const rows = (state.labRows[flow] ??= {});
         for (const q of known) if (q.missing && !rows[q.id]) rows[q.id] = { value: "", u: "", status: "measured" };
         const rest = known.filter((q) => !rows[q.id]);
@@ -134,12 +143,18 @@ export class Laboratory {
         return Object.entries(state.labRows[this.flow] ?? {}).map(([id, r]) => ({ id, ...r })).filter((r) => r.value.trim());
     }
 
-    #use() {
+    /** What is entered, as a pack takes it; null: something is not, and it is said. */
+    #good() {
         const rows = this.#filled();
         const bad = rows.filter((r) => !isNumber(r.value) || !isNumber(r.u));
-        if (bad.length) return this.#refuse(bad.map((r) => (isNumber(r.value) && !r.u.trim() ? `${r.id}: its standard uncertainty is needed, too; 0 says that it is exact` : `${r.id}: a number is needed, not "${isNumber(r.value) ? r.u : r.value}"`)));
+        this.#refuse(bad.map((r) => (isNumber(r.value) && !r.u.trim() ? `${r.id}: its standard uncertainty is needed, too; 0 says that it is exact` : `${r.id}: a number is needed, not "${isNumber(r.value) ? r.u : r.value}"`)));
+        return bad.length ? null : rows;
+    }
+
+    #use() {
+        const rows = this.#good();
+        if (!rows) return;
         if (!rows.length) return this.#refuse(["No value is entered yet."]);
-        this.#refuse([]);
         state.lab[nameOf(this.flow)] = packOf(this.flow, rows, this.source.value);
         changed(`${counted(rows.length)} of the laboratory ${rows.length === 1 ? "is" : "are"} used`);
     }
@@ -151,7 +166,10 @@ export class Laboratory {
     }
 
     #save() {
-        const text = state.lab[nameOf(this.flow)] ?? (this.#filled().length ? packOf(this.flow, this.#filled(), this.source.value) : Object.values(state.lab)[0]);
+        const used = state.lab[nameOf(this.flow)];
+        const rows = used === undefined ? this.#good() : []; // what is in use was taken, and is saved as it is
+        if (!rows) return;
+        const text = used ?? (rows.length ? packOf(this.flow, rows, this.source.value) : Object.values(state.lab)[0]);
         if (!text) return this.#refuse(["There is nothing to save yet."]);
         saveAs(`laboratory-${this.flow}.xml`, text, "application/xml");
     }

@@ -14,6 +14,7 @@ export const state = {
     lost: null, // status of the failure since which the server does not answer, or answers this session no more
     lab: {}, // laboratory packs that are in use: name -> text
     labRows: {}, // what is entered of them: flow -> id -> {value, u, status}
+    labSources: {}, // where they are from: flow -> words
     options: {}, // scene, method, integrator, stabilise, rtol, accuracy, effects, hinge_model
     rates: false, // velocities of the motion are looked at, and asked for
     preview: null, // last good flexwright.preview/1
@@ -37,7 +38,7 @@ export const on = (name, f) => bus.addEventListener(name, (e) => f(e.detail));
 export const onFirst = (name, f) => bus.addEventListener(name, (e) => f(e.detail), { capture: true });
 export const emit = (name, detail) => bus.dispatchEvent(new CustomEvent(name, { detail }));
 
-/** Names of events: "text" (editor's text changed), "change" (ask for a preview), "entered" (typed, and in no text yet), "options" (how it is
+/** Names of events: "text" (editor's text changed), "another" (it is about to be of another device), "change" (ask for a preview), "entered" (typed, and in no text yet), "options" (how it is
  *  computed), "picture" (state.picture is another one), "preview" (a good answer, a frame behind its picture: of the rest), "answer" (any answer), "belong" (what is shown was marked anew), "working"
  *  (what is on its way), "hinge" (looked at), "pinned" (a version, or its answer), "judged" (as made), "jobs" (any job), "view" (a tab was chosen), "time" (of the motion, by hand), "lab" (packs in use), "theme". */
 export function lookAt(hinge) {

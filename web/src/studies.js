@@ -6,7 +6,7 @@ import { begin, inputKey, mayChange, ofAnother, requestKey, Shown } from "./belo
 import { edit, taken } from "./design.js";
 import { announce, button, h, icon, say, select } from "./dom.js";
 import { duration, number, percent, si } from "./format.js";
-import { elsewhere, fileOf, forget, hasFile, run } from "./jobs.js";
+import { elsewhere, fileOf, forget, hasFile, run, takeUp } from "./jobs.js";
 import { emit, on, state } from "./store.js";
 
 const KINDS = { // what a new one is made of: rows beside its inputs
@@ -18,6 +18,25 @@ const KINDS = { // what a new one is made of: rows beside its inputs
 };
 const PICTURES_MOST = 8;
 const ELSEWHERE_MS = 1000; // between two looks at what others have begun
+const BEGUN = "studies"; // of the browser's store of this tab: of which input the studies are that it has begun
+
+/** number of a job -> its input */
+function begunHere() {
+    try {
+        return JSON.parse(sessionStorage.getItem(BEGUN) ?? "{}");
+    } catch {
+        return {}; // a store that is closed keeps nothing
+    }
+}
+
+function rememberBegun(id, input) {
+    try {
+        const all = Object.entries(begunHere()).slice(-7); // the server keeps some as well
+        sessionStorage.setItem(BEGUN, JSON.stringify(Object.fromEntries([...all, [id, input]])));
+    } catch {
+        // likewise
+    }
+}
 
 export class Studies {
     /** chosen(): the inputs that are explored at the moment, with their ranges as texts: [{what, from, to}] */
@@ -55,6 +74,7 @@ export class Studies {
         this.again = false;
         try {
             this.others = new Map((await elsewhere()).filter((job) => job.kind === "study" && job.study).map((job) => [job.study, job]));
+            for (const [name, job] of this.others) if (job.state === "done") await this.#takeUp(name, job.id);
             this.#show();
         } catch {
             // the connection says so
@@ -63,6 +83,21 @@ export class Studies {
             this.looking = false;
             if (this.again && this.visible) this.#lookElsewhere();
         }, ELSEWHERE_MS);
+    }
+
+    /** What a study is of that begins now, in words that outlive the page. */
+    #input(name) {
+        return JSON.stringify([state.text, state.set, this.#options(name), state.lab]);
+    }
+
+    /** A study that has ended is opened: of the present input where this tab began it with that, else of a former one. */
+    async #takeUp(name, id) {
+        if (this.kept.has(name) || !this.#here.some((x) => x.name === name)) return;
+        const job = await takeUp(id);
+        if (!job.result || this.kept.has(name)) return;
+        const mine = begunHere()[id];
+        this.kept.set(name, { job, control: null, done: true, lent: mine === undefined, of: mine === this.#input(name) ? this.#key(name, requestKey) : "of another page" });
+        this.others.delete(name);
     }
 
     /** Names and kinds as the text has them. */
@@ -105,7 +140,7 @@ export class Studies {
     async #run(name, { resume, results } = {}) {
         const key = this.#key(name, requestKey);
         const before = this.kept.get(name);
-        if (!resume && before?.job) forget(before.job);
+        if (!resume && before?.job && !before.lent) forget(before.job); // the page that began it shows it, too
         const control = new AbortController();
         const mine = { control, of: key, stage: "waiting", job: null };
         this.kept.set(name, mine);
@@ -115,9 +150,11 @@ export class Studies {
         try {
             await taken();
             mine.of = this.#key(name, requestKey);
+            const input = this.#input(name);
             const job = await run("study", { options: this.#options(name), resume, results, signal: control.signal, onprogress: (j) => {
                 mine.far = /\d+ of (?:at most )?\d+ devices/.exec(j.stage ?? "")?.[0] ?? mine.far;
                 mine.stage = `${j.stage ?? j.state} · ${((performance.now() - begun) / 1e3).toFixed(1)} s`;
+                if (mine.job?.id !== j.id) rememberBegun(j.id, input);
                 mine.job = j;
                 this.#show();
             } });
@@ -140,7 +177,7 @@ export class Studies {
     #show() {
         const here = this.#here;
         for (const name of this.kept.keys()) if (!here.some((x) => x.name === name) && !this.kept.get(name).control) {
-            forget(this.kept.get(name).job);
+            if (!this.kept.get(name).lent) forget(this.kept.get(name).job);
             this.kept.delete(name);
         }
         const open = new Set([...this.list.querySelectorAll(".study")].map((e) => e.dataset.name));

@@ -26,7 +26,7 @@ function twoBodies(c, at) {
 
 function hinge(c, [at]) {
     const [a, b] = twoBodies(c, at);
-    if (!b) return { refuse: "There is no body at this point. A hinge joins two bodies, or a body and the ground." };
+    if (!b) return { refuse: 'There is no body at this point. A hinge joins two bodies, or a body and the ground. To hold a body that ends beside it, choose that under "holds".' };
     if (a === b) return { refuse: "A hinge joins two bodies." };
     const v = c.values;
     const um = (x) => `${x} um`;

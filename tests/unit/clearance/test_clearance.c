@@ -356,6 +356,40 @@ static void what_meets_between_samples_is_found(void **state) {
     }
 }
 
+/* a body goes towards a post and turns back: the share is of the way that it goes, not of a bound of that, in one path and
+   where the farther part of the motion comes in a path of its own */
+static void a_share_is_of_what_the_motion_does(void **state) {
+    (void)state;
+    const double far_m = 1e-3, way_m = 8e-4;
+    for (int parts = 1; parts <= 2; parts++) {
+        scene s = start();
+        box(&s, 0, 0, 0, 1e-5, 1e-4);
+        box(&s, 1, 1e-5 + way_m, 0, 1e-4 + way_m, 2e-4);
+        fw_clearance_least least = fw_clearance_nothing();
+        for (int part = 0; part < parts; part++) {
+            double q[FW_PIECE_NODES * 3 * BODIES] = {0};
+            const double to_m = part + 1 < parts ? 0.9 * far_m : far_m;
+            for (int i = 0; i < FW_PIECE_NODES; i++) {
+                double *at = q + i * 3 * BODIES, t = (double)i / (FW_PIECE_NODES - 1);
+                at[0] = s.things.solid[0].centre.x + to_m * 4 * t * (1 - t);
+                at[1] = s.things.solid[0].centre.y;
+                at[3] = s.things.solid[1].centre.x;
+                at[4] = s.things.solid[1].centre.y;
+            }
+            const fw_dynamics_piece piece = {
+                .from_s = part, .to_s = part + 1, .nodes = FW_PIECE_NODES, .q = q};
+            fw_clearance_path_add(&s.path, &piece);
+            assert_int_equal(fw_clearance_of_path(s.arena, &s.things, &s.path, &closely, &least),
+                             FW_OK);
+            s.path.npiece = 0;
+        }
+        assert_true(least.m <= 0 && least.moved_m >= far_m);
+        assert_near(least.went_m, far_m, 1e-9);
+        assert_near(least.share, way_m / far_m, 1e-5);
+        fw_arena_free(s.arena);
+    }
+}
+
 /* Of several pairs that meet the one that meets first is named, at its instant: a body that wanders between two
    walls meets both. */
 static void first_of_several_meetings(void **state) {
@@ -464,6 +498,7 @@ int main(void) {
         cmocka_unit_test(least_is_that_of_dense_samples),
         cmocka_unit_test(what_slides_is_proved_as_a_whole),
         cmocka_unit_test(what_meets_between_samples_is_found),
+        cmocka_unit_test(a_share_is_of_what_the_motion_does),
         cmocka_unit_test(first_of_several_meetings),
         cmocka_unit_test(what_takes_most_of_its_way),
         cmocka_unit_test(enough_is_enough),

@@ -286,6 +286,37 @@ static void what_hinges_take_is_said(void **state) {
     fw_arena_free(d.arena);
 }
 
+static size_t said_537(const char *mechanism, double *weighs) {
+    drawn d = draw(mechanism, NO_TETHER);
+    size_t n = 0;
+    for (size_t i = 0; i < d.diags.count; i++)
+        n += d.diags.item[i].number == 537;
+    *weighs = d.layout->body[0].area_m2;
+    fw_arena_free(d.arena);
+    return n;
+}
+
+/* a link that is drawn to the middle of its hinge, as hinges ask for, is no mistake; one that goes on past it is, and one that
+   stands in another's */
+static void a_link_that_ends_in_its_hinge(void **state) {
+    (void)state;
+    double to, past, turned, short_of;
+    assert_int_equal(said_537(BODY("<bar to-x=\"1280 um\" to-y=\"0 um\" width=\"120 um\"/>"), &to), 0);
+    assert_int_equal(
+        said_537(BODY("<bar to-x=\"900 um\" to-y=\"910 um\" width=\"120 um\"/>"), &turned), 0);
+    assert_int_equal(said_537(BODY("<bar x=\"-60 um\" y=\"0 um\" to-x=\"1280 um\" to-y=\"0 um\" width=\"120 um\"/>"), &past),
+                     2); /* the note, and the warning of its share */
+    assert_true(said_537(BODY("<bar x=\"40 um\" y=\"0 um\" to-x=\"1280 um\" to-y=\"0 um\" width=\"120 um\"/>"), &short_of) > 0);
+    assert_near(to, past, 1e-12); /* what is made of it is the same */
+    const char *beside =
+        "<body id=\"jaw\" x=\"0 um\" y=\"0 um\"><bar to-x=\"1280 um\" to-y=\"0 um\" width=\"120 um\"/><bar x=\"700 um\" y=\"0 um\" to-x=\"700 um\" "
+        "to-y=\"-900 um\" width=\"120 um\"/></body><body id=\"other\" x=\"700 um\" y=\"-1400 um\">"
+        "<bar to-x=\"0 um\" to-y=\"500 um\" width=\"120 um\"/></body><revolute id=\"A\" a=\"ground\" b=\"jaw\" "
+        "hinge=\"f\"/><revolute id=\"B\" a=\"jaw\" a-x=\"700 um\" a-y=\"-900 um\" b=\"other\" "
+        "b-y=\"500 um\" hinge=\"f\"/>";
+    assert_int_equal(said_537(beside, &to), 0);
+}
+
 /* does a tether end at a cut of its body: end for end, and outside of what it holds? */
 static bool ends_at_body(const fw_layout *l, const fw_layout_piece *t) {
     int cuts = 0, frame = 0;
@@ -482,6 +513,7 @@ int main(void) {
         cmocka_unit_test(mirrored_and_moved), cmocka_unit_test(what_stands_on_it),
         cmocka_unit_test(between_hinges),
         cmocka_unit_test(what_hinges_take_is_said),
+        cmocka_unit_test(a_link_that_ends_in_its_hinge),
         cmocka_unit_test(tethers_end_at_thin_bars),
         cmocka_unit_test(necks_find_the_nearest),
         cmocka_unit_test(shapes_move_no_neck),
