@@ -365,7 +365,7 @@ typedef struct fw_verdict_ring {
     double omega_per_s;
 } fw_verdict_ring;
 typedef struct fw_verdict_after {
-    double rest;
+    double rest, more;       /* more: by which shares may be more, since the motion is not small */
     fw_verdict_ring ring[8]; /* (n) the largest first */
     int n;
 } fw_verdict_after;
@@ -431,7 +431,8 @@ typedef struct fw_verdict_fatigue {
     double damage;      /* Miner's sum at the stresses as they are */
     double cycles;      /* counted in one repetition, to the scene's end */
     double at_least;    /* utilisation with what rings on as small as it may be */
-    double at_most;     /* and where what nothing is known to damp rings on for so long */
+    double damped;      /* and as large; */
+    double at_most;     /* and where what nothing is known to damp rings on for so long, too */
 } fw_verdict_fatigue;
 
 /* Miner's sum of n cycles of stress (Pa), `times` over, all stresses times `factor` */
