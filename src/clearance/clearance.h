@@ -110,6 +110,7 @@ typedef struct fw_clearance_least {
     int a, b;                  /* bodies; FW_GROUND */
     fw_clearance_pose pose[2]; /* there */
     double moved_m;            /* how far the pair moved at most; HUGE_VAL: not known */
+    double farthest_m;         /* and any pair, at most */
     double start_m;            /* distance of the pair where the motion begins */
     double share;              /* of went_m: where they meet first; 1: they do not */
     double went_m; /* where they meet: how far the pair is from its start where it is farthest */
@@ -135,6 +136,7 @@ typedef struct fw_clearance_wish {
     double off;           /* of what a pair is moved by the motion may be off by so much */
     double enough_m;      /* a bound of this is enough, and the least is then not looked for;
                              HUGE_VAL: it is */
+    double beyond;        /* both that and needed_m are more by so much of what moves farthest */
     double needed_m;      /* a bound below this decides nothing yet, */
     long most, most_ever; /* so many distances, and as many while it decides nothing */
 } fw_clearance_wish;

@@ -71,9 +71,13 @@ static double tolerance(const search *s) {
     return fmax(1e-9, s->wish->relative * fabs(s->least->left_m));
 }
 
+static double enough_of(const search *s) {
+    return s->wish->enough_m + s->wish->beyond * s->least->farthest_m;
+}
+
 /* more than this left decides nothing any more */
 static double bar(const search *s) {
-    double enough = s->wish->enough_m;
+    double enough = enough_of(s);
     return s->least->known ? fmin(s->least->left_m - tolerance(s), enough) : enough;
 }
 
@@ -104,6 +108,7 @@ static void record(search *s, int p, const fw_clearance_least *there, double d,
     now.a = pair->a == ground ? FW_GROUND : pair->a;
     now.b = pair->b == ground ? FW_GROUND : pair->b;
     now.moved_m = s->moved_m[p];
+    now.farthest_m = least->farthest_m;
     now.share = 1;
     now.looked = least->looked;
     now.given_up = least->given_up;
@@ -154,6 +159,7 @@ static fw_status add_pair(search *s, const fw_clearance_region *all, int a, int 
     node first = {.low_m = -1, .pair = s->npair, .region = *all};
     s->domain->rough(s->domain->context, pair, all, middle, &slack, &s->moved_m[s->npair]);
     if (slack < still_m) return FW_OK;
+    s->least->farthest_m = fmax(s->least->farthest_m, s->moved_m[s->npair]);
     if (isfinite(slack)) first.low_m = boxes_apart(s, pair, middle) - slack;
     first.key_m = key_of(s, s->npair, first.low_m);
     s->npair++;
@@ -173,7 +179,7 @@ static void narrow(search *s, int p, const fw_clearance_region *region) {
         look(s, p, region, 0.5);
     }
     if (!s->domain->bound(s->domain->context, pair, region, middle, &slack)) return;
-    double near = s->wish->enough_m; /* left */
+    double near = enough_of(s); /* left */
     if (s->least->known) near = fmin(near, s->least->left_m);
     near = fmax(near + lost(s, p), 1e-9);
     if (isfinite(near + slack)) fw_clearance_pair_narrow(pair, middle, near, slack, s->kept);
@@ -297,7 +303,7 @@ static fw_status run(search *s, const fw_clearance_region *all) {
     const long before_looked = least->looked;
     for (; s->count > 0 && s->heap[0].key_m < bar(s);) {
         if (least->known && least->m <= 0) break;
-        bool undecided = s->heap[0].key_m < s->wish->needed_m;
+        bool undecided = s->heap[0].key_m < s->wish->needed_m + s->wish->beyond * least->farthest_m;
         long most = undecided ? s->wish->most_ever : s->wish->most;
         if (least->looked - before_looked >= most || fw_arena_cancelled(s->arena)) {
             least->given_up = undecided;

@@ -439,3 +439,25 @@ const fw_quantity_law_kind fw_quantity_law_expression = {.name = "expression",
                                                          .size = expression_size,
                                                          .straight = expression_is_straight,
                                                          .is_ready = expression_is_ready};
+
+/* ---- what it is like ---- */
+
+bool fw_quantity_law_is_constant(const fw_quantity_law *law) {
+    return !law || (law->kind->is_constant && law->kind->is_constant(law));
+}
+
+bool fw_quantity_law_is_straight(const fw_quantity_law *law) {
+    return !law || (law->kind->straight && law->kind->straight(law));
+}
+
+bool fw_quantity_law_never_negative(const fw_quantity_law *law) {
+    return !law || (law->kind->never_negative && law->kind->never_negative(law));
+}
+
+bool fw_quantity_law_is_ready(const fw_quantity_law *law) {
+    return !law->kind->is_ready || law->kind->is_ready(law);
+}
+
+fw_quantity_law_wave fw_quantity_law_wave_of(const fw_quantity_law *law) {
+    return law && law->kind->wave ? law->kind->wave(law) : (fw_quantity_law_wave){0};
+}

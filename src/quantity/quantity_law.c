@@ -391,6 +391,7 @@ typedef struct course { /* of a law that rests when all of it has come: straight
     double cells;             /* of all pieces */
     double slow_s;            /* integral of (last - t) |df|: |d most/d omega| at most */
     double off, area, varies; /* from the law: at most; its integral; its variation */
+    double impulse_s;         /* integral of |f| over the cells, at most */
 } course;
 
 static double cells_of(const fw_quantity_law *law, double from, double to) {
@@ -418,6 +419,7 @@ static bool course_of(const fw_quantity_law *law, double done_s, course *c) {
         for (double k = 1; k <= n; k++) {
             before = value[0];
             fw_quantity_law_value(law, k < n ? from + k * h : to, 0.5 * (from + to), value);
+            c->impulse_s += 0.5 * h * (fabs(before) + fabs(value[0]));
             c->slow_s += fabs(value[0] - before) * (c->at[c->n - 1] - (from + (k - 0.5) * h));
         }
         before = value[0];
@@ -565,29 +567,16 @@ fw_quantity_law_response fw_quantity_law_responds(const fw_quantity_law *law, do
     return r;
 }
 
+double fw_quantity_law_impulse_s(const fw_quantity_law *law, double end_s) {
+    const double done = fw_quantity_law_done_s(law, end_s);
+    double value[3];
+    course c;
+    if (!law || !course_of(law, done, &c)) return (double)INFINITY;
+    fw_quantity_law_value(law, done, done * (1 + 1e-9), value);
+    return value[0] == 0 ? c.impulse_s + c.area : (double)INFINITY;
+}
+
 double fw_quantity_law_answer(const fw_quantity_law *law, double end_s, double low_per_s,
                               double high_per_s) {
     return fw_quantity_law_responds(law, end_s, low_per_s, high_per_s).most;
-}
-
-/* ---- what it is like ---- */
-
-bool fw_quantity_law_is_constant(const fw_quantity_law *law) {
-    return !law || (law->kind->is_constant && law->kind->is_constant(law));
-}
-
-bool fw_quantity_law_is_straight(const fw_quantity_law *law) {
-    return !law || (law->kind->straight && law->kind->straight(law));
-}
-
-bool fw_quantity_law_never_negative(const fw_quantity_law *law) {
-    return !law || (law->kind->never_negative && law->kind->never_negative(law));
-}
-
-bool fw_quantity_law_is_ready(const fw_quantity_law *law) {
-    return !law->kind->is_ready || law->kind->is_ready(law);
-}
-
-fw_quantity_law_wave fw_quantity_law_wave_of(const fw_quantity_law *law) {
-    return law && law->kind->wave ? law->kind->wave(law) : (fw_quantity_law_wave){0};
 }

@@ -124,6 +124,8 @@ typedef struct fw_quantity_law_response {
 } fw_quantity_law_response;
 fw_quantity_law_response fw_quantity_law_responds(const fw_quantity_law *law, double end_s,
                                                   double low_per_s, double high_per_s);
+/* s: the integral of |f| at most, of a law that is over behind what it does; infinite: it never is, or nobody knows */
+double fw_quantity_law_impulse_s(const fw_quantity_law *law, double end_s);
 double fw_quantity_law_answer(const fw_quantity_law *law, double end_s, double low_per_s,
                               double high_per_s); /* .most of it */
 

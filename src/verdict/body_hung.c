@@ -143,20 +143,25 @@ static double farthest_across(const fw_verdict_tree *t) {
     return most;
 }
 
-/* m/N of the place that goes farthest across the plane, or of an end that is softer */
-static double softest_tip(fw_verdict_tree *t) {
+/* m/N of the softest end across the plane; corners: of the softest place of any part, by as much as it reaches beyond its
+   middle and with what shear gives */
+static double softest_tip(fw_verdict_tree *t, bool corners) {
     double most = 0;
     for (int k = 0; k < t->n; k++) {
         double sum = 0;
-        if (t->at[k].bears > 0) continue; /* it is no end */
+        if (t->at[k].bears > 0 && !corners) continue; /* it is no end */
+        const double far = corners ? t->at[k].far_m : 0;
         for (int i = k; t->at[i].before != FW_NONE; i = t->at[i].before) {
             const fw_verdict_tree_part *p = &t->at[i];
             const fw_geometry_vec2 r = vec_sub(t->at[k].at, p->at), n = vec_left(p->along);
+            const double along = fabs(vec_dot(r, p->along)) + far,
+                         aside = fabs(vec_dot(r, n)) + far;
             double bends, twists;
             across_gives(t, p, &bends, &twists);
             const bool runs = vec_length(p->along) > 0;
-            sum += runs ? bends * pow(vec_dot(r, p->along), 2) + twists * pow(vec_dot(r, n), 2)
-                        : fmax(bends, twists) * vec_dot(r, r);
+            sum += runs ? bends * along * along + twists * aside * aside
+                        : fmax(bends, twists) * pow(vec_length(r) + far, 2);
+            if (corners) sum += 1.2 * p->long_m / (t->shear_Pa * t->depth_m * p->wide_m);
         }
         most = fmax(most, sum);
     }
@@ -274,7 +279,8 @@ static fw_status bend_tree(fw_verdict_tree *t, double kg_per_m2, double gap_m,
     FW_TRY(fw_verdict_tree_grow(t, false));
     accelerate(t, true, 0, kg_per_m2);
     hung->across_s2 = placed * farthest_across(t);
-    hung->tip_m_per_N = softest_tip(t);
+    hung->tip_m_per_N = softest_tip(t, false);
+    hung->corner_m_per_N = t->thrown ? placed * softest_tip(t, true) : 0;
     hung->across_mode_s2 = slowest(t, true, kg_per_m2);
     hung->bears_N_per_m = gap_m > 0 ? bears(t, gap_m) : HUGE_VAL;
     /* in the plane one hinge's arm has all of the body that is between */
@@ -314,6 +320,9 @@ static fw_status overhang(fw_arena *arena, const fw_mechanism *m, const fw_layou
                          .shear_Pa = of->youngs.value / (2 * (1 + nu)) /
                                      (fw_device_material_is_crystal(of) ? crystal : 1)};
     if (!(m->shape[body].area_m2 > 0) || !(t.youngs_Pa > 0) || !(t.depth_m > 0)) return FW_OK;
+    for (int i = 0; m->device && i < m->device->nscene; i++)
+        for (int k = 0; k < m->device->scene[i].nbase; k++)
+            t.thrown = t.thrown || m->device->scene[i].base[k].az_m_per_s2 != 0;
     FW_TRY(fw_verdict_tree_new(arena, m, layout, body, arm, &t));
     return t.nline > 0 ? hang(&t, m, m->body[body].mass_kg, hung) : FW_OK;
 }
@@ -388,21 +397,25 @@ static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
     return FW_OK;
 }
 
-/* what all loads bend that act on the same side of a body's middle as this one */
+/* on the same side of a body's middle */
+static bool on_same_side(const fw_mechanism *m, const fw_mechanism_load_end *a,
+                         const fw_mechanism_load_end *b) {
+    const fw_geometry_vec2 middle = {m->drawn[a->body].x_m, m->drawn[a->body].y_m};
+    return a->body == b->body && vec_dot(vec_sub(a->at, middle), vec_sub(b->at, middle)) >= 0;
+}
+
+/* what all loads bend that act on the same side as this one */
 static double on_one_side(const fw_mechanism *m, const fw_mechanism_load_end *end, const double *by,
                           int n, int k) {
-    const fw_geometry_vec2 middle = {m->drawn[end[k].body].x_m, m->drawn[end[k].body].y_m},
-                           off = vec_sub(end[k].at, middle);
     double sum = 0;
     for (int i = 0; i < n; i++)
-        if (end[i].body == end[k].body && vec_dot(off, vec_sub(end[i].at, middle)) >= 0)
-            sum += by[i];
+        if (on_same_side(m, &end[i], &end[k])) sum += by[i];
     return sum;
 }
 
 /* to (nbody): how far each bends at most in a scene */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                    double *to) {
+                                    const fw_device_probe *but, double *to, double *apart_m) {
     const fw_mechanism *m = v->mechanism;
     const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
     const fw_verdict_bending *b = saw ? &saw->bending : NULL;
@@ -411,7 +424,8 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
     const double sudden = 2, hardly_m = 1e-9;
     double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
     fw_mechanism_load_end *end;
-    int n;
+    int n, own = FW_NONE;
+    *apart_m = 0;
     for (int i = 0; i < m->nbody; i++)
         to[i] = 0;
     if (!b || !b->arm || !b->rest_N) return FW_OK;
@@ -427,6 +441,10 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
         const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
         const double *g = arm->give;
         if (end[k].scene != scene || !arm->known) continue;
+        if (but && fw_verdict_bends_own(&end[k], scene, but)) {
+            own = k;
+            continue;
+        }
         const double load_N =
             isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
         const double unit = sudden * load_N / b->stiff_N, goes = fw_verdict_arm_goes(arm);
@@ -434,8 +452,14 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
         FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
         by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
     }
-    for (int k = 0; k < n; k++)
-        most[end[k].body] = fmax(most[end[k].body], on_one_side(m, end, by, n, k));
+    for (int k = 0; k < n; k++) {
+        const double side = on_one_side(m, end, by, n, k);
+        if (own != FW_NONE && end[k].body == end[own].body && !on_same_side(m, &end[k], &end[own]))
+            *apart_m = fmax(*apart_m, side);
+        else
+            most[end[k].body] = fmax(most[end[k].body], side);
+    }
+    if (but) *apart_m += to[but->body];
     for (int i = 0; i < m->nbody; i++)
         to[i] += most[i];
     return FW_OK;
@@ -504,6 +528,22 @@ static fw_status say_bent(fw_arena *arena, fw_verdict_variant_verdict *v, const 
     return fw_verdict_hangs_open(v, scene, number, what);
 }
 
+/* of a displacement along a direction, with its sign, only what its own body does counts */
+static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                          const fw_verdict_requirement *r, double *down, double *up) {
+    const fw_device *d = v->mechanism->device;
+    const fw_device_probe *p = &d->probe[d->requirement[r->asked].probe];
+    double *to, apart;
+    if (p->row != FW_PROBE_IS_displacement || p->body == FW_GROUND || isnan(p->direction_rad) ||
+        !r->measure || !fw_words_hold("final maximum minimum", " ", r->measure))
+        return FW_OK;
+    FW_NEED(to = fw_arena_array(arena, double, (size_t)v->mechanism->nbody));
+    FW_TRY(fw_verdict_bends_in_plane(arena, v, r->scene_index, p, to, &apart));
+    FW_TRY(fw_verdict_bends_asked(arena, v, r->scene_index, p, down, up));
+    *down = fmax(*down + to[p->body], apart), *up = fmax(*up + to[p->body], apart);
+    return FW_OK;
+}
+
 static fw_status opens(fw_arena *arena, int scene, double by, int body,
                        fw_verdict_variant_verdict *v) {
     const char *name = v->mechanism->device->scene[scene].name;
@@ -523,22 +563,25 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body,
         const bool moves = fw_words_hold("displacement gap distance opening", " ", r->kind);
         const fw_verdict_decision was = r->decision;
         if (r->scene_index != scene || !moves || r->why || was == FW_REJECT) continue;
-        if (!(by > hardly * fabs(r->value))) continue;
-        fw_verdict_requirement_widen(by, by, r);
+        double down = by, up = by;
+        FW_TRY(asked_of(arena, v, r, &down, &up));
+        if (!(fmax(down, up) > hardly * fabs(r->value))) continue;
+        fw_verdict_requirement_widen(down, up, r);
         if (was != FW_ACCEPT || r->decision == FW_ACCEPT) continue;
-        FW_TRY(say_bent(arena, v, name, 639, fw_verdict_requirement_text(arena, r), body, by));
+        FW_TRY(say_bent(arena, v, name, 639, fw_verdict_requirement_text(arena, r), body,
+                        fmax(down, up)));
     }
     return FW_OK;
 }
 
 fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
-    double *to = fw_arena_array(arena, double, (size_t)m->nbody);
+    double *to = fw_arena_array(arena, double, (size_t)m->nbody), apart;
     FW_NEED(to);
     if (!v->out_of_plane) return FW_OK;
     for (int i = 0; i < m->device->nscene; i++) {
         FW_TRY(fw_verdict_shaken_bears(arena, v, i));
-        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, to));
+        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, NULL, to, &apart));
         int body = 0;
         double by = 0, other = 0;
         for (int b = 0; b < m->nbody; b++)

@@ -4,6 +4,8 @@
    those of body_arms.c. Theory: docs/theory/verdict.md. */
 #include "base/constants.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
+#include "quantity/law_kind.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -22,6 +24,105 @@ double fw_verdict_load_N(const fw_mechanism_load_end *end, int n, int at, const 
 double fw_verdict_arm_goes(const fw_verdict_arm *arm) {
     const double *g = arm->give;
     return 0.5 * (g[3] + g[5]) + hypot(0.5 * (g[3] - g[5]), g[4]);
+}
+
+/* ---- how a known force bends its own place ----
+   C, what the place gives by the way to the body's middle, is at least what the body does give, C - C' >= 0 as a form. So of a
+   force F the part along n of how far the place goes lies between
+
+     (n.C F - r)/2 and (n.C F + r)/2,   r^2 = (n.C n)(F.C F),
+
+   which is 0 to n.C F where the way gives in one direction alone, or F acts along n. Its law comes over modes of what hangs over,
+   which ring by |q - f| of it besides (fw_quantity_law_responds), added as if in step: by as much of r. A body that turns by theta
+   turns n and F against C: 2 theta of the most. In: SI, forces of the scene on the very place that is asked. Range: other places
+   and loads as fw_verdict_bends_in_plane has them. Test: test_out_of_plane.py, test_a_known_force_bends_its_own_place */
+
+bool fw_verdict_bends_own(const fw_mechanism_load_end *end, int scene, const fw_device_probe *p) {
+    const double same_m = 1e-9;
+    return end->scene == scene && end->force && end->body == p->body &&
+           fabs(end->x_m - p->x_m) < same_m && fabs(end->y_m - p->y_m) < same_m;
+}
+
+static double turned_most(const fw_mechanism *m, const fw_dynamics_motion *x, int body) {
+    double most = 0;
+    fw_dynamics_motion_rows(x, 0, x->nsample);
+    for (int r = 1; r < x->nsample; r++)
+        most = fmax(most, fabs(x->q[(3 * r * m->nbody) + 3 * body + 2] - x->q[3 * body + 2]));
+    return most;
+}
+
+fw_status fw_verdict_bends_asked(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                 const fw_device_probe *p, double *down, double *up) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *x = v->motion[scene];
+    const fw_verdict_bending *b = &((const fw_verdict_strain_monitor *)x->observed)->bending;
+    const fw_verdict_hung *hung = v->out_of_plane->hung;
+    const double slow_s = hung ? sqrt(hung[p->body].in_plane_mode_s2) : 0, fast = 30,
+                 end_s = m->device->scene[scene].duration_s;
+    fw_mechanism_load_end *end;
+    int n;
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
+    *down = *up = 0;
+    for (int k = 0; k < n; k++) {
+        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
+        if (!fw_verdict_bends_own(&end[k], scene, p) || !arm->known) continue;
+        const fw_device_force *f = end[k].force;
+        const double
+            *g = arm->give,
+            nx = cos(p->direction_rad), ny = sin(p->direction_rad), fx = f->fx_N, fy = f->fy_N,
+            unit = 1 / b->stiff_N,
+            along = unit * (nx * (g[3] * fx + g[4] * fy) + ny * (g[4] * fx + g[5] * fy)),
+            own = unit * (nx * (g[3] * nx + g[4] * ny) + ny * (g[4] * nx + g[5] * ny)),
+            work = unit * (fx * (g[3] * fx + g[4] * fy) + fy * (g[4] * fx + g[5] * fy)),
+            size = sqrt(fmax(own * work, 0)),
+            turn = 2 * turned_most(m, x, p->body) * unit * fw_verdict_arm_goes(arm) * hypot(fx, fy),
+            low = 0.5 * (along - size) - turn, high = 0.5 * (along + size) + turn,
+            most = fw_quantity_law_largest(f->law, end_s),
+            least = !f->law || fw_quantity_law_never_negative(f->law) ? 0 : -most,
+            rings = slow_s > 0
+                        ? fw_quantity_law_responds(f->law, end_s, 1 / slow_s, fast / slow_s).behind
+                        : most;
+        *up += fmax(most * high, least * low) + rings * size;
+        *down += fmax(-most * low, -least * high) + rings * size;
+    }
+    return FW_OK;
+}
+
+/* ---- how far a shock that is over throws the device across the plane ----
+   Of a linear device that an acceleration a of what carries it shakes, the energy about that grows by dE/dt = -a 1.M u', at most
+   |a| (m 2E)^(1/2), m all that moves: so (2E)^(1/2) <= m^(1/2) integral of |a|, whatever its modes are, and a place that gives c
+   goes (2E c)^(1/2) at most. c adds up of the bodies as plates and of what hangs over them. In: plates, SI. Out: m; infinite:
+   the shock does not come to its end. Error: an upper bound; twice the slow answer and more where a shock is no shorter than
+   a period. Source: Cauchy and Schwarz. Test: test_out_of_plane.py, test_a_short_shock_throws_by_its_impulse */
+fw_status fw_verdict_thrown_across(fw_arena *arena, const fw_mechanism_plates *p,
+                                   const fw_verdict_hung *hung, const fw_device_scene *s,
+                                   double *far_m) {
+    const fw_mechanism *m = p->mechanism;
+    const size_t n = (size_t)p->n;
+    double speed = 0, mass_kg = 0, most = 0, *c;
+    for (int i = 0; i < s->nbase; i++)
+        if (s->base[i].az_m_per_s2 != 0)
+            speed += fabs(s->base[i].az_m_per_s2) *
+                     fw_quantity_law_impulse_s(s->base[i].law, s->duration_s);
+    *far_m = hung || !(speed > 0) ? speed : (double)INFINITY;
+    if (!(*far_m > 0) || !isfinite(*far_m)) return FW_OK;
+    FW_TRY(fw_mechanism_plates_across(arena, p, &c));
+    for (int b = 0; b < m->nbody; b++) {
+        fw_mechanism_line *line;
+        int nline;
+        mass_kg += p->mass[9 * b];
+        FW_TRY(fw_mechanism_body_lines(arena, m->layout, b, &line, &nline));
+        for (int i = 0; i < nline; i++) { /* what gives most is a corner: c is convex */
+            const double by[3] = {1, line[i].a.y - m->drawn[b].y_m, m->drawn[b].x_m - line[i].a.x};
+            double gives = hung[b].corner_m_per_N;
+            for (size_t k = 0; k < 9; k++)
+                gives +=
+                    by[k / 3] * c[(3 * (size_t)b + k / 3) * n + 3 * (size_t)b + k % 3] * by[k % 3];
+            most = fmax(most, gives);
+        }
+    }
+    *far_m = speed * sqrt(mass_kg * most);
+    return FW_OK;
 }
 
 /* ---- what bodies give in series with what presses on them ----

@@ -10,9 +10,8 @@
    computed widens by one mode that lies elsewhere, for all that do; and of all together where all lie lower, or higher, by
    one share, since then what rings in one may meet what rings in another.
 
-   In: the motion, modes, loads. Out: answers of hinges and bodies. Range: small motions; modes that bend or move by a
-   hundredth of what does most. Error: frequencies half a radian apart at the end. Cost: steps of fw_quantity_law_swings_of for
-   each. Test: test_effects.py Resonance */
+   In: the motion, modes, loads. Out: answers of hinges and bodies. Range: small motions; modes that bend or move by a hundredth
+   of what does most. Error: frequencies half a radian apart at the end. Cost: fw_quantity_law_swings_of. Test: test_effects.py */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "statics/statics.h"
@@ -21,8 +20,8 @@
 #include <math.h>
 #include <string.h>
 
-/* beside what a scene states of itself: the elements of its motion, and how far one unit of each driver that moves, then of
-   each heat, then the stress of layers, holds every body from where it rests (rows of 3 nbody) */
+/* the elements of its motion, and how far one unit of each driver that moves, then of each heat, then the stress of layers,
+   holds every body from where it rests (rows of 3 nbody) */
 typedef struct acting {
     const fw_effects_loads *loads;
     const double *way;
@@ -278,7 +277,6 @@ static void see_most(const fw_mechanism *m, const fw_dynamics_motion *motion, do
     }
 }
 
-/* what hardly moves beside the others is moved by them */
 static double largest_of(const double *x, int n) {
     double most = 0;
     for (int i = 0; i < n; i++)
@@ -488,30 +486,46 @@ fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *
 
    which falls by its logarithmic decrement 2 pi zeta/sqrt(1 - zeta^2) from one swing to the next. In: the last instant, modes
    about that equilibrium. Out: of every hinge what it rests at and what modes ring by, over the most that it was bent by in the
-   scene. The swings of the mode that bends it most carry those of the others. Range: small motions about q_rest; no more than
-   all of the peak. No equilibrium: all of it, by the least that damps any mode. Cost: modes of the scene. Test:
-   test_limits.py, test_what_rings_on_behind_a_scene_is_counted */
+   scene. The swings of the mode that bends it most carry those of the others. Range: small motions about q_rest; shares may be
+   more by theta^2/2 of the largest turn, or by what way and forces are apart (a tenth at most), but not than all of the peak.
+   No equilibrium: all of it, by the least that damps any mode. Test: test_limits.py, test_what_rings_on_behind_... */
 
 enum { MODES_AFTER = 8 }; /* of one hinge, those that bend it most */
 
-static double decrement_of(const fw_statics_mode *mode) {
-    const double z = fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: nothing is known, 0 */
+static double decrement_of(double damping_ratio) {
+    const double z = fmin(fmax(damping_ratio, 0), 0.99); /* NaN: nothing is known, 0 */
     return 2 * FW_PI * z / sqrt(1 - z * z);
 }
 
-/* how far a mode swings about where it rests, in units of its shape */
+/* u . M (x, y) of one body, by what it is given turned back by `turn` */
+static double of_body(const fw_mechanism *m, int b, const double *u, const double *of,
+                      double turn) {
+    const fw_geometry_vec2 at = fw_geometry_vec_rotate((fw_geometry_vec2){of[0], of[1]}, -turn);
+    const fw_mechanism_mass *is = &m->body[b];
+    return is->mass_kg * (u[0] * at.x + u[1] * at.y) + is->inertia_kg_m2 * u[2] * of[2];
+}
+
+/* How far a mode swings about where it rests, in units of its shape. A body that turns by theta about a far pin comes nearer
+   to it by r theta^2/2, which strains nothing; taken for a swing of what is stiff along, it would be the largest of all. So
+   way, speed and acceleration are turned back with the body (a way by half: so it is along the chord), and p is the smaller of
+   the way and of what the forces of that instant hold, -(p'' + 2 zeta omega p')/omega^2. *more: by the larger, relative */
 static double swing_at_end(const fw_mechanism *m, const fw_statics_modes *modes, int k,
-                           const double *q, const double *v) {
+                           const fw_dynamics_motion *x, double *more) {
     const fw_statics_mode *mode = &modes->mode[k];
-    double at = 0, speed = 0;
+    const size_t last = (size_t)(x->nsample - 1) * 3 * (size_t)m->nbody;
+    const double w = mode->omega_rad_per_s, damping = fmax(mode->damping_ratio, 0);
+    double at = 0, speed = 0, pulls = 0;
     for (int b = 0; b < m->nbody; b++) {
-        const double *u = mode->shape + 3 * b, *rest = modes->q + 3 * b, mass = m->body[b].mass_kg,
-                     inertia = m->body[b].inertia_kg_m2;
-        at += mass * (u[0] * (q[3 * b] - rest[0]) + u[1] * (q[3 * b + 1] - rest[1])) +
-              inertia * u[2] * (q[3 * b + 2] - rest[2]);
-        speed += mass * (u[0] * v[3 * b] + u[1] * v[3 * b + 1]) + inertia * u[2] * v[3 * b + 2];
+        const double *rest = modes->q + 3 * b, *q = x->q + last + 3 * b, turned = q[2] - rest[2];
+        const double *of = mode->shape + 3 * b, way[3] = {q[0] - rest[0], q[1] - rest[1], turned};
+        at += of_body(m, b, of, way, 0.5 * turned);
+        speed += of_body(m, b, of, x->v + last + 3 * b, turned);
+        pulls += of_body(m, b, of, x->accel + last + 3 * b, turned);
     }
-    return hypot(at, speed / mode->omega_rad_per_s) / mode->modal_mass_kg_m2;
+    const double held = fabs(pulls / w + 2 * damping * speed) / w, way = fabs(at),
+                 swing = hypot(fmin(way, held), speed / w);
+    *more = swing > 0 ? hypot(fmax(way, held), speed / w) / swing - 1 : 0;
+    return swing / mode->modal_mass_kg_m2;
 }
 
 static void keep_ring(fw_verdict_after *to, fw_verdict_ring ring) {
@@ -523,16 +537,17 @@ static void keep_ring(fw_verdict_after *to, fw_verdict_ring ring) {
 
 static void rings_of(const fw_mechanism *m, const fw_statics_modes *modes, int h, double most,
                      const double *q0, const double *swing, fw_verdict_after *to) {
-    const double hardly = 1e-3;
+    const double hardly = 1e-3, much = 0.1, *more = swing + modes->count;
     to->rest = fmin(bent_between(m, &m->hinge[h], q0, modes->q) / most, 1);
     for (int k = 0; k < modes->count; k++) {
         if (!(swing[k] > 0)) continue;
-        const double share =
-            fw_verdict_bends_most(bent_by(m, &m->hinge[h], modes->q, modes->mode[k].shape)) *
-            swing[k] / most;
-        if (share > hardly)
-            keep_ring(to, (fw_verdict_ring){fmin(share, 1), decrement_of(&modes->mode[k]),
-                                            modes->mode[k].omega_rad_per_s});
+        const fw_statics_mode *by = &modes->mode[k];
+        const bent bends = bent_by(m, &m->hinge[h], modes->q, by->shape);
+        const double share = fw_verdict_bends_most(bends) * swing[k] / most;
+        if (!(share > hardly)) continue;
+        if (to->n == 0 || share > to->ring[0].share) to->more = fmin(fmax(to->more, more[k]), much);
+        keep_ring(to, (fw_verdict_ring){fmin(share, 1), decrement_of(by->damping_ratio),
+                                        by->omega_rad_per_s});
     }
 }
 
@@ -548,14 +563,13 @@ static fw_status modes_at_end(fw_arena *arena, const fw_mechanism *m, const fw_d
 
 fw_status fw_verdict_rings_on(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                               const fw_dynamics_motion *x, fw_verdict_after **after) {
-    const size_t nh = (size_t)m->nhinge, size = 3 * (size_t)m->nbody;
-    const double hardly = 1e-3;
+    const size_t nh = (size_t)m->nhinge;
+    const double hardly = 1e-3, much = 0.1;
     const fw_statics_modes *modes, *unloaded = NULL;
-    double *most, *swing, least = (double)INFINITY;
+    double *most, *swing, least = (double)INFINITY, turned = 0;
     bool lives = false;
     *after = NULL;
-    if (!m->device || !(m->device->limits.cycles > 0)) return FW_OK;
-    for (size_t h = 0; h < nh; h++)
+    for (size_t h = 0; h < nh && m->device && m->device->limits.cycles > 0; h++)
         lives = lives || m->hinge[h].limits.life.known;
     if (!lives || !x || x->ended || x->nsample < 2 || (x->loads && x->loads->quasi_static))
         return FW_OK;
@@ -565,19 +579,22 @@ fw_status fw_verdict_rings_on(fw_arena *arena, const fw_mechanism *m, const fw_d
     if (!modes) FW_TRY(modes_at_end(arena, m, s, false, &unloaded));
     for (int k = 0; unloaded && k < unloaded->count; k++)
         if (unloaded->mode[k].omega_rad_per_s > 0)
-            least = fmin(least, decrement_of(&unloaded->mode[k]));
+            least = fmin(least, decrement_of(unloaded->mode[k].damping_ratio));
     for (size_t h = 0; !modes && h < nh; h++)
         keep_ring(&(*after)[h], (fw_verdict_ring){1, isfinite(least) ? least : 0, 1});
     if (!modes) return FW_OK;
     fw_dynamics_motion_rows(x, 0, x->nsample);
     see_most(m, x, modes->unit_length_m, most);
-    FW_NEED(swing = fw_arena_array(arena, double, (size_t)modes->count));
-    const size_t last = (size_t)(x->nsample - 1) * size;
+    FW_NEED(swing = fw_arena_array(arena, double, 2 * (size_t)modes->count));
     for (int k = 0; k < modes->count; k++)
         if (modes->mode[k].stiffness_per_s2 > 0 && modes->mode[k].shape)
-            swing[k] = swing_at_end(m, modes, k, x->q + last, x->v + last);
+            swing[k] = swing_at_end(m, modes, k, x, swing + modes->count + k);
+    for (int k = 0; k < m->npin; k++)
+        turned = fmax(turned, fabs(x->peak[k].angle_rad));
     const double bends = largest_of(most, m->nhinge);
-    for (int h = 0; h < m->nhinge; h++)
+    for (int h = 0; h < m->nhinge; h++) {
+        (*after)[h].more = fmin(0.5 * turned * turned, much);
         if (most[h] > hardly * bends) rings_of(m, modes, h, most[h], x->q, swing, &(*after)[h]);
+    }
     return FW_OK;
 }

@@ -112,7 +112,8 @@ typedef struct fw_verdict_tree_part {
 typedef struct fw_verdict_tree {
     fw_arena *arena;
     const fw_mechanism_line *line;
-    bool *hole; /* (nline) lines of release holes */
+    bool *hole;  /* (nline) lines of release holes */
+    bool thrown; /* a scene shakes it across the plane */
     struct fw_verdict_held *held;
     fw_geometry_box box;
     int nline, nx, ny, nlist, n, nhinge, near; /* near: steps to what is held, level_of */
@@ -136,10 +137,10 @@ fw_status fw_verdict_tree_grow(fw_verdict_tree *tree, bool whole_ways);
 /* body_hung.c: what a body does beyond the ways between its hinges and its middle under its own weight, per acceleration: how
    far it goes across the plane and in it, m per m/s2; its slowest modes there, 1/omega^2; what it is strained by in the plane,
    as a bar without corners; the s = 2 gamma cos(theta) of a liquid below that it bears, over the gap there; and what its softest
-   end gives across the plane */
+   end, or corner, gives across the plane */
 typedef struct fw_verdict_hung {
     double across_s2, in_plane_s2, across_mode_s2, in_plane_mode_s2, Pa_per_m_s2, bears_N_per_m,
-        tip_m_per_N;
+        tip_m_per_N, corner_m_per_N;
 } fw_verdict_hung;
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
                               const fw_layout *layout, int body, const fw_verdict_arm *arm,
@@ -147,6 +148,11 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
 fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_verdict_arm *arm, fw_verdict_hung **hung); /* (nbody) */
 fw_status fw_verdict_hung_says(fw_arena *arena, const fw_mechanism *mechanism, bool *says);
+/* how far a shock across the plane, once over, throws anything of it at most; infinite: that bounds nothing */
+struct fw_mechanism_plates;
+fw_status fw_verdict_thrown_across(fw_arena *arena, const struct fw_mechanism_plates *plates,
+                                   const fw_verdict_hung *hung, const fw_device_scene *scene,
+                                   double *far_m);
 /* arms of bodies on several hinges: all of a body on one hinge hangs over */
 fw_status fw_verdict_shared_arms(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, fw_verdict_arm **shared);
@@ -169,7 +175,6 @@ fw_status fw_verdict_hangs_open(struct fw_verdict_variant_verdict *verdict, cons
 /* "0.3 to 0.5", "0.3 at least" */
 const char *fw_verdict_range_words(fw_arena *arena, const double number[2]);
 /* plates on flexures with what bodies may give at most (verdict_out_of_plane.c) */
-struct fw_mechanism_plates;
 fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, struct fw_mechanism_plates *soft);
 typedef struct fw_verdict_turn { /* of a body since it was drawn */
@@ -339,6 +344,13 @@ double fw_verdict_bending_all_J(const fw_verdict_bending *bending);
 double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe);
 bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const fw_device_probe *probe,
                              double *low_N, double *high_N);
+/* body_loads.c: a stated force on the very place of a displacement that is asked for; by how much that may be less and more for
+   what hangs over by such forces, m */
+bool fw_verdict_bends_own(const fw_mechanism_load_end *end, int scene,
+                          const fw_device_probe *probe);
+struct fw_verdict_variant_verdict;
+fw_status fw_verdict_bends_asked(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
+                                 int scene, const fw_device_probe *probe, double *down, double *up);
 /* body_loads.c: how far the end of a way goes at most, for a force of E h, whichever way that acts */
 double fw_verdict_arm_goes(const fw_verdict_arm *arm);
 /* what the body of a probed stiffness or compliance gives at its place along its direction at most, m/N; 0: not known */
@@ -365,7 +377,7 @@ typedef struct fw_verdict_ring {
     double omega_per_s;
 } fw_verdict_ring;
 typedef struct fw_verdict_after {
-    double rest;
+    double rest, more;       /* more: by which shares may be more, since the motion is not small */
     fw_verdict_ring ring[8]; /* (n) the largest first */
     int n;
 } fw_verdict_after;
@@ -431,7 +443,8 @@ typedef struct fw_verdict_fatigue {
     double damage;      /* Miner's sum at the stresses as they are */
     double cycles;      /* counted in one repetition, to the scene's end */
     double at_least;    /* utilisation with what rings on as small as it may be */
-    double at_most;     /* and where what nothing is known to damp rings on for so long */
+    double damped;      /* and as large; */
+    double at_most;     /* and where what nothing is known to damp rings on for so long, too */
 } fw_verdict_fatigue;
 
 /* Miner's sum of n cycles of stress (Pa), `times` over, all stresses times `factor` */

@@ -222,13 +222,17 @@ size_t fw_verdict_rung_out(const fw_verdict_after *after, int k, double peak_Pa,
     return n;
 }
 
-/* what rings on is put behind cycles; undamped: what nothing is known to damp instead. Returns how many */
-static size_t put_after(const fw_verdict_after *after, double peak_Pa, bool undamped,
+/* what rings on, so many times as far, is put behind cycles; undamped: what nothing is known to damp instead. Returns how many */
+static size_t put_after(const fw_verdict_after *after, double times, double peak_Pa, bool undamped,
                         fw_maths_cycle *to) {
     size_t n = 0;
-    for (int k = 0; after && k < after->n; k++)
-        if (undamped == !(after->ring[k].decrement > 0))
-            n += fw_verdict_rung_out(after, k, peak_Pa, to + n);
+    if (!after) return 0;
+    fw_verdict_after so_far = *after;
+    for (int k = 0; k < so_far.n; k++)
+        so_far.ring[k].share *= times;
+    for (int k = 0; k < so_far.n; k++)
+        if (undamped == !(so_far.ring[k].decrement > 0))
+            n += fw_verdict_rung_out(&so_far, k, peak_Pa, to + n);
     return n;
 }
 
@@ -250,6 +254,7 @@ fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *l
                  Pa = youngs_Pa * (most > 0 ? fmax(1, peak_strain / most) : 1),
                  peak_Pa = fmax(peak_strain, most) * youngs_Pa;
     const double small = 0.9; /* what rings on may be off by a tenth: small motions (assumed) */
+    const double large = 1 + (after ? after->more : 0);
     const size_t rings = after ? (size_t)after->n * FW_RING_BLOCKS : 0;
     *out = (fw_verdict_fatigue){0};
     for (int side = 0; side < FW_FACES; side++) {
@@ -267,18 +272,18 @@ fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *l
             cycle[i].mean *= Pa;
             counted += cycle[i].count;
         }
-        const size_t rung = put_after(after, peak_Pa, false, cycle + n);
-        for (size_t i = 0; i < rung; i++)
-            cycle[n + i].range *= small;
+        size_t rung = put_after(after, small, peak_Pa, false, cycle + n);
         out->at_least =
             fmax(out->at_least, fw_verdict_fatigue_utilisation(law, cycle, n + rung, times));
-        for (size_t i = 0; i < rung; i++)
-            cycle[n + i].range /= small;
-        n += rung;
-        const double used = fw_verdict_fatigue_utilisation(law, cycle, n, times),
-                     damage = fw_verdict_miner(law, cycle, n, times, 1);
-        n += put_after(after, peak_Pa, true, cycle + n);
-        out->at_most = fmax(out->at_most, fw_verdict_fatigue_utilisation(law, cycle, n, times));
+        rung = put_after(after, 1, peak_Pa, false, cycle + n);
+        const double used = fw_verdict_fatigue_utilisation(law, cycle, n + rung, times),
+                     damage = fw_verdict_miner(law, cycle, n + rung, times, 1);
+        rung = put_after(after, large, peak_Pa, false, cycle + n);
+        out->damped =
+            fmax(out->damped, fw_verdict_fatigue_utilisation(law, cycle, n + rung, times));
+        rung += put_after(after, large, peak_Pa, true, cycle + n + rung);
+        out->at_most =
+            fmax(out->at_most, fw_verdict_fatigue_utilisation(law, cycle, n + rung, times));
         if (!(used > out->utilisation)) continue;
         out->utilisation = used, out->damage = damage, out->cycles = counted;
     }

@@ -81,7 +81,8 @@ static fw_status count_fatigue(fw_arena *arena, const judged *by,
     fatigue(by, &f, out);
     const double most = by->safety_factor * f.at_most;
     if (f.at_most > f.utilisation && most > out->utilisation && out->utilisation > 0)
-        out->utilisation_high *= most / out->utilisation, out->rung = most;
+        out->utilisation_high *= most / out->utilisation;
+    if (f.at_most > f.damped) out->rung = most;
     return FW_OK;
 }
 
@@ -177,7 +178,7 @@ static void workspace_fatigue(const judged *by, fw_verdict_hinge_verdict *out) {
     const fw_flexure_strain_life *law = &by->hinge->limits.life;
     const double used = fw_verdict_fatigue_utilisation(law, &one, 1, by->repetitions),
                  damage = fw_verdict_miner(law, &one, 1, by->repetitions, 1);
-    const fw_verdict_fatigue f = {used, damage, 1, used, used};
+    const fw_verdict_fatigue f = {used, damage, 1, used, used, used};
     fatigue(by, &f, out);
 }
 

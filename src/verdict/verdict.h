@@ -65,9 +65,9 @@ typedef struct fw_verdict_clearance {
     fw_clearance_least least; /* of the outlines as drawn */
     fw_clearance_way way;     /* what has used most of its way to what is asked for; not of a box */
     double wall_m;            /* that walls come nearer by, as made: 0 as drawn */
-    double m, low_m, high_m;  /* as made, with its band */
-    double required_m;        /* 0: they do not meet */
-    double keep;              /* share of the motion that leaves as much */
+    double m, low_m, high_m, parts_m; /* as made, with its band; parts_m: of that, by parts */
+    double required_m;                /* 0: they do not meet */
+    double keep;                      /* share of the motion that leaves as much */
     fw_verdict_decision decision;
 } fw_verdict_clearance;
 

@@ -194,7 +194,7 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
         w->path.begun = false;
         w->path.njump = 0;
         w->path.jump_m = 0;
-        w->parts = false;
+        w->parts = false, w->wish.beyond = 0;
         w->least = fw_clearance_nothing();
         w->way = (fw_clearance_way){.share = fw_verdict_clearance_counts};
         for (int i = 0; i < w->nstator; i++)
@@ -203,7 +203,7 @@ void fw_verdict_clearance_trace(void *context, const fw_dynamics_piece *piece) {
         return;
     }
     if (w->status == FW_OK && fw_clearance_path_full(&w->path)) {
-        w->wish.off = fw_off_at_most;
+        w->wish.off = fw_off_at_most, w->wish.beyond = 1;
         w->parts = true;
         w->status = consume(w);
     }
@@ -225,7 +225,7 @@ static void decide(fw_verdict_clearance *c, double off) {
     const fw_clearance_least *l = &c->least;
     double band = off * l->moved_m;
     c->m = l->m - c->wall_m;
-    c->low_m = (isfinite(l->low_m) ? l->low_m : -band) - c->wall_m;
+    c->low_m = (isfinite(l->low_m) ? l->low_m : -band) - c->wall_m - c->parts_m;
     c->high_m = c->m + band;
     bool meet = l->m <= 0;
     bool enough = c->required_m > 0 ? c->low_m >= c->required_m : c->low_m > 0;
@@ -274,16 +274,16 @@ static const char *place_text(char text[32], double x_m) {
 static const char *mend_of(fw_arena *arena, const fw_verdict_clearance *c,
                            const fw_verdict_variant_verdict *v) {
     const char *beside = c->box == FW_NONE ? v->motion[c->scene_index]->ledger.undecided : NULL;
-    if (c->least.given_up && c->low_m > c->required_m)
+    if (c->parts_m > 0 && c->low_m + c->parts_m > c->required_m)
         return beside ? fw_arena_printf(
                             arena,
                             "that is enough, but the motion may be off by more than the 10 %% "
                             "that parts of a long scene are followed with, because %s: lower that "
                             "first (FW-D607)",
                             beside)
-                      : "that is enough, but so long a scene is followed in parts, each as if the "
-                        "motion were off by 10 % at most: shorten the scene, or make bodies that "
-                        "give stiffer";
+                      : "that is enough, but so long a scene is followed in parts, and what its "
+                        "motion is off by beyond 10 % comes off as of what moves farthest: shorten "
+                        "the scene, or make bodies that give stiffer";
     if (fw_clearance_has_no_band(&c->least))
         return "require poses farther from the limit of reach, where a leg is all but stretched";
     if (c->least.at.tether)
@@ -358,8 +358,10 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     w->wish.enough_m = brief ? w->wish.needed_m : HUGE_VAL;
     if (w->path.njump > 0) warn_jump(scene, &w->path, diags);
     FW_TRY(consume(w));
+    const double more = w->parts ? fmax(0, off - fw_off_at_most) : 0;
     for (int k = 0; k < w->nstator; k++) {
-        const fw_clearance_least *l = &w->stator[k].least;
+        fw_clearance_least *l = &w->stator[k].least;
+        l->low_m -= more * l->farthest_m;
         if (l->known) v->stator[v->nstator++] = moved_of(w->stator[k].label, scene->name, i, l);
     }
     if (!w->least.known) return FW_OK; /* nothing moves against anything */
@@ -370,13 +372,11 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
                                 .box = FW_NONE,
                                 .least = w->least,
                                 .way = w->way,
+                                .parts_m = more * w->least.farthest_m,
                                 .wall_m = fw_layout_walls_m(layout),
                                 .required_m = required(v->mechanism->device)};
     decide(c, off);
-    if (w->parts && off > fw_off_at_most && c->decision == FW_ACCEPT) {
-        c->decision = FW_INCONCLUSIVE;
-        c->least.given_up = true;
-    }
+    c->least.given_up = c->least.given_up || (c->parts_m > 0 && c->decision == FW_INCONCLUSIVE);
     char t[32];
     const char *where = fw_arena_printf(arena, "%s%s after %s ms", FW_NAMED("scene", scene->name),
                                         fw_number_text(t, sizeof t, 1e3 * c->least.t_s, 4));

@@ -11,8 +11,9 @@
 #include "verdict/verdict_parts.h"
 #include <string.h>
 
-static const double fw_much =
-    0.01; /* of the layer: electrodes that are lifted so far pull less by about as much */
+/* of the layer: electrodes that are lifted so far pull less by about as much */
+static const double fw_much = 0.01;
+static const fw_geometry_vec2 flat_middle = {0, 0};
 
 typedef struct fw_verdict_plates { /* rigid bodies; bodies that give as much as they may */
     /* tips: by forces. soft: by weight and in modes, where all of a body on one hinge is in what hangs over */
@@ -100,30 +101,27 @@ static void load_scene(const both *is, const fw_mechanism_plates *p, const fw_de
     }
 }
 
-/* What hangs over bends by the scene's weight, and by shocks as an oscillator of its own beside them and on the modes of
-   the plates, each of which shakes it by its acceleration, which is w^2 (f - q) and little under a slow law: at most four
-   times as far as slowly, where it is as slow itself. down, up: m */
+/* What hangs over bends by shocks as an oscillator of its own and on the modes of the plates, each of which shakes it by its
+   acceleration, w^2 (f - q): at most four times as far as slowly, where it is as slow itself. *rings: m */
 static fw_status hang_over(fw_arena *arena, const both *is, const fw_mechanism_plates *p,
-                           const fw_device_scene *s, double left, double *down, double *up) {
+                           const fw_device_scene *s, double left, double *rings) {
     const double omega = 1 / sqrt(fmax(is->hangs, is->hangs_mode)), at_most = 0.75,
                  fastest = fmax(1.3 / sqrt(is->hangs), 1 / sqrt(is->hangs_mode));
-    const fw_geometry_vec2 origin = {0, 0};
-    double rings = 0, *one;
-    *down = is->hangs * fmax(0, -s->gz_m_per_s2), *up = is->hangs * fmax(0, s->gz_m_per_s2);
-    if (!fw_mechanism_plates_shaken(s)) return FW_OK;
+    double *one;
+    *rings = 0;
+    if (!(is->hangs > 0) || !fw_mechanism_plates_shaken(s)) return FW_OK;
     FW_NEED(one = fw_arena_array(arena, double, 2 * (size_t)p->n));
     for (int i = 0; i < s->nbase; i++) /* a cantilever of even width has 1.24 omega */
-        rings += fabs(s->base[i].az_m_per_s2) * is->hangs *
-                 fw_quantity_law_answer(s->base[i].law, s->duration_s, omega, fastest);
+        *rings += fabs(s->base[i].az_m_per_s2) * is->hangs *
+                  fw_quantity_law_answer(s->base[i].law, s->duration_s, omega, fastest);
     for (int k = 0; k < p->n; k++) {
         one[k] = is->ring[p->n + k];
         if (!(one[k] > 0)) continue;
-        const double z = fw_mechanism_plates_reached(p, one + p->n, one, 0, origin).highest_m;
+        const double z = fw_mechanism_plates_reached(p, one + p->n, one, 0, flat_middle).highest_m;
         one[k] = 0;
-        rings +=
+        *rings +=
             z * p->per_s2[k] * is->hangs / (left * (1 - fmin(at_most, p->per_s2[k] * is->hangs)));
     }
-    *down += rings, *up += rings;
     return FW_OK;
 }
 
@@ -176,20 +174,24 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
     double curvature = fw_mechanism_plates_curvature(m, s);
     fw_geometry_vec2 middle;
     const double left = fmax(1 - fw_verdict_across_softened(to), 1e-9);
+    const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
+    fw_mechanism_plates_reach r, still;
+    double rings, thrown;
     to->asked = true;
     load_scene(is, &is->rigid, s, 1, curvature, false, &middle, &to->dynamic);
-    fw_mechanism_plates_reach r =
-        fw_mechanism_plates_reached(&is->rigid, is->x, NULL, curvature, middle);
-    to->sure_m = r.lowest_m;
-    const double top_m = r.highest_m; /* of rigid bodies, as sure_m is */
-    const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
+    r = fw_mechanism_plates_reached(&is->rigid, is->x, NULL, curvature, middle);
+    to->sure_m = r.lowest_m, to->highest_m = r.highest_m; /* of rigid bodies */
     load_scene(is, p, s, left, curvature, false, &middle, &to->dynamic);
     r = fw_mechanism_plates_reached(p, is->x, is->ring, curvature, middle);
-    double more = (1 + is->rigid.error) / left;
-    double down = 0, up = 0;
-    if (is->hangs > 0) FW_TRY(hang_over(arena, is, p, s, left, &down, &up));
-    to->lowest_m = (fmin(to->sure_m, r.lowest_m) - down) * more,
-    to->highest_m = (fmax(top_m, r.highest_m) + up) * more;
+    still = fw_mechanism_plates_reached(p, is->x, NULL, curvature, middle);
+    FW_TRY(hang_over(arena, is, p, s, left, &rings));
+    FW_TRY(fw_verdict_thrown_across(arena, p, is->hung, s, &thrown));
+    const double more = (1 + is->rigid.error) / left, weighs = is->hangs * s->gz_m_per_s2,
+                 far = thrown / sqrt(more); /* it goes by the root of what gives */
+    const double low = fmin(to->sure_m, fmax(r.lowest_m - rings, still.lowest_m - far)),
+                 high = fmax(to->highest_m, fmin(r.highest_m + rings, still.highest_m + far));
+    to->lowest_m = (low + fmin(0, weighs)) * more;
+    to->highest_m = (high + fmax(0, weighs)) * more;
     to->tilt_rad = r.tilt_rad * more;
     if (r.low != FW_NONE) to->body = fw_text_name(m->body[r.low].id);
     return judge_touch(arena, is, s, v, to);
@@ -201,12 +203,11 @@ static fw_status warn_of_lift(const both *is, const fw_device_scene *s, fw_diags
                               fw_verdict_variant_verdict *v, fw_verdict_across *to) {
     const fw_mechanism *m = v->mechanism;
     const fw_mechanism_plates *p = is->tips.why ? &is->rigid : &is->tips;
-    const fw_geometry_vec2 origin = {0, 0};
     memset(is->f, 0, (size_t)p->n * sizeof *is->f);
     const fw_device_comb *first = fw_effects_levitation_lift(m, s, is->f);
     if (!first) return FW_OK;
     fw_mechanism_plates_answer(p, is->f, is->x);
-    const fw_mechanism_plates_reach r = fw_mechanism_plates_reached(p, is->x, NULL, 0, origin);
+    const fw_mechanism_plates_reach r = fw_mechanism_plates_reached(p, is->x, NULL, 0, flat_middle);
     to->lift_m = r.highest_m * (1 + is->rigid.error);
     if (!(to->lift_m > fw_much * m->variant->thickness_m) || r.high == FW_NONE) return FW_OK;
     char up[32], share[32];
@@ -505,11 +506,10 @@ static fw_status put_stiffness(fw_arena *arena, const both *is, fw_verdict_out_o
 
 /* how far it comes down where it lies flat on a table */
 static double by_weight(const both *is, const fw_mechanism_plates *p) {
-    const fw_geometry_vec2 origin = {0, 0};
     fw_mechanism_plates_weight(p, -FW_STANDARD_GRAVITY_m_per_s2, is->f);
     fw_mechanism_plates_answer(p, is->f, is->x);
     return is->hangs * FW_STANDARD_GRAVITY_m_per_s2 -
-           fw_mechanism_plates_reached(p, is->x, NULL, 0, origin).lowest_m;
+           fw_mechanism_plates_reached(p, is->x, NULL, 0, flat_middle).lowest_m;
 }
 
 static void put_weight(const both *is, fw_verdict_out_of_plane *out) {

@@ -128,9 +128,9 @@ fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_ver
 /* body_loads.c: by how much electrodes come nearer in another motion, m, and the share of a gap that this one keeps */
 double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
                                     double *kept);
-/* body_loads.c: to (nbody): how far what hangs over its hinges and its middle bends in a scene at most, m */
+/* to (nbody): how far what hangs over bends in a scene at most, m, without stated forces at a probe's place; apart: beyond the middle */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                    double *to);
+                                    const fw_device_probe *but, double *to, double *apart_m);
 /* body_loads.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
 fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene);
 

@@ -306,6 +306,20 @@ static void answers(void **state) {
     assert_in_range((long)(1e4 * fw_quantity_law_answer(&slow, 2, w, w)), 10000, 10010);
 }
 
+static void impulses(void **state) {
+    (void)state;
+    const fw_quantity_law half = {.kind = fw_quantity_law_find("half-sine"), .rise_s = 2e-5},
+                          stays = {.kind = fw_quantity_law_find("ramp"), .rise_s = 1},
+                          goes = {.kind = fw_quantity_law_find("sine"), .frequency_Hz = 1, .end_s = (double)INFINITY},
+                          pulse = {.kind = fw_quantity_law_find("step"), .start_s = 0.25, .end_s = 1};
+    const double is = fw_quantity_law_impulse_s(&half, 1e-5); /* behind the scene's end, too */
+    assert_true(is >= 4e-5 / pi && is < 1.001 * 4e-5 / pi);
+    assert_near(fw_quantity_law_impulse_s(&pulse, 2), 0.75, 1e-12);
+    assert_true(isinf(fw_quantity_law_impulse_s(&stays, 2)));
+    assert_true(isinf(fw_quantity_law_impulse_s(&goes, 2)));
+    assert_true(isinf(fw_quantity_law_impulse_s(NULL, 2)));
+}
+
 /* by small steps of what is straight between them, at w, well behind the law's end */
 static double followed(const fw_quantity_law *law, double end_s, double w, double low, double *far, double *behind) {
     const int steps = 40000;
@@ -520,6 +534,7 @@ int main(void) {
         cmocka_unit_test(rings),
         cmocka_unit_test(shakes),
         cmocka_unit_test(answers),
+        cmocka_unit_test(impulses),
         cmocka_unit_test(answers_behind_the_end),
         cmocka_unit_test(swings),
         cmocka_unit_test(swings_of_several),
