@@ -31,6 +31,7 @@ static const struct {
     {"entry", {"C22; by=AB"}, {""}},
     {"entries", {"lot.txt"}, {""}},
     {"lot", {"L", "a lot of 1"}, {"", "two\nlines", "\033[2J"}},
+    {"zone", {"UTC", "UTC+01:00", "CET-1CEST,M3.5.0,M10.5.0/3"}, {"", "CET", "UTC+15:00"}},
     {"wafer", {"3", "1-4"}, {""}},
     {"without", {"3", "A1,B7"}, {""}},
     {"site", {"thickness=9.1 um"}, {"thickness", "a=1;b=2", ""}},
