@@ -328,7 +328,7 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     m->layer_bias_m = options->layer_bias_m;
     FW_TRY(bias_shapes(arena, layout, m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));
-    FW_TRY(fw_mask_cells_unite(arena, layout, m));
+    FW_TRY(fw_mask_cells_unite(arena, layout, m, diags));
     for (int k = 0; k < m->nshape; k++)
         m->shape[k].box = fw_geometry_contour_box(&m->shape[k].contour);
     fw_status status = judge(arena, layout, m, measure, diags);

@@ -405,9 +405,36 @@ static void drop(uniter *u, int k) {
         u->shape[k] = u->shape[k + 1];
 }
 
-fw_status fw_mask_cells_unite(fw_arena *arena, const fw_layout *layout, fw_mask *mask) {
+static int shapes_of(const uniter *u, const fw_layout_cell *cell) {
+    int n = 0;
+    for (int k = 0; k < u->n; k++)
+        n += fw_layout_cell_of(u->layout, u->shape[k].piece) == cell;
+    return n;
+}
+
+/* had: (ncell) of how many shapes each was: of one that lies within what is drawn anyway nothing can be seen */
+static fw_status tell_gone(const uniter *u, const int *had, fw_diags *diags) {
+    for (int i = 0; i < u->layout->ncell; i++) {
+        const fw_layout_cell *cell = &u->layout->cell[i];
+        if (had[i] == 0 || shapes_of(u, cell) > 0) continue;
+        if (fw_diag_said(diags, 722, cell->of->layers_place)) continue;
+        fw_diag_warning(diags, 722, cell->of->layers_place,
+                        "nothing of %s is on the mask: it lies within what is drawn there; "
+                        "send it to text, which is taken out of the frame (layers=\"FROM>text\"), "
+                        "or move it to where nothing is drawn",
+                        cell->label);
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_mask_cells_unite(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
+                              fw_diags *diags) {
     uniter u = {arena, layout, mask->tolerance_m, mask->shape, mask->nshape, mask->nshape};
     if (layout->ncell == 0) return FW_OK;
+    int *had = fw_arena_array(arena, int, (size_t)layout->ncell);
+    FW_NEED(had);
+    for (int i = 0; i < layout->ncell; i++)
+        had[i] = shapes_of(&u, &layout->cell[i]);
     for (int k = 0; k < u.n; k++) {
         bool gone = false;
         if (!fw_layout_cell_of(layout, u.shape[k].piece) || !stands(&u, k)) continue;
@@ -424,5 +451,5 @@ fw_status fw_mask_cells_unite(fw_arena *arena, const fw_layout *layout, fw_mask 
     }
     mask->shape = u.shape;
     mask->nshape = u.n;
-    return FW_OK;
+    return tell_gone(&u, had, diags);
 }

@@ -12,7 +12,8 @@
    above 1e-12 m and missing partners are FW-D146. */
 fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_diags *diags);
 /* mask_cells.c: cells that lie on the frame become one with it, as they are on the mask; after fw_mask_join */
-fw_status fw_mask_cells_unite(fw_arena *arena, const fw_layout *layout, fw_mask *mask);
+fw_status fw_mask_cells_unite(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
+                              fw_diags *diags);
 
 /* after flattening: both sides of every joint share the same two grid points (FW-D146) */
 fw_status fw_mask_check_joints(fw_arena *arena, const fw_mask_shape *shape, int nshape,
