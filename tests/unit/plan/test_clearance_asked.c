@@ -46,13 +46,14 @@ static void nearer_than_is_asked_for(void **state) {
     fw_arena_free(arena);
 }
 
-/* half way through its motion: with all that the motion may be off by, too */
-static void meets_half_way(void **state) {
+/* On its way: the edge of the arm is at (411, 284) um from its hinge then, turned by 0.505 of 0.688 rad, 0.73 of the motion; less
+   with what that may be off by */
+static void meets_on_its_way(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     fw_plan *plan = judged(arena, "", 0.35);
     const fw_verdict_clearance *c = only(plan);
-    assert_true(c->least.m <= 0 && c->least.share > 0.4 && c->least.share < 0.65);
+    assert_true(c->least.m <= 0 && c->least.share > 0.65 && c->least.share < 0.735);
     assert_int_equal(c->decision, FW_REJECT);
     fw_plan_free(plan);
     fw_arena_free(arena);
@@ -61,7 +62,7 @@ static void meets_half_way(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nearer_than_is_asked_for),
-        cmocka_unit_test(meets_half_way),
+        cmocka_unit_test(meets_on_its_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
