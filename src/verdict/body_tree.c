@@ -315,14 +315,20 @@ static fw_status measure_parts(fw_verdict_tree *t) {
 }
 
 static fw_status make_parts(fw_verdict_tree *t) {
-    const size_t cells = (size_t)t->nlist;
-    FW_NEED(t->at = fw_arena_array(t->arena, fw_verdict_tree_part, cells + 1));
-    int *room = fw_arena_array(t->arena, int, cells + 1);
+    size_t most = 64; /* there are some parts of hundreds of cells each, as a rule */
+    FW_NEED(t->at = fw_arena_array(t->arena, fw_verdict_tree_part, most));
+    int *room = fw_arena_raw(t->arena, ((size_t)t->nlist + 1) * sizeof *room);
     FW_NEED(room);
     const beside b = beside_of(t);
     t->n = 0, t->reached_m2 = 0;
-    for (int i = 0; i < t->nlist; i++)
-        if (t->part[t->list[i]] == FW_NONE) gather(t, &b, t->list[i], room);
+    for (int i = 0; i < t->nlist; i++) {
+        if (t->part[t->list[i]] != FW_NONE) continue;
+        if ((size_t)t->n == most) {
+            FW_NEED(t->at = fw_arena_grow(t->arena, t->at, most, 2 * most, sizeof *t->at));
+            most *= 2;
+        }
+        gather(t, &b, t->list[i], room);
+    }
     for (int i = 0; i < t->nlist; i++)
         weigh(t, t->list[i], t->part[t->list[i]], true);
     take_rest(t, &b);
