@@ -307,6 +307,10 @@ void fw_arena_rewind(fw_arena *arena, fw_mark mark) {
     arena->total = mark.total;
 }
 
+void fw_arena_keep(fw_arena *arena) {
+    arena->keeps = true;
+}
+
 size_t fw_arena_peak(const fw_arena *arena) {
     return arena->peak;
 }

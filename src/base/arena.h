@@ -111,6 +111,7 @@ char *fw_arena_printf(fw_arena *arena, const char *format, ...)
 /* scratch: everything allocated after the mark is returned at the rewind */
 fw_mark fw_arena_mark(const fw_arena *arena);
 void fw_arena_rewind(fw_arena *arena, fw_mark mark);
+void fw_arena_keep(fw_arena *arena); /* what is rewound from now on is kept for what comes next */
 size_t fw_arena_peak(const fw_arena *arena);
 
 /* ---- all that an arena holds, byte by byte ---- */

@@ -309,8 +309,8 @@ static fw_status hang(fw_verdict_tree *t, const fw_mechanism *m, double mass_kg,
     return FW_OK;
 }
 
-static fw_status overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout, int body,
-                          const fw_verdict_arm *arm, fw_verdict_hung *hung) {
+fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                              int body, const fw_verdict_arm *arm, fw_verdict_hung *hung) {
     const fw_device_material *of = &m->variant->material;
     const double nu = of->poisson.unknown ? 0.3 : of->poisson.value,
                  crystal = 1.6; /* of silicon's shear moduli, along and across its axes */
@@ -327,20 +327,20 @@ static fw_status overhang(fw_arena *arena, const fw_mechanism *m, const fw_layou
     return t.nline > 0 ? hang(&t, m, m->body[body].mass_kg, hung) : FW_OK;
 }
 
-fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                              int body, const fw_verdict_arm *arm, fw_verdict_hung *hung) {
-    const fw_mark mark = fw_arena_mark(arena); /* cells of the body before take no fresh pages */
-    const fw_status status = overhang(arena, m, layout, body, arm, hung);
-    fw_arena_rewind(arena, mark);
-    return status;
-}
-
 fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
                                fw_verdict_hung **hung) {
+    fw_status status = FW_OK;
     FW_NEED(*hung = fw_arena_array(arena, fw_verdict_hung, (size_t)m->nbody));
-    for (int b = 0; b < m->nbody; b++)
-        FW_TRY(fw_verdict_overhang(arena, m, m->layout, b, arm, &(*hung)[b]));
-    return FW_OK;
+    fw_arena *own = fw_arena_part(arena, 0);
+    FW_NEED(own);
+    const fw_mark mark = fw_arena_mark(own);
+    fw_arena_keep(own); /* one body takes the pages of the one before it */
+    for (int b = 0; b < m->nbody && status == FW_OK; b++) {
+        fw_arena_rewind(own, mark);
+        status = fw_verdict_overhang(own, m, m->layout, b, arm, &(*hung)[b]);
+    }
+    fw_arena_free(own);
+    return status;
 }
 
 /* It is most of what a verdict costs out of the plane. Where nobody reads it, it still has a say by weight over a carrier, and where

@@ -142,6 +142,7 @@ typedef struct fw_verdict_hung {
     double across_s2, in_plane_s2, across_mode_s2, in_plane_mode_s2, Pa_per_m_s2, bears_N_per_m,
         tip_m_per_N, corner_m_per_N;
 } fw_verdict_hung;
+/* arena: holds its cells, too */
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
                               const fw_layout *layout, int body, const fw_verdict_arm *arm,
                               fw_verdict_hung *hung);

@@ -158,7 +158,7 @@ def loaded(program, directory):
         live = 501 not in many  # a build without live computing answers 501
         print(f"  {number} previews in {took:.1f} s, at most {most[0] / 2**20:.0f} MiB resident, live: {live}")
         assert all(status == 200 for status in many) or not live, sorted(set(many))
-        assert most[0] <= (100 + number / 2) * 2**20 or "FW_SERVE_PREVIEWS" in os.environ  # 200 MiB at 200
+        assert most[0] <= (160 + number / 5) * 2**20 or "FW_SERVE_PREVIEWS" in os.environ  # 200 MiB at 200
 
 
 # ---- jobs ----
