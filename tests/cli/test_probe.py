@@ -877,7 +877,8 @@ class Probe(unittest.TestCase):
         for probe, found in shares.items():
             self.assertGreater(len(found), 1)
             self.assertGreater(min(found), 1e-3)
-            self.assertLess(max(found) - min(found), 0.02 * max(found), (probe, found))  # but for what blows change
+            # but for what blows change, and what hangs over, which bends by less where a measure has a sign (decision 211)
+            self.assertLess(max(found) - min(found), 0.04 * max(found), (probe, found))
 
     def test_what_is_required_decides_at_either_end_of_a_band(self):
         """each kind of value, with bounds just within, in and just beyond its band: decision, margin, share and what the reason says"""
