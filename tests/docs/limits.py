@@ -89,7 +89,7 @@ CASES = {
     "What the release reaches": (SIX, None, "recipe --flow copper-on-porous-silicon", "NOT COMPUTABLE, missing: "),
 }
 # the program says nothing, and the page says so
-SILENT = ["Dimples below what moves", "What goes between the extremes of loads", "Slender parts round a corner", "Breaking tethers", "Faces and corners of contacts", "Stiffness of contacts", "Residual stress that varies", "Resistance of nets", "Bond wires and guides",
+SILENT = ["Dimples below what moves", "What goes between the extremes of loads", "Ladders and rings in rings, as they dry", "Breaking tethers", "Faces and corners of contacts", "Stiffness of contacts", "Residual stress that varies", "Resistance of nets", "Bond wires and guides",
           "Tight bounds", "Drivers that shake as fast", "Pulses of an expression", "Peaks of joint forces at singular", "Differences within one device", "Resonances where a frequency goes", "What throws back, where arcs",
           "Bias that differs from place", "Polygons that others make of the arcs", "Safety instructions",
           "Leaves that bend out between", "What only the words of a pack",

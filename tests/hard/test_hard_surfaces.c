@@ -30,7 +30,7 @@ static const char scenes[] =
     "<scene name='pulled' duration='12 ms'>"
     "  <force on='CD' fx='4 uN'/>"
     "  <comb-drive id='comb' kind='comb' on='CD' x='0.65 mm' direction='90 deg' fingers='40'"
-    "   gap='8 um' overlap='60 um' length='100 um' voltage='35 V' law='step' end='6 ms'/>"
+    "   gap='8 um' overlap='60 um' length='100 um' voltage='34 V' law='step' end='6 ms'/>"
     "  <contact id='stop' a='ground' a-x='2.45 mm' a-y='2.875 mm' b='CD' b-x='0.70 mm'"
     "   side='outside' distance='0.244 mm' stiffness='2e4 N/m' damping='2e-2 N s/m'/>"
     "  <contact id='other' a='ground' a-x='0.55 mm' a-y='2.875 mm' b='CD' b-x='-0.70 mm'"
