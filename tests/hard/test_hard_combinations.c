@@ -157,7 +157,7 @@ static void some_combs(fw_arena *arena, rig *r) {
                                            .fingers = 20,
                                            .gap_m = 2e-2, /* no pull-in: it moves by less */
                                            .overlap_m = 3e-3,
-                                           .length_m = 2e-2,
+                                           .length_m = 1, /* nor does it reach a root as it turns */
                                            .depth_m = 50e-6,
                                            .voltage_V = decades(1, 2),
                                            .law = any_law(arena, s->duration_s, chance(0.5))};
