@@ -29,8 +29,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double fw_nearest = 0.05;     /* of the gap: nearer is called a touch */
-static const double fw_nearest_root = 0.2; /* of the gap: as near as the law of tips goes */
+static const double fw_nearest = 0.05; /* of the gap: nearer is called a touch */
 
 /* ---- one strip ---- */
 
@@ -176,8 +175,10 @@ static double add_tips(const fw_effects_comb_element *c, const double place[3], 
                        double *bend) {
     const double edge = c->edge ? c->tip.edge_m : 0, half = 0.5 * c->overlap_m, t = place[2],
                  away = fw_effects_comb_away(c, place[0], 0),
-                 root = c->edge_F_per_m * (c->depth_m + 0.3 * edge);
-    double all = 4 * c->edge_F_per_m * (c->depth_m + 1.42 * edge) * c->tip.ends, by[2];
+                 root = c->edge_F_per_m * (c->depth_m + FW_EFFECTS_COMB_EDGE_AT_ROOT * edge);
+    double all = 4 * c->edge_F_per_m * (c->depth_m + FW_EFFECTS_COMB_EDGE_AT_ENDS * edge) *
+                 c->tip.ends,
+           by[2];
     for (int side = -1; side <= 1; side += 2) {
         const double arm = side * c->tip.spread_m, turns[3] = {-1, 0, arm};
         all += 2 * root * fw_effects_comb_tip(&c->tip, away + arm * t, by);
@@ -373,7 +374,7 @@ static bool valid(const fw_effects_force_element *e, const fw_effects_port_state
         return false;
     }
     if (c->kind == FW_ELECTRODES_COMB &&
-        !(fw_effects_comb_away(c, place[0], place[2]) > fw_nearest_root * c->gap_m)) {
+        !(fw_effects_comb_away(c, place[0], place[2]) > FW_EFFECTS_COMB_NEAREST_ROOT * c->gap_m)) {
         *why = "fingers of the comb drive have come within a fifth of its gap of the root of the "
                "other comb, whose pull "
                "grows without end there: draw longer fingers, or use less voltage";

@@ -175,4 +175,12 @@ double fw_effects_squeeze_at(const fw_effects_squeeze *film, double gap_m, doubl
 double fw_effects_air_depth(const fw_mechanism *mechanism,
                             const fw_device_air *air); /* NaN: not known */
 
+/* ---- ends of fingers (element.c) ---- */
+
+/* of the gap: as near to the other comb's root as the law of tips goes */
+#define FW_EFFECTS_COMB_NEAREST_ROOT 0.2
+/* Edges act on what ends of fingers have far from the root, and on what the root adds, by so much of what they do at faces:
+   solutions in space of fingers of 8 um with gaps of 10, 10 to 50 um deep (docs/theory/effects/comb-drive.md) */
+#define FW_EFFECTS_COMB_EDGE_AT_ENDS 1.42
+#define FW_EFFECTS_COMB_EDGE_AT_ROOT 0.3
 #endif

@@ -205,13 +205,18 @@ static fw_status alone(const fw_effect_case *c, double *rad, double *share) {
     return FW_OK;
 }
 
+static fw_status beside(const fw_effect_case *c, double *share) {
+    fw_mark mark = fw_arena_mark(c->arena);
+    const fw_status status = largest(&(rubbing){.c = c}, share);
+    fw_arena_rewind(c->arena, mark);
+    return status;
+}
+
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     double rad, share, moved;
     char part[32];
     FW_TRY(alone(c, &rad, &moved));
-    fw_mark mark = fw_arena_mark(c->arena);
-    FW_TRY(largest(&(rubbing){.c = c}, &share));
-    fw_arena_rewind(c->arena, mark);
+    FW_TRY(beside(c, &share));
     *value = isfinite(rad) ? rad / c->envelope->floor : (double)INFINITY;
     FW_NEED(*reason = fw_arena_printf(
                 c->arena,
@@ -219,13 +224,6 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
                 fw_number_text(part, sizeof part, 100 * share, 3),
                 isfinite(*value) ? "" : "; nothing bounds what that does to the motion"));
     return FW_OK;
-}
-
-static fw_status beside(const fw_effect_case *c, double *share) {
-    fw_mark mark = fw_arena_mark(c->arena);
-    const fw_status status = largest(&(rubbing){.c = c}, share);
-    fw_arena_rewind(c->arena, mark);
-    return status;
 }
 
 const fw_effect_row fw_effect_eyelet_friction = {

@@ -36,7 +36,7 @@ static double pull_of(const fw_effects_comb_element *e, double gap_m, double awa
     double by[2], end[2];
     if (e->kind == FW_ELECTRODES_COMB)
         return 2 * e->edge_F_per_m * e->tip.edge_m / e->gap_m *
-               (1 + 0.3 * fw_effects_comb_tip_share(e, away_m));
+               (1 + FW_EFFECTS_COMB_EDGE_AT_ROOT * fw_effects_comb_tip_share(e, away_m));
     of_plates(e, gap_m, by);
     of_ends(e, gap_m, end);
     return -e->edge_F_per_m * (e->length_m * by[0] + 2 * e->depth_m * end[0]);
@@ -45,7 +45,7 @@ static double pull_of(const fw_effects_comb_element *e, double gap_m, double awa
 /* of the pull of parallel faces, as drawn */
 static double share_of(const fw_effects_comb_element *e) {
     const double g = e->gap_m;
-    return pull_of(e, g, fmax(fw_effects_comb_away(e, 0, 0), 0.2 * g)) *
+    return pull_of(e, g, fmax(fw_effects_comb_away(e, 0, 0), FW_EFFECTS_COMB_NEAREST_ROOT * g)) *
            (e->kind == FW_ELECTRODES_COMB ? 0.5 * g : g * g / e->length_m) / e->face_Fm;
 }
 
@@ -83,7 +83,7 @@ static bool lacks(const fw_effect_case *c, const fw_device_comb *from, double sq
     const double half = 0.5 * (comb ? d.overlap_m + aside : d.length_m);
     if (!comb && !(aside + tilt * half < 0.95 * d.gap_m)) return false;
     const double away = comb ? fw_effects_comb_away(&d, aside, tilt) : 1;
-    if (!(away > 0.2 * d.gap_m)) return false;
+    if (!(away > FW_EFFECTS_COMB_NEAREST_ROOT * d.gap_m)) return false;
     along = 0.5 * square_V2 * pull_of(&d, comb ? d.gap_m : d.gap_m - aside - tilt * half, away);
     if (comb) {
         fw_effects_comb_edge(d.gap_m, d.width_m, by);

@@ -95,11 +95,11 @@ static bool pulls(const fw_effect_case *c, const fw_device_comb *from, double sh
     double along, across = 0, couple;
     if (comb) {
         const double away = fw_effects_comb_away(&d, at.along_m, at.tilt_rad);
-        if (!(away > 0.2 * g)) return false;
-        along =
-            at.square_V2 * (d.face_Fm * g / (left * (g + y)) + d.edge_F_per_m * d.tip.edge_m / g +
-                            (d.face_Fm + 0.3 * d.edge_F_per_m * d.tip.edge_m) *
-                                fw_effects_comb_tip_share(&d, away) / g);
+        if (!(away > FW_EFFECTS_COMB_NEAREST_ROOT * g)) return false;
+        along = at.square_V2 *
+                (d.face_Fm * g / (left * (g + y)) + d.edge_F_per_m * d.tip.edge_m / g +
+                 (d.face_Fm + FW_EFFECTS_COMB_EDGE_AT_ROOT * d.edge_F_per_m * d.tip.edge_m) *
+                     fw_effects_comb_tip_share(&d, away) / g);
         across = 2 * d.face_Fm / (left * left * left) * at.square_V2 *
                  (2 * at.half_m + 2 * d.tip.aside * g) * y;
         couple = at.half_m * across;

@@ -22,6 +22,7 @@
    test_body_arms.c what_hangs_over_bends, folded_bars; test_out_of_plane.py */
 #include "base/constants.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -321,8 +322,7 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
                                      (fw_device_material_is_crystal(of) ? crystal : 1)};
     if (!(m->shape[body].area_m2 > 0) || !(t.youngs_Pa > 0) || !(t.depth_m > 0)) return FW_OK;
     for (int i = 0; m->device && i < m->device->nscene; i++)
-        for (int k = 0; k < m->device->scene[i].nbase; k++)
-            t.thrown = t.thrown || m->device->scene[i].base[k].az_m_per_s2 != 0;
+        t.thrown = t.thrown || fw_mechanism_plates_shaken(&m->device->scene[i]);
     FW_TRY(fw_verdict_tree_new(arena, m, layout, body, arm, &t));
     return t.nline > 0 ? hang(&t, m, m->body[body].mass_kg, hung) : FW_OK;
 }

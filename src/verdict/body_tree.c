@@ -78,8 +78,8 @@ static void cross_subrows(const fw_verdict_tree *t, int *n, crossed *x) {
     }
 }
 
-/* A row of cells has that of its subrows together, each an integer by how it differs from the cell before: the sum is over cells
-   once. */
+/* To row (n), which has what its subrows fill of the cells at the ends of their intervals: more (n), by how many subrows each cell
+   is filled whole more than the one before it. Out: the share of each that is filled. */
 static void sum_row(float *row, const float *more, int n) {
     float whole = 0;
     for (int i = 0; i < n; i++) {

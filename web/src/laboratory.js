@@ -6,7 +6,7 @@ import { requestKey } from "./belong.js";
 import { announce, button, h, say, select } from "./dom.js";
 import { run } from "./jobs.js";
 import { saveAs } from "./plotfile.js";
-import { emit, on, state } from "./store.js";
+import { emit, keepOfTab, keptOfTab, on, state } from "./store.js";
 
 const NAMESPACE = "urn:flexwright:process:1";
 const KEPT = "laboratory"; // of the browser's store of this tab: a reload keeps them
@@ -38,23 +38,13 @@ const counted = (n) => `${n} ${n === 1 ? "number" : "numbers"}`;
 
 /** Packs of an earlier visit of this tab. */
 export function restorePacks() {
-    try {
-        const kept = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}");
-        state.labRows = kept.rows ?? {};
-        state.labSources = kept.sources ?? {};
-        state.lab = kept.lab ?? {};
-    } catch {
-        // a store that is closed keeps nothing
-    }
+    const kept = keptOfTab(KEPT);
+    state.labRows = kept.rows ?? {};
+    state.labSources = kept.sources ?? {};
+    state.lab = kept.lab ?? {};
 }
 
-function keepPacks() {
-    try {
-        sessionStorage.setItem(KEPT, JSON.stringify({ lab: state.lab, rows: state.labRows, sources: state.labSources }));
-    } catch {
-        // likewise
-    }
-}
+const keepPacks = () => keepOfTab(KEPT, { lab: state.lab, rows: state.labRows, sources: state.labSources });
 
 function changed(words) {
     keepPacks();

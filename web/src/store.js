@@ -32,6 +32,23 @@ export const state = {
     latency: [], // ms from a change to its picture, of the last ones
 };
 
+/** What this tab has kept under a name, also from before it was loaded anew; a store that is closed keeps nothing. */
+export function keptOfTab(name) {
+    try {
+        return JSON.parse(sessionStorage.getItem(name) ?? "{}");
+    } catch {
+        return {};
+    }
+}
+
+export function keepOfTab(name, value) {
+    try {
+        sessionStorage.setItem(name, JSON.stringify(value));
+    } catch {
+        // it is closed, or full
+    }
+}
+
 const bus = new EventTarget();
 export const on = (name, f) => bus.addEventListener(name, (e) => f(e.detail));
 /** Before all others: what the server does meanwhile takes longer than they do. */

@@ -7,7 +7,7 @@ import { edit, taken } from "./design.js";
 import { announce, button, h, icon, say, select } from "./dom.js";
 import { duration, number, percent, si } from "./format.js";
 import { elsewhere, fileOf, forget, hasFile, run, takeUp } from "./jobs.js";
-import { emit, on, state } from "./store.js";
+import { emit, keepOfTab, keptOfTab, on, state } from "./store.js";
 
 const KINDS = { // what a new one is made of: rows beside its inputs
     sweep: { words: "a map: every combination", vary: { steps: "9" }, respond: [{ name: "used", value: "governing.utilisation", max: "1" }] },
@@ -21,21 +21,11 @@ const ELSEWHERE_MS = 1000; // between two looks at what others have begun
 const BEGUN = "studies"; // of the browser's store of this tab: of which input the studies are that it has begun
 
 /** number of a job -> its input */
-function begunHere() {
-    try {
-        return JSON.parse(sessionStorage.getItem(BEGUN) ?? "{}");
-    } catch {
-        return {}; // a store that is closed keeps nothing
-    }
-}
+const begunHere = () => keptOfTab(BEGUN);
 
 function rememberBegun(id, input) {
-    try {
-        const all = Object.entries(begunHere()).slice(-7); // the server keeps some as well
-        sessionStorage.setItem(BEGUN, JSON.stringify(Object.fromEntries([...all, [id, input]])));
-    } catch {
-        // likewise
-    }
+    const all = Object.entries(begunHere()).slice(-7); // the server keeps some as well
+    keepOfTab(BEGUN, Object.fromEntries([...all, [id, input]]));
 }
 
 export class Studies {
