@@ -279,6 +279,7 @@ typedef struct fw_drawing_dxf {
     int depth, work;   /* blocks within blocks; entities of blocks that were placed */
     bool failed, over; /* nothing more can be read; the text is at its end */
     int insunits;      /* -1: not said */
+    unsigned told;     /* a bit for each kind of entity that was passed over with a warning */
     const char *layer; /* the only one so far that had something; NULL */
     fw_drawing_edge *edge; /* (nedge) */
     int nedge, edge_room;

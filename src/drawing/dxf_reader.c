@@ -100,9 +100,16 @@ typedef struct entity {
     bool paper, thick, turned;
 } entity;
 
-/* what is geometry and is not read; what is neither is a remark (text, dimensions, points) */
-static const char *const refused[] = {"SPLINE", "ELLIPSE", "SOLID",   "TRACE", "REGION",
-                                      "3DFACE", "MLINE",   "3DSOLID", NULL};
+/* What is drawn with lines that are not read is refused, and so is what is not known. Known to cover nothing are marks; what may
+   cover something, and is mostly a remark or fills what has its line, too, is passed over with one warning for each kind. */
+static const struct {
+    const char *name;
+    bool told;
+} passed_over[] = {{"POINT", false},    {"DIMENSION", false},   {"ARC_DIMENSION", false},
+                   {"LEADER", false},   {"MULTILEADER", false}, {"TOLERANCE", false},
+                   {"ATTDEF", false},   {"ATTRIB", false},      {"SEQEND", false},
+                   {"VIEWPORT", false}, {"XLINE", false},       {"RAY", false},
+                   {"TEXT", true},      {"MTEXT", true},        {"HATCH", true}};
 
 static bool is_wanted(const reader *r, const entity *e) {
     if (e->paper) return false;
@@ -350,13 +357,21 @@ static fw_status read_other(reader *r, entity *e) {
     while (next(r) && r->now.code != 0)
         if (r->now.code == 8 || r->now.code == 67) common_group(r, e);
     inherit(r, e);
-    for (const char *const *name = refused; *name && !r->failed; name++) {
-        if (strcmp(*name, e->name) != 0 || !is_wanted(r, e)) continue;
-        fw_diag_error(r->diags, 315, place_at(r, e->line),
-                      "%s on layer '%.64s' is not read: convert it to polylines of lines and arcs",
-                      e->name, e->layer);
-        r->failed = true;
+    if (r->failed || !is_wanted(r, e)) return FW_OK;
+    for (size_t i = 0; i < sizeof passed_over / sizeof *passed_over; i++) {
+        if (strcmp(passed_over[i].name, e->name) != 0) continue;
+        if (passed_over[i].told && !(r->told >> i & 1))
+            fw_diag_warning(r->diags, 723, place_at(r, e->line),
+                            "%s on layer '%.64s' is not taken, and no other one of this file: "
+                            "where it is meant to be drawn, convert it to closed polylines",
+                            e->name, e->layer);
+        r->told |= 1u << i;
+        return FW_OK;
     }
+    fw_diag_error(r->diags, 315, place_at(r, e->line),
+                  "%s on layer '%.64s' is not read: convert it to polylines of lines and arcs",
+                  e->name, e->layer);
+    r->failed = true;
     return FW_OK;
 }
 

@@ -67,7 +67,7 @@ static double area(const fw_drawing *d) {
 
 static const char ring[] = HEAD("13") ENTITIES(
     LIGHT("jaw", "1", AT("0", "0") AT("300", "0") "42\n1.0\n" AT("300", "100") AT("0", "100"))
-        CIRCLE("jaw", "100", "50", "20") "0\nTEXT\n8\njaw\n1\nnothing to read\n");
+        CIRCLE("jaw", "100", "50", "20") "0\nPOINT\n8\njaw\n10\n1\n20\n1\n");
 
 static void polylines_and_circles(void **state) {
     (void)state;
@@ -79,6 +79,28 @@ static void polylines_and_circles(void **state) {
     assert_true(d.outline[1].hole);
     double want = 300 * 100 + 0.5 * M_PI * 50 * 50 - M_PI * 400;
     assert_relative(area(&d), want * UM * UM, 1e-13);
+    fw_arena_free(arena);
+}
+
+/* texts and fillings are told once for each kind, where they lie on the layer that is asked for */
+static void what_is_passed_over(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+#define SQUARE_LIGHT LIGHT("jaw", "1", AT("0", "0") AT("9", "0") AT("9", "9"))
+#define OTHER(kind, layer) "0\n" kind "\n8\n" layer "\n"
+    static const char text[] =
+        HEAD("13") ENTITIES(OTHER("TEXT", "other") OTHER("DIMENSION", "jaw") SQUARE_LIGHT OTHER("HATCH", "jaw")
+                                OTHER("MTEXT", "jaw") OTHER("HATCH", "jaw") OTHER("MTEXT", "jaw"));
+    fw_drawing_asked asked = asked_for("jaw", NULL, NONE);
+    fw_diags diags = fw_diags_new(arena);
+    fw_drawing d;
+    assert_int_equal(fw_drawing_read(arena, text, strlen(text), &asked, &diags, &d), FW_OK);
+    assert_int_equal(d.count, 1);
+    assert_int_equal(diags.count, 2);
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(diags.item[i].number, 723);
+        assert_non_null(strstr(diags.item[i].message, i ? "MTEXT on layer 'jaw'" : "HATCH on layer 'jaw'"));
+    }
     fw_arena_free(arena);
 }
 
@@ -168,6 +190,8 @@ static void dxf_is_refused(void **state) {
         {HEAD("13") ENTITIES(LIGHT("0", "1", AT("0", "0") AT("9", "9") AT("9", "0") AT("0", "9"))),
          NULL, NULL, NONE, 315, "crosses"},
         {HEAD("13") ENTITIES("0\nSPLINE\n8\n0\n"), NULL, NULL, NONE, 315, "SPLINE"},
+        /* what is not known is not passed over */
+        {HEAD("13") ENTITIES("0\nPLANESURFACE\n8\n0\n"), NULL, NULL, NONE, 315, "PLANESURFACE"},
         {HEAD("13") ENTITIES(INSERT("block", "0", "0", "")), NULL, NULL, NONE, 315, "not in the file"},
         {HEAD("13") BLOCKS(BLOCK("b", "0", "0", CIRCLE("0", "0", "0", "9")))
              ENTITIES(INSERT("b", "0", "0", "41\n2\n")),
@@ -403,7 +427,8 @@ static void damaged_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(polylines_and_circles), cmocka_unit_test(chains),
+        cmocka_unit_test(polylines_and_circles), cmocka_unit_test(what_is_passed_over),
+        cmocka_unit_test(chains),
         cmocka_unit_test(heavy_polyline),        cmocka_unit_test(blocks),
         cmocka_unit_test(dxf_is_refused),
         cmocka_unit_test(cells_and_layers),      cmocka_unit_test(gds_is_refused),
