@@ -99,13 +99,27 @@ static fw_status settle(fw_arena *arena, fw_mask_table *t, const fw_device_cell 
     return FW_OK;
 }
 
+/* a cell that asks for the bias of its layers, in a flow where none of them has one */
+static void look_for_bias(const fw_mask_table *t, const fw_device_cell *cell, fw_diags *diags) {
+    bool any = cell->nlayer == 0;
+    for (int k = 0; k < cell->nlayer; k++) {
+        int layer = fw_mask_layer_named(t, cell->layer[k].to);
+        any = any || (layer >= 0 && t->layer[layer].biased);
+    }
+    if (!any)
+        fw_diag_warning(diags, 724, cell->place,
+                        "cell '%.64s' asks for the bias of its layers (bias=\"yes\"), and none of "
+                        "them has one in flow %s: it is on the mask as it was drawn",
+                        cell->name, t->flow);
+}
+
 fw_status fw_mask_cells_settle(fw_arena *arena, const fw_device *device,
                                fw_mask_table *const *table, int ntable, fw_diags *diags) {
     fw_status worst = FW_OK;
     for (int side = 0; side < 2; side++) {
         const fw_device_cell *cell = side ? device->wafer.cell : device->cell;
         int n = side ? device->wafer.ncell : device->ncell;
-        for (int i = 0; i < n; i++)
+        for (int i = 0; i < n; i++) {
             for (int k = 0; k < cell[i].nlayer; k++) {
                 cell[i].layer[k].role = FW_CELL_ROLE_OPEN;
                 for (int t = 0; t < ntable; t++) {
@@ -115,6 +129,9 @@ fw_status fw_mask_cells_settle(fw_arena *arena, const fw_device *device,
                     if (status != FW_OK) worst = status;
                 }
             }
+            for (int t = 0; t < ntable && cell[i].biased && worst == FW_OK; t++)
+                look_for_bias(table[t], &cell[i], diags);
+        }
     }
     return worst;
 }

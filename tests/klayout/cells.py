@@ -292,14 +292,16 @@ pya.Application.instance().exit(0)
             self.assertNotIn("FW-D152", done.stderr)
 
     def test_what_lies_within_the_frame_is_told(self):
-        """a logo in the frame is as dark as the frame: on text it is seen, and beside the frame"""
+        """a logo in the frame is as dark as the frame: on text it is seen, and beside the frame; and so is a bias of a layer that has none"""
         klayout("import pya\nl = pya.Layout(); l.dbu = 0.001; c = l.create_cell('BAR')\n"
                 "c.shapes(l.layer(1, 0)).insert(pya.Box(0, 0, 40000, 40000))\nl.write('bar.gds')\npya.Application.instance().exit(0)\n", self.where)
-        for to, x, told in (("mask", "-0.95 mm", True), ("text", "-0.95 mm", False), ("mask", "-0.88 mm", False)):
+        for to, x, told in (("mask", "-0.95 mm", "FW-D722"), ("text", "-0.95 mm", None), ("mask", "-0.88 mm", None),
+                            ('mask" bias="yes', "-0.88 mm", None), ('text" bias="yes', "-0.95 mm", "FW-D724")):
             self.make("within", '<cell file="bar.gds" x="%s" y="3.0 mm" layers="1/0>%s"/>' % (x, to))
             done = subprocess.run([PROGRAM, "mask", "within.xml", "-o", "within", *(w for w in FAST if w != "-q")], cwd=self.where,
                                   capture_output=True, text=True, check=False, timeout=240)  # -q leaves warnings out
-            self.assertEqual("FW-D722" in done.stderr, told, (to, x, done.stderr))
+            for code in ("FW-D722", "FW-D724"):
+                self.assertEqual(code in done.stderr, code == told, (to, x, done.stderr))
 
     def test_cells_around_what_is_there(self):
         """cells around others, one of them with an arm over the frame and two cells in it: one region with them, whatever their order"""
