@@ -38,45 +38,45 @@ fw_script_test(arch.names LABEL quick COMMAND ${Python3_EXECUTABLE} tests/arch/n
 fw_script_test(library.symbols LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/symbols.py
                $<TARGET_FILE:flexwright_library>)
 fw_script_test(library.state LABEL quick COMMAND ${Python3_EXECUTABLE} tests/build/state.py ${PROJECT_BINARY_DIR})
-fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/cli/test_program.py ${FW_PROGRAM} TIMEOUT 1200)
-fw_script_test(cli.advice COMMAND ${Python3_EXECUTABLE} tests/cli/test_advice.py ${FW_PROGRAM} TIMEOUT 600)
-fw_script_test(cli.fitted COMMAND ${Python3_EXECUTABLE} tests/cli/test_fitted.py ${FW_PROGRAM})
-fw_script_test(cli.study COMMAND ${Python3_EXECUTABLE} tests/cli/test_study.py ${FW_PROGRAM} TIMEOUT 1200)
-fw_script_test(cli.sizing COMMAND ${Python3_EXECUTABLE} tests/cli/test_sizing.py ${FW_PROGRAM} TIMEOUT 3600)
+fw_script_test(cli.program COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_program.py ${FW_PROGRAM} TIMEOUT 1200)
+fw_script_test(cli.advice COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_advice.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(cli.fitted COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_fitted.py ${FW_PROGRAM})
+fw_script_test(cli.study COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_study.py ${FW_PROGRAM} TIMEOUT 1200)
+fw_script_test(cli.sizing COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_sizing.py ${FW_PROGRAM} TIMEOUT 3600)
 # a cluster of one node; what needs none is tried first, and 77 says that there is no Slurm
 fw_script_test(cli.slurm COMMAND ${Python3_EXECUTABLE} tests/cli/test_slurm.py ${FW_PROGRAM} TIMEOUT 300)
 set_tests_properties(cli.slurm PROPERTIES SKIP_RETURN_CODE 77)
-fw_script_test(cli.near_pull_in COMMAND ${Python3_EXECUTABLE} tests/cli/test_near_pull_in.py ${FW_PROGRAM} TIMEOUT 600)
-fw_script_test(cli.measurements COMMAND ${Python3_EXECUTABLE} tests/cli/test_measurements.py ${FW_PROGRAM} TIMEOUT 600)
-fw_script_test(cli.inputs COMMAND ${Python3_EXECUTABLE} tests/cli/test_inputs.py ${FW_PROGRAM} TIMEOUT 600)
-fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/cli/test_benchmarks.py ${FW_PROGRAM})
-fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/cli/test_rest.py ${FW_PROGRAM})
-fw_script_test(cli.heated COMMAND ${Python3_EXECUTABLE} tests/cli/test_heated.py ${FW_PROGRAM} TIMEOUT 900)
-fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/cli/test_workspace.py ${FW_PROGRAM} TIMEOUT 900)
-fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/cli/test_assemble.py ${FW_PROGRAM})
-fw_script_test(cli.shapes COMMAND ${Python3_EXECUTABLE} tests/cli/test_shapes.py ${FW_PROGRAM})
-fw_script_test(cli.frames COMMAND ${Python3_EXECUTABLE} tests/cli/test_frames.py ${FW_PROGRAM})
-fw_script_test(cli.out_of_plane COMMAND ${Python3_EXECUTABLE} tests/cli/test_out_of_plane.py ${FW_PROGRAM} TIMEOUT 900)
-fw_script_test(cli.stiction COMMAND ${Python3_EXECUTABLE} tests/cli/test_stiction.py ${FW_PROGRAM})
-fw_script_test(cli.large COMMAND ${Python3_EXECUTABLE} tests/cli/test_large.py ${FW_PROGRAM})
-fw_script_test(cli.apart COMMAND ${Python3_EXECUTABLE} tests/cli/test_apart.py ${FW_PROGRAM})
-fw_script_test(cli.unsymmetric COMMAND ${Python3_EXECUTABLE} tests/cli/test_unsymmetric.py ${FW_PROGRAM})
-fw_script_test(cli.probe COMMAND ${Python3_EXECUTABLE} tests/cli/test_probe.py ${FW_PROGRAM} TIMEOUT 900)
-fw_script_test(cli.friction_range COMMAND ${Python3_EXECUTABLE} tests/cli/test_friction_range.py ${FW_PROGRAM} TIMEOUT 900)
-fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/cli/test_effects.py ${FW_PROGRAM} TIMEOUT 900)
-fw_script_test(cli.schedule COMMAND ${Python3_EXECUTABLE} tests/cli/test_schedule.py ${FW_PROGRAM})
-fw_script_test(cli.flowback COMMAND ${Python3_EXECUTABLE} tests/cli/test_flowback.py ${FW_PROGRAM})
-fw_script_test(cli.limits COMMAND ${Python3_EXECUTABLE} tests/cli/test_limits.py ${FW_PROGRAM})
-fw_script_test(cli.tradeoff COMMAND ${Python3_EXECUTABLE} tests/cli/test_tradeoff.py ${FW_PROGRAM})
-fw_script_test(cli.hinge COMMAND ${Python3_EXECUTABLE} tests/cli/test_hinge.py ${FW_PROGRAM})
-fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/cli/test_pictures.py ${FW_PROGRAM})
-fw_script_test(cli.marked COMMAND ${Python3_EXECUTABLE} tests/cli/test_marked.py ${FW_PROGRAM} TIMEOUT 600)
-fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/cli/test_reproducible.py ${FW_PROGRAM})
-fw_script_test(cli.third_flow COMMAND ${Python3_EXECUTABLE} tests/cli/test_third_flow.py ${FW_PROGRAM})
-fw_script_test(cli.sections COMMAND ${Python3_EXECUTABLE} tests/cli/test_sections.py ${FW_PROGRAM})
-fw_script_test(cli.violations COMMAND ${Python3_EXECUTABLE} tests/cli/test_violations.py ${FW_PROGRAM})
+fw_script_test(cli.near_pull_in COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_near_pull_in.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(cli.measurements COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_measurements.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(cli.inputs COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_inputs.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(cli.benchmarks COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_benchmarks.py ${FW_PROGRAM})
+fw_script_test(cli.rest COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_rest.py ${FW_PROGRAM})
+fw_script_test(cli.heated COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_heated.py ${FW_PROGRAM} TIMEOUT 900)
+fw_script_test(cli.workspace COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_workspace.py ${FW_PROGRAM} TIMEOUT 900)
+fw_script_test(cli.assemble COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_assemble.py ${FW_PROGRAM})
+fw_script_test(cli.shapes COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_shapes.py ${FW_PROGRAM})
+fw_script_test(cli.frames COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_frames.py ${FW_PROGRAM})
+fw_script_test(cli.out_of_plane COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_out_of_plane.py ${FW_PROGRAM} TIMEOUT 900)
+fw_script_test(cli.stiction COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_stiction.py ${FW_PROGRAM})
+fw_script_test(cli.large COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_large.py ${FW_PROGRAM})
+fw_script_test(cli.apart COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_apart.py ${FW_PROGRAM})
+fw_script_test(cli.unsymmetric COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_unsymmetric.py ${FW_PROGRAM})
+fw_script_test(cli.probe COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_probe.py ${FW_PROGRAM} TIMEOUT 900)
+fw_script_test(cli.friction_range COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_friction_range.py ${FW_PROGRAM} TIMEOUT 900)
+fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_effects.py ${FW_PROGRAM} TIMEOUT 900)
+fw_script_test(cli.schedule COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_schedule.py ${FW_PROGRAM})
+fw_script_test(cli.flowback COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_flowback.py ${FW_PROGRAM})
+fw_script_test(cli.limits COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_limits.py ${FW_PROGRAM})
+fw_script_test(cli.tradeoff COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_tradeoff.py ${FW_PROGRAM})
+fw_script_test(cli.hinge COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_hinge.py ${FW_PROGRAM})
+fw_script_test(cli.pictures COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_pictures.py ${FW_PROGRAM})
+fw_script_test(cli.marked COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_marked.py ${FW_PROGRAM} TIMEOUT 600)
+fw_script_test(cli.reproducible COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_reproducible.py ${FW_PROGRAM})
+fw_script_test(cli.third_flow COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_third_flow.py ${FW_PROGRAM})
+fw_script_test(cli.sections COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_sections.py ${FW_PROGRAM})
+fw_script_test(cli.violations COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_violations.py ${FW_PROGRAM})
 fw_script_test(cli.mask_certificate COMMAND ${Python3_EXECUTABLE} tests/cli/test_mask_certificate.py ${FW_PROGRAM})
-fw_script_test(cli.manners COMMAND ${Python3_EXECUTABLE} tests/cli/test_manners.py ${FW_PROGRAM})
+fw_script_test(cli.manners COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_manners.py ${FW_PROGRAM})
 fw_script_test(fault.files COMMAND ${Python3_EXECUTABLE} tests/faults/test_faults.py ${FW_PROGRAM})
 fw_script_test(accept.masks COMMAND tests/accept/gallery.sh ${FW_PROGRAM} TIMEOUT 600)
 # random devices before beams of their own: tests/judge/README.md says how to ask for many
@@ -171,7 +171,7 @@ fw_script_test(fuzz.device COMMAND tests/build/fuzz.sh TIMEOUT 600)
 set_tests_properties(fuzz.device PROPERTIES DEPENDS build.sanitized) # in the same tree
 fw_script_test(hard.valgrind LABEL hard COMMAND tests/build/valgrind.sh ${PROJECT_BINARY_DIR} TIMEOUT 600)
 set_tests_properties(hard.valgrind PROPERTIES SKIP_RETURN_CODE 77)
-set_tests_properties(build.sanitized PROPERTIES PROCESSORS 2 COST 1000) # two at a time within; beside it what waits more than it computes
+set_tests_properties(build.sanitized PROPERTIES PROCESSORS 2) # two at a time within; beside it what waits more than it computes
 
 include(serve/serve.cmake)
 include(ccx/ccx.cmake)
@@ -238,23 +238,51 @@ get_property(programs GLOBAL PROPERTY FW_QUICK_SCRIPTS)
 list(REMOVE_DUPLICATES programs)
 add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 
-# The longest first, so that two cores end together: seconds of a quiet machine (ctest measures them only for the next time)
-foreach(cost web.page:300 cli.study:55 cli.advice:47 cli.program:45 klayout.cells:44 accept.masks:40
-        docs.json:40 library.consumer:40 python.package:38 cli.slurm:34 docs.readme:32 accept.wafer:32 build.bytes:31
-        golden.plans:30 serve.robust:30 install.tree:28 cli.probe:26 cli.effects:25 arch.additions:25
-        unit.continuum.test_continuum:24 cli.workspace:22 effects.absent:22 cli.measurements:20 python.install:20
-        accuracy.survey:20 hard.valgrind:17 fault.files:17 fuzz.device:17 accept.random:16 python.docs:15
-        cli.inputs:15 cli.tradeoff:15 hard.test_hard_bounds:15 cli.limits:14 gate.counts:14 serve.mutants:14
-        cli.frames:13 cli.flowback:12 unit.continuum.test_solid:12 hostile.documents:12 serve.doors:12
-        cli.out_of_plane:11 cli.manners:11 cli.third_flow:11 cli.friction_range:11 cli.large:10 cli.hinge:10 serve.hostile:10 docs.limits:10
-        release.distances:9
-        golden.gallery:9 clearance.cases:8 cli.reproducible:8 live.memory:8 docs.schema:8 hard.test_hard_surfaces:8
-        cli.apart:7 fault.calls:7 hard.test_hard_contact:7 hard.test_hard_friction:7 unit.plan.test_advice:7
-        unit.workspace.test_survey:7 unit.effects.test_fringe:7 accept.written:6 fault.memory:6)
-    string(REPLACE ":" ";" cost ${cost})
-    list(GET cost 0 name)
-    list(GET cost 1 seconds)
-    if(TEST ${name})
-        set_tests_properties(${name} PROPERTIES COST ${seconds})
-    endif()
+# Seconds of a processor of tests that take more than five. The longest begin first, so that two cores end together (ctest
+# measures them only for the next time). Of those that stand in FW_LONG each belongs to one turn (tests/turn.py), the one that
+# has the least so far; the others run each time, or take turns within.
+set(FW_LONG
+        docs.json:101 hard.test_hard_verdict:85 build.bytes:79 docs.readme:50 docs.limits:40 serve.robust:35
+        effects.absent:34 accept.wafer:33 unit.plan.test_cancel_threads:32 python.package:26 clearance.cases:24
+        cli.slurm:24 fault.files:23 unit.verdict.test_made_by_hand:23 hard.valgrind:20 unit.plan.test_advice:17
+        accept.masks:16 unit.study.test_engine:16 docs.schema:15 klayout.cells:15 judge.examples:14 process.orders:14
+        install.tree:12 unit.effects.test_fringe:12 accept.random:12 serve.mutants:11 release.distances:11
+        unit.plan.test_nearest_drawn:10 hostile.documents:9 hard.test_hard_friction:9 serve.doors:9 live.memory:9
+        unit.workspace.test_pose_strain:9 accept.shapes:8 accuracy.survey:8 docs.gallery_solids:8 klayout.package:8
+        klayout.rules:8 library.consumer:7 serve.hostile:7 hard.test_hard_surfaces:7 fault.calls:7
+        unit.plan.test_live_attached:7 unit.plan.test_live_kept:7 unit.plan.test_not_drawn:7 clearance.random:7
+        unit.continuum.test_continuum:7 accept.written:7 clearance.stators:6 unit.workspace.test_survey:6 fault.memory:6
+        fault.served:6 accept.selftest:6 python.docs:6 docs.theory:6 judge.frequencies:6 python.install:6)
+set(FW_LONG_EACH_TIME
+        web.page:454 build.sanitized:270 cli.effects:124 cli.study:110 cli.probe:75 cli.advice:67 cli.out_of_plane:65
+        cli.program:63 cli.measurements:57 cli.sizing:55 cli.manners:55 cli.heated:49 golden.plans:39 cli.workspace:31
+        cli.inputs:24 cli.flowback:21 cli.limits:20 cli.stiction:18 arch.additions:18 fuzz.device:18 gate.counts:17
+        cli.apart:16 cli.near_pull_in:16 cli.hinge:15 cli.fitted:13 cli.tradeoff:13 cli.third_flow:12 cli.frames:12
+        cli.schedule:11 cli.friction_range:11 cli.large:11 cli.reproducible:10 cli.rest:10 cli.marked:8 cli.shapes:8
+        cli.violations:8 golden.said:7 cli.unsymmetric:6 cli.assemble:6 cli.mask_certificate:6 hard.test_hard_contact:5
+        cli.sections:5 accept.nets:5 effects.costs:5 fault.kill:5 accept.held:5 judge.random:5)
+set(FW_TURN_NUMBERS 0 1 2 3)
+foreach(turn ${FW_TURN_NUMBERS})
+    set(FW_TURN_SECONDS_${turn} 0)
 endforeach()
+foreach(entry ${FW_LONG} ${FW_LONG_EACH_TIME})
+    string(REPLACE ":" ";" entry_parts ${entry})
+    list(GET entry_parts 0 name)
+    list(GET entry_parts 1 seconds)
+    if(NOT TEST ${name})
+        continue()
+    endif()
+    set_tests_properties(${name} PROPERTIES COST ${seconds})
+    if(NOT entry IN_LIST FW_LONG)
+        continue()
+    endif()
+    set(least 0)
+    foreach(turn ${FW_TURN_NUMBERS})
+        if(FW_TURN_SECONDS_${turn} LESS FW_TURN_SECONDS_${least})
+            set(least ${turn})
+        endif()
+    endforeach()
+    math(EXPR FW_TURN_SECONDS_${least} "${FW_TURN_SECONDS_${least}} + ${seconds}")
+    set_property(TEST ${name} APPEND PROPERTY LABELS turn-${least})
+endforeach()
+set_tests_properties(build.sanitized PROPERTIES COST 1000)

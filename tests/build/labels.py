@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """labels.py BUILD: which tests ./test runs, and ./test --all. A regular expression of ctest leaves out every label that it occurs
 in: "long" left out "longer", two dozen tests, for four days. Every test is run by --all but for first parts whose whole is there, and by
-./test but for wholes, of which a first part is there or which are long themselves."""
+./test but for wholes, of which a first part is there or which are long themselves. Of long tests each has one turn (tests/turn.py), and
+each turn has some."""
 import json
 import pathlib
 import re
@@ -15,6 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def main():
     script = (ROOT / "test").read_text(encoding="utf-8")
     usual, every = re.findall(r"^ *skipped='(.*)'$", script, re.M)
+    turns = set("0123")
     listed = subprocess.run(["ctest", "--test-dir", sys.argv[1], "--show-only=json-v1"], capture_output=True, text=True, check=True)
     labels = {t["name"]: next((p["value"] for p in t["properties"] if p["name"] == "LABELS"), [])
               for t in json.loads(listed.stdout)["tests"]}
@@ -22,6 +24,10 @@ def main():
     wrong = ["%s: left out of ./test, and is no whole of a first part" % n for n in sorted(left_out[0]) if "long" not in labels[n]]
     wrong += ["%s: left out of ./test --all, and is no first part" % n for n in sorted(left_out[1]) if "part" not in labels[n]]
     wrong += ["%s: nothing runs it" % n for n in sorted(left_out[0] & left_out[1])]
+    of = {n: [x[-1] for x in own if re.fullmatch(r"turn-.", x)] for n, own in labels.items()}
+    wrong += ["%s has more than one turn" % n for n, own in of.items() if len(own) > 1]
+    wrong += ["no test has turn %s" % t for t in sorted(turns - {x for own in of.values() for x in own})]
+    wrong += ["there is no turn %s" % t for t in sorted({x for own in of.values() for x in own} - turns)]
     wrong += ["%s has no label" % n for n, own in labels.items() if not own]
     print("\n".join(wrong) or "%d tests, %d of them not in ./test and %d not in ./test --all" % (len(labels), *map(len, left_out)))
     return 1 if wrong or not all(left_out) else 0
