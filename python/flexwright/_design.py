@@ -10,7 +10,7 @@ from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tup
 import numpy as np
 
 from ._library import TOLD, ArrayStruct, OptionsStruct, lib
-from .errors import BY_STATUS, Diagnostic, FlexwrightError, MemoryLimitError, Severity
+from .errors import BY_STATUS, Cancelled, Diagnostic, FlexwrightError, MemoryLimitError, Severity
 
 OK = 0
 REAL, WHOLE, TEXT, COMPLEX, TRUTH = range(5)
@@ -103,6 +103,29 @@ def _is_interruptible() -> bool:
     return threading.current_thread() is threading.main_thread()
 
 
+class Question:
+    """What somebody asked of a device: one call of the library or several. Cancelled at any moment, also between two
+    of them, none of its calls begins any more."""
+
+    _now = threading.local()
+
+    def __init__(self) -> None:
+        self.cancelled = False
+        self._outer: Optional["Question"] = None
+
+    def __enter__(self) -> "Question":
+        self._outer, Question._now.one = Question.now(), self
+        return self
+
+    def __exit__(self, *_raised: object) -> None:
+        Question._now.one = self._outer
+
+    @classmethod
+    def now(cls) -> Optional["Question"]:
+        """The one that this thread is answering."""
+        return getattr(cls._now, "one", None)
+
+
 class Design:
     """A design of the library, freed when nothing uses it any more, arrays included."""
 
@@ -187,11 +210,15 @@ class Design:
             return 0
 
         function = getattr(lib, "fw_design_" + name)
+        question = Question.now()
         with self._lock:
             teller = TOLD(told) if progress else TOLD()
             lib.fw_design_progress(self._pointer, teller, None)
-            self._working = True
             try:
+                with self._cancelling:
+                    if question is not None and question.cancelled:
+                        raise Cancelled(name.replace("_", " ") + ": cancelled", ())
+                    self._working = True
                 if _is_interruptible():
                     status = self._in_thread(function, arguments)
                 else:

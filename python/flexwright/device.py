@@ -10,10 +10,10 @@ import os
 import sys
 import threading
 import weakref
-from typing import Any, Dict, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 from . import results
-from ._design import DOCUMENTS, Design, Progress, ProgressCallback
+from ._design import DOCUMENTS, Design, Progress, ProgressCallback, Question
 from ._library import OptionsStruct
 from .errors import (Diagnostic, FileError, FlexwrightError, MissingFileError, Severity,
                      UsageError)
@@ -124,7 +124,9 @@ class Device:
         if directory is not None:
             self._options.setdefault("directory", directory)
         self._lock = threading.RLock()
+        self._listing = threading.RLock()  # of the next two, never held while the library works
         self._busy: "weakref.WeakSet[Design]" = weakref.WeakSet()
+        self._questions: List[Question] = []  # that are being answered
         self._known: "weakref.WeakValueDictionary[tuple, Design]" = weakref.WeakValueDictionary()
         # what was asked last of a device of this family: read with those options, the next need not be read twice
         self._habit: Dict[str, Mapping[str, Any]] = {"options": {}} if habit is None else habit
@@ -146,7 +148,8 @@ class Device:
             if known is not None:
                 return known
             design = Design({**self._options, **options})
-            self._busy.add(design)
+            with self._listing:
+                self._busy.add(design)
             for name, value in self._set.items():
                 design.set(name, _setting(name, value))
             design.call("read_memory", self._file.encode("utf-8", "surrogateescape"), self._text,
@@ -157,16 +160,27 @@ class Device:
             return design
 
     def _ask(self, stages: Tuple[tuple, ...], options: Mapping[str, Any],
-             progress: Optional[ProgressCallback]) -> Design:
-        design = self._design(_checked(options))
+             progress: Optional[ProgressCallback], *then: tuple) -> Design:
+        """A design with these stages, and what is called when it has them."""
+        question = Question()
+        with self._listing:
+            self._questions.append(question)
         try:
-            for stage, *arguments in stages:
-                design.stage(stage, *arguments, progress=progress)
-        except BaseException:
-            with self._lock:  # what failed half way is not asked again
-                for key in [k for k, d in self._known.items() if d is design]:
-                    del self._known[key]
-            raise
+            with question:
+                design = self._design(_checked(options))
+                try:
+                    for stage, *arguments in stages:
+                        design.stage(stage, *arguments, progress=progress)
+                except BaseException:
+                    with self._lock:  # what failed half way is not asked again
+                        for key in [k for k, d in self._known.items() if d is design]:
+                            del self._known[key]
+                    raise
+                for name, *arguments in then:
+                    design.call(name, *arguments, progress=progress)
+        finally:
+            with self._listing:
+                self._questions.remove(question)
         self._habit["options"] = dict(options)
         return design
 
@@ -229,9 +243,11 @@ class Device:
         return _again, (self._text, self._file, self._directory, self._set, self._options)
 
     def cancel(self) -> None:
-        """All running questions of this device end soon with Cancelled; from any thread."""
-        with self._lock:
-            busy = list(self._busy)
+        """All running questions of this device end soon with Cancelled, wherever they are; from any thread."""
+        with self._listing:
+            questions, busy = list(self._questions), list(self._busy)
+        for question in questions:
+            question.cancelled = True
         for design in busy:
             design.cancel()
 
@@ -305,9 +321,8 @@ class Device:
         stages: Tuple[tuple, ...] = (("judge",),)
         if bits & (WRITES["masks"] | WRITES["recipes"]):
             stages += (("fabricate",),)
-        design = self._ask(stages, options, progress)
-        design.call("write", os.fsencode(directory), bits, progress=progress)
-        return design.files_written
+        return self._ask(stages, options, progress,
+                         ("write", os.fsencode(directory), bits)).files_written
 
     def document(self, name: str, *, progress: Optional[ProgressCallback] = None,
                  **options: Any) -> str:

@@ -439,6 +439,22 @@ class Working(unittest.TestCase):
         thread.join()
         self.assertTrue(d.check().accepted)
 
+    def test_cancel_between_two_calls(self):
+        """a cancel that comes when no call of the library runs, before the first or between two stages, is not lost"""
+        for moment in ("set", "stage"):
+            d = flexwright.Device(SIX_BAR, arc="231 deg")
+            usual = getattr(_design.Design, moment)
+
+            def late(design, *arguments, usual=usual, d=d, **more):
+                answer = usual(design, *arguments, **more)
+                d.cancel()
+                return answer
+
+            with mock.patch.object(_design.Design, moment, late):
+                with self.assertRaises(flexwright.Cancelled):
+                    d.fabricate(advice="none", corners="none", accuracy=1e-2)
+            self.assertTrue(d.check(advice="none", corners="none").accepted)
+
     def test_ctrl_c(self):
         code = ("import sys, flexwright\n"
                 f"d = flexwright.Device({SIX_BAR!r})\n"
