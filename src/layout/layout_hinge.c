@@ -228,14 +228,15 @@ static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layo
         return FW_OK;
     }
     char x[32], y[32], r[32], least[32];
-    fw_diag_error(d->diags, 317, j->place,
-                  "%s%s at (%s, %s) um hangs in the air: no straight neck of %s um width finds "
-                  "what is drawn of %s%s, starting from the hinge's free circle of radius %s "
-                  "um; draw the body nearer to the hinge, or give it a width for bars between its "
-                  "hinges",
-                  FW_NAMED("hinge", j->id), fw_layout_um(x, w.x), fw_layout_um(y, w.y),
-                  fw_layout_um(least, 2.0 * to->half_m), FW_NAMED("body", device->body[body].id),
-                  fw_layout_um(r, keep_out));
+    fw_diag_error(
+        d->diags, 317, j->place,
+        "%s%s at (%s, %s) um hangs in the air: no straight neck of %s um width finds "
+        "what is drawn of %s%s, starting from the hinge's free circle of radius %s "
+        "um (that is the narrowest that is tried); draw the body nearer to the hinge and at "
+        "least as wide there, or state a smaller width of the body, of which its necks are",
+        FW_NAMED("hinge", j->id), fw_layout_um(x, w.x), fw_layout_um(y, w.y),
+        fw_layout_um(least, 2.0 * to->half_m), FW_NAMED("body", device->body[body].id),
+        fw_layout_um(r, keep_out));
     return blame(d, 317, joint, body);
 }
 

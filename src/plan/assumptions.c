@@ -274,3 +274,53 @@ void fw_plan_find_heated(const fw_device *d, const char *flow, fw_mechanism_vari
                 v->heated_substrate || (warm && isnan(t->substrate_expansion_per_K));
         }
 }
+
+/* ---- what of <material> changes nothing, or less than it seems ---- */
+
+/* an orientation that nothing goes by is worth a word */
+static void check_orientation(fw_plan *plan, const fw_plan_flow *pf, const fw_device_material *m) {
+    const fw_device_flow_use *use = pf->use;
+    bool asked = use && !isnan(use->orientation_rad);
+    if (fw_device_material_is_crystal(m) || (!asked && isnan(plan->device->orientation_rad)))
+        return;
+    if (!asked && !fw_text_same(m->id, plan->device->material_ref))
+        return; /* it is not about this one */
+    const fw_device_material *pack = fw_plan_material(plan, pf, m->id);
+    fw_diag_warning(
+        &plan->diags, 210, asked ? use->place : plan->device->material_place,
+        pack && fw_device_material_is_crystal(pack)
+            ? "orientation has no effect on '%s', because youngs-modulus is stated and "
+              "holds in every direction; leave one of them out"
+            : "orientation has no effect on '%s', which has no crystal constants in the "
+              "pack; leave it out",
+        m->id);
+}
+
+/* A modulus that is stated has no range: the flow's corner of it is none then. That a range of more than some percent is gone is
+   worth a word. Test: tests/cli/test_program.py */
+static void check_modulus(fw_plan *plan, const fw_plan_flow *pf, const fw_device_material *m) {
+    static const double worth_a_word = 0.03; /* two standard uncertainties of the pack's */
+    const fw_device_material *pack = fw_plan_material(plan, pf, m->id);
+    bool corner = false;
+    char stated[32], own[32], range[32];
+    for (int i = 0; pf->flow && i < pf->flow->ncorner; i++)
+        corner = corner || pf->flow->corner[i].of == FW_CORNER_YOUNGS;
+    if (!corner || plan->device->material.youngs.unknown || !plan->device->material.youngs.unit ||
+        !fw_text_same(m->id, plan->device->material_ref) || !pack || pack->youngs.unknown ||
+        !(2 * pack->youngs.uncertainty > worth_a_word * pack->youngs.value))
+        return;
+    fw_percent_text(range, sizeof range, 2 * pack->youngs.uncertainty / pack->youngs.value);
+    fw_diag_warning(
+        &plan->diags, 733, plan->device->material_place,
+        "youngs-modulus is stated, %s GPa, and so it is known exactly for what is judged as made: "
+        "the pack's own for %s in flow %s is %s GPa within %s %% either way; where it was "
+        "measured, "
+        "give it with its uncertainty in a laboratory pack (--lab) in place of this attribute",
+        fw_number_text(stated, sizeof stated, 1e-9 * m->youngs.value, 4), m->id, pf->flow->id,
+        fw_number_text(own, sizeof own, 1e-9 * pack->youngs.value, 4), range);
+}
+
+void fw_plan_look_at_material(fw_plan *plan, const fw_plan_flow *pf, const fw_device_material *m) {
+    check_orientation(plan, pf, m);
+    check_modulus(plan, pf, m);
+}

@@ -325,25 +325,6 @@ static double orientation_of(const fw_device *d, const fw_device_flow_use *use) 
     return isnan(d->orientation_rad) ? 0.25 * FW_PI : d->orientation_rad;
 }
 
-/* an orientation that nothing goes by is worth a word */
-static void check_orientation(fw_plan *plan, const fw_plan_flow *pf, const fw_device_material *m) {
-    const fw_device_flow_use *use = pf->use;
-    bool asked = use && !isnan(use->orientation_rad);
-    if (fw_device_material_is_crystal(m) || (!asked && isnan(plan->device->orientation_rad)))
-        return;
-    if (!asked && !fw_text_same(m->id, plan->device->material_ref))
-        return; /* it is not about this one */
-    const fw_device_material *pack = fw_plan_material(plan, pf, m->id);
-    fw_diag_warning(
-        &plan->diags, 210, asked ? use->place : plan->device->material_place,
-        pack && fw_device_material_is_crystal(pack)
-            ? "orientation has no effect on '%s', because youngs-modulus is stated and "
-              "holds in every direction; leave one of them out"
-            : "orientation has no effect on '%s', which has no crystal constants in the "
-              "pack; leave it out",
-        m->id);
-}
-
 static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf) {
     const fw_device *d = plan->device;
     const fw_device_flow_use *use = pf->use;
@@ -373,7 +354,7 @@ static fw_status make_variant(fw_plan *plan, fw_plan_flow *pf) {
             "material '%s' has no modulus, Poisson number, density or strength: it "
             "cannot be the device layer; %s",
             m->id, material_names(plan, NULL));
-    check_orientation(plan, pf, m);
+    fw_plan_look_at_material(plan, pf, m);
     if (pf->flow && pf->flow->material && !fw_text_same(pf->flow->material, m->id))
         fw_diag_warning(&plan->diags, 227, place,
                         "flow '%s' makes devices of %s, but %s is asked for: give "

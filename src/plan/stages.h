@@ -39,6 +39,8 @@ fw_status fw_plan_flow_again(const fw_plan *plan, const fw_plan_flow *pf, fw_pro
 /* a material as the flow has it: its own, or the shared one; NULL: there is none */
 const fw_device_material *fw_plan_material(const fw_plan *plan, const fw_plan_flow *pf,
                                            const char *id);
+/* warns of what <material> states and nothing goes by, and of a range that is gone with it (FW-D210, FW-D733) */
+void fw_plan_look_at_material(fw_plan *plan, const fw_plan_flow *pf, const fw_device_material *m);
 bool fw_plan_insulated(const fw_plan_flow *pf);
 /* (nlayer of its table) what layers with shrink or grow get at every edge, m; FW_INPUT (FW-D411): not a known length */
 fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double **bias_m);

@@ -901,6 +901,15 @@ class Usage(InTemporary):
         for hinge in self.ladder(GALLERY.parent.parent / "four-tendons/device.xml"):
             self.assertGreater(math.hypot(*hinge["axis_offset_m"]), 1e-8)
 
+    def test_a_stated_modulus_is_told_to_have_no_range(self):
+        """of plated copper, known to 26 %, and not of silicon, known to 2 %"""
+        nodder = GALLERY.parent.parent / "copper-nodder/device.xml"
+        for device, flow, stated, told in ((nodder, "copper-on-porous-silicon", "115 GPa", True), (nodder, "copper-on-porous-silicon", None, False),
+                                           (GALLERY, "al-masked-rie", None, False)):
+            sets = ("--set", "material/@youngs-modulus=" + stated) if stated else ()
+            result = run("hinge", device, "--flow", flow, *sets)
+            self.assertEqual("FW-D733" in result.stderr, told, result.stderr)
+
     def test_hinge_picture(self):
         result = self.expect(run("hinge", GALLERY, "--svg", "-"), 0)
         self.assertTrue(result.stdout.startswith("<?xml"))
