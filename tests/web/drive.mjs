@@ -407,11 +407,15 @@ export const actions = {
             const handles = page.locator(".draw-handle");
             const n = await handles.count();
             if (!n) return;
-            const box = await handles.nth(d.below(n)).locator(".reach").boundingBox();
-            const a = [box.x + box.width / 2, box.y + box.height / 2];
-            const b = a.map((v) => v + (d.below(2) ? 1 : -1) * (8 + d.below(30)));
+            const handle = handles.nth(d.below(n));
+            const id = await handle.getAttribute("data-id");
+            const by = [0, 1].map(() => (d.below(2) ? 1 : -1) * (8 + d.below(30)));
             const before = await textOf(page);
+            // where it is now: a notice of the first drag that stays has moved the picture
             const written = async (moves) => {
+                const box = await page.locator(`.draw-handle[data-id=${JSON.stringify(id)}]`).locator(".reach").boundingBox();
+                const a = [box.x + box.width / 2, box.y + box.height / 2];
+                const b = a.map((v, k) => v + by[k]);
                 await page.mouse.move(...a);
                 await page.mouse.down();
                 for (let i = 1; i <= moves; i++) await page.mouse.move(...a.map((v, k) => v + ((b[k] - v) * i) / moves));
@@ -423,7 +427,7 @@ export const actions = {
             if (first !== before) await page.evaluate(() => globalThis.flexwright.parts.editor.undo());
             assert.equal(await textOf(page), before, "one drag is one step of the history");
             await settled();
-            assert.equal(await written(1), first, `dragged from ${a} to ${b}`);
+            assert.equal(await written(1), first, `${id} dragged by ${by} pixels`);
         } finally {
             await page.click("#tab-motion");
         }
