@@ -224,6 +224,7 @@ void fw_process_pack_align(fw_process_pack *pack, const fw_xml_record *e, fw_pro
 typedef struct work {
     fw_arena *arena;
     const fw_process_flow *flow;
+    const int *load; /* (nstep) of a schedule; NULL: full ones */
     fw_process_bill *bill;
 } work;
 
@@ -246,9 +247,10 @@ static fw_status need(fw_arena *arena, const char **missing, const fw_quantity *
     return q->unknown ? append(arena, missing, q->id) : FW_OK;
 }
 
-static int loads(const fw_process_step *s, int wafers) {
-    int load = fw_process_step_load(s);
-    return fw_process_step_is_of_lot(s) ? 1 : (wafers + load - 1) / load;
+static int loads(const work *w, const fw_process_step *s) {
+    const int load = fw_process_step_load(s), planned = w->load ? w->load[s - w->flow->step] : 0;
+    if (fw_process_step_is_of_lot(s)) return 1;
+    return planned > 0 ? planned : (w->bill->wafers + load - 1) / load;
 }
 
 /* the row of a consumable, made where there is none yet */
@@ -348,12 +350,12 @@ static fw_status baths(work *w) {
 
 /* ---- what steps take themselves ---- */
 
-static double times(const fw_process_step *s, const fw_process_use *u, int wafers) {
+static double times(const work *w, const fw_process_step *s, const fw_process_use *u) {
     switch (u->per) {
     case FW_PER_WAFER:
-        return wafers;
+        return w->bill->wafers;
     case FW_PER_LOAD:
-        return loads(s, wafers);
+        return loads(w, s);
     case FW_PER_LOT:
         return 1.0;
     }
@@ -367,7 +369,7 @@ static fw_status consumables(work *w) {
             const fw_process_use *u = &s->use[k];
             if (!u->consumable) continue;
             fw_process_bill_row *r = row_of(w, u->consumable);
-            r->amount += known(u->q) * times(s, u, w->bill->wafers);
+            r->amount += known(u->q) * times(w, s, u);
             FW_TRY(append(w->arena, &r->steps, s->id));
             FW_TRY(need(w->arena, &r->missing, u->q));
         }
@@ -407,7 +409,7 @@ static fw_status machines(work *w) {
         if (k == b->nmachine)
             b->machine[b->nmachine++] =
                 (fw_process_bill_machine){.equipment = s->equipment, .steps = ""};
-        m->booked_s += s->time.computable ? s->booked_s * loads(s, b->wafers) *
+        m->booked_s += s->time.computable ? s->booked_s * loads(w, s) *
                                                 fw_process_step_times(w->flow, s, b->wafers)
                                           : (double)NAN;
         FW_TRY(append(w->arena, &m->steps, s->id));
@@ -420,8 +422,8 @@ static fw_status machines(work *w) {
 }
 
 fw_status fw_process_flow_bill(fw_arena *arena, const fw_process_flow *flow, int wafers,
-                               fw_process_bill *bill) {
-    work w = {arena, flow, bill};
+                               const int *load, fw_process_bill *bill) {
+    work w = {arena, flow, load, bill};
     *bill = (fw_process_bill){.wafers = wafers < 1 ? 1 : wafers};
     FW_NEED(bill->bath = fw_arena_array(arena, fw_process_bill_bath, (size_t)flow->nbath));
     FW_NEED(bill->row = fw_arena_array(arena, fw_process_bill_row, (size_t)flow->nconsumable));

@@ -580,9 +580,9 @@ typedef struct fw_process_bill {
    V c of what is weighed, c its mass per volume: as stated, amount per volume times molar mass, or share
    by mass times the bath's density. V is stated, or one part times the sum of parts. Fillings: one
    for every step that uses it, or ceil(wafers x steps / serves). A consumable of a step is taken once a
-   wafer, once for each of ceil(wafers / batch) loads, or once. Cost = amount x price, machine time =
-   booked time x loads.
-   flow: computed; wafers >= 1. Amounts SI, nominal: uncertainties are not carried, since bottles are
+   wafer, once for each load, or once. Loads are those of a schedule (load, nstep, 0 where it has none of a step), or full ones,
+   ceil(wafers / batch). Cost = amount x price, machine time = booked time x loads.
+   flow: computed; wafers >= 1; load: NULL without a schedule. Amounts SI, nominal: uncertainties are not carried, since bottles are
    bought and not measured; mixing is taken as ideal (volumes add). Cost O(steps x consumables). Source:
    arithmetic. Test: tests/unit/process/test_bill.c. */
 /* fillings for so many wafers; 0: not known. The bath that a step mixes for the lot, whose volume it sets; NULL: none. How often
@@ -592,6 +592,6 @@ const fw_process_bath *fw_process_step_mixes(const fw_process_flow *flow,
                                              const fw_process_step *step);
 int fw_process_step_times(const fw_process_flow *flow, const fw_process_step *step, int wafers);
 fw_status fw_process_flow_bill(fw_arena *arena, const fw_process_flow *flow, int wafers,
-                               fw_process_bill *bill);
+                               const int *load, fw_process_bill *bill);
 
 #endif

@@ -495,13 +495,24 @@ static void costs(const fw_process_bill *b, fw_text *out) {
                    b->rows_without, b->nrow, b->machines_without, b->nmachine);
 }
 
+/* of this lot, in the loads of its schedule where it has one */
+static fw_status bill_of(fw_arena *arena, const fw_process_flow *flow,
+                         const fw_recipe_header *header, fw_process_bill *b) {
+    const int *loads;
+    FW_TRY(fw_schedule_loads(arena, header->schedule, flow, &loads));
+    return fw_process_flow_bill(arena, flow, fw_recipe_wafers(header), loads, b);
+}
+
 fw_status fw_recipe_html_bill(const fw_process_flow *flow, const fw_recipe_header *header,
                               fw_text *out) {
     fw_process_bill b;
-    FW_TRY(fw_process_flow_bill(out->arena, flow, fw_recipe_wafers(header), &b));
+    FW_TRY(bill_of(out->arena, flow, header, &b));
     if (b.nrow == 0) return FW_OK;
+    const bool planned = header->schedule && header->schedule->feasible;
     fw_text_printf(out, "<h3>Baths and consumables of this lot, %d wafer%s</h3>\n", b.wafers,
-                   b.wafers == 1 ? "" : "s");
+                   b.wafers == 1 ? ""
+                   : planned     ? "s, in the loads of the schedule"
+                                 : "s, in full loads");
     if (b.nbath > 0)
         fw_text_add(out, "<table class=\"small\"><thead><tr><th style=\"width:20%\">Bath, steps"
                          "</th><th>One filling</th><th class=\"n\">Fillings</th><th "
@@ -548,7 +559,7 @@ static void json_bath(fw_json *out, const fw_process_bill_bath *b) {
 fw_status fw_recipe_json_bill(const fw_process_flow *flow, const fw_recipe_header *header,
                               fw_json *out) {
     fw_process_bill b;
-    FW_TRY(fw_process_flow_bill(out->out->arena, flow, fw_recipe_wafers(header), &b));
+    FW_TRY(bill_of(out->out->arena, flow, header, &b));
     fw_json_object(out, "bill");
     fw_json_number(out, "wafers", b.wafers, FW_PLAIN_DIGITS);
     fw_json_list(out, "baths");

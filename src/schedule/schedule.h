@@ -147,6 +147,10 @@ bool fw_schedule_calendar_parse(const char *text, fw_schedule_calendar *calendar
 /* FW_OK also when there is no schedule: feasible is false and `why` says it. FW_LIMIT: too large */
 fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
                             fw_schedule *schedule);
+/* (nstep) how many runs each step of the flow has in a plan: people, holds and waiting make more of them than full loads are;
+   NULL: there is no plan. Test: tests/cli/test_schedule.py */
+fw_status fw_schedule_loads(fw_arena *arena, const fw_schedule *plan, const fw_process_flow *flow,
+                            const int **loads);
 /* both; FW-D196 and FW-D197 warn when there is none */
 fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
                            const fw_schedule_options *options, fw_diags *diags,

@@ -218,3 +218,15 @@ const char *fw_schedule_wait_text(fw_schedule_wait wait) {
                                        "working day", "tool hours", "hold window"};
     return text[wait];
 }
+
+fw_status fw_schedule_loads(fw_arena *arena, const fw_schedule *plan, const fw_process_flow *flow,
+                            const int **loads) {
+    int *count;
+    *loads = NULL;
+    if (!plan || !plan->feasible) return FW_OK;
+    FW_NEED(*loads = count = fw_arena_array(arena, int, (size_t)flow->nstep));
+    for (int i = 0; i < plan->nrun; i++)
+        for (int k = 0; k < flow->nstep; k++)
+            count[k] += fw_text_same(flow->step[k].id, plan->shop->task[plan->run[i].task].id);
+    return FW_OK;
+}

@@ -227,5 +227,28 @@ class Calibrate(InTemporary):
         self.assertIn("FW-D211", result.stderr)  # nothing of it is used
 
 
+class Bill(unittest.TestCase):
+    """what a lot uses up is of the loads that its schedule makes: people and waits make more of them than full loads are"""
+
+    def test_loads_are_those_of_the_schedule(self):
+        with tempfile.TemporaryDirectory() as name:
+            here = pathlib.Path(name)
+            out = here / "out"
+            done = run("plan", GALLERY, "--flow", SILICON, "--wafers", "6", "--operators", "2", "--corners", "none", "--advice", "none", "-o", out)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            recipe = json.loads((out / f"recipes/{SILICON}.json").read_text())
+            runs = list(csv.DictReader(io.StringIO((out / f"recipes/{SILICON}.schedule.csv").read_text())))
+            steps = {s["id"]: s for s in recipe["steps"]}
+            loads = {i: sum(r["step"] == i for r in runs) for i in steps}
+            for machine in recipe["bill"]["machines"]:
+                if machine["booked_s"] is None:
+                    continue
+                booked = sum(loads[i] * steps[i]["booked_s"] for i in machine["steps"].split(", "))
+                self.assertAlmostEqual(machine["booked_s"] / booked, 1, 9, machine["id"])
+            sheet = (out / f"recipes/{SILICON}.html").read_text()
+            self.assertIn("6 wafers, in the loads of the schedule", sheet)
+            self.assertGreater(loads["S06"], 1)
+
+
 if __name__ == "__main__":
     unittest.main()

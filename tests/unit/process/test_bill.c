@@ -7,7 +7,7 @@
 
 static fw_process_bill bill_of(const fw_process_flow *f, int wafers) {
     fw_process_bill b;
-    assert_int_equal(fw_process_flow_bill(arena, f, wafers, &b), FW_OK);
+    assert_int_equal(fw_process_flow_bill(arena, f, wafers, NULL, &b), FW_OK);
     return b;
 }
 
