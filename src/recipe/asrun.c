@@ -391,6 +391,23 @@ static void ask_twice(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *ru
     }
 }
 
+/* steps between the last one before e that is in the log of its wafer, and e */
+static void ask_skipped(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
+                        const fw_recipe_asrun_entry *e) {
+    const fw_process_step *from = r->flow->step; /* the first that is not there */
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_process_step *s = run->entry[i].step;
+        if (s && s < e->step && s + 1 > from && same_wafer(&run->entry[i], e)) from = s + 1;
+    }
+    if (from + 1 == e->step)
+        fw_diag_warning(r->diags, 283, r->place,
+                        "step %s, which comes before it, is not in the log", from->id);
+    else
+        fw_diag_warning(r->diags, 283, r->place,
+                        "%d steps that come before it are not in the log, %s to %s",
+                        (int)(e->step - from), from->id, e->step[-1].id);
+}
+
 static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
                 const fw_recipe_asrun_entry *e) {
     int index = (int)(e->step - r->flow->step);
@@ -409,10 +426,7 @@ static void ask(const fw_recipe_asrun_reader *r, const fw_recipe_asrun *run,
             before->step->id, by->step->id,
             fw_recipe_asrun_is_again(run, by, before, e->wafer) ? " again" : "", before->line,
             by->line);
-    if (!before && index > 0)
-        fw_diag_warning(r->diags, 283, r->place,
-                        "step %s, which comes before it, is not in the log",
-                        r->flow->step[index - 1].id);
+    if (!before && index > 0) ask_skipped(r, run, e);
     if (last && same_wafer(last, e) && e->start_s < last->start_s)
         fw_diag_warning(r->diags, 283, r->place,
                         "step %s starts before step %s, which was entered before it", e->step->id,

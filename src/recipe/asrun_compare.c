@@ -38,7 +38,7 @@ static fw_status add(builder *b, const fw_recipe_asrun_entry *e, const char *wha
 }
 
 /* "48 to 52", "at most 52" */
-static void put_span(fw_text *out, const char *low, const char *high) {
+void fw_recipe_put_span(fw_text *out, const char *low, const char *high) {
     const char *between = low[0] && high[0] ? " to " : low[0] ? " or more" : "at most ";
     fw_text_printf(out, "%s%s%s", low, between, high);
 }
@@ -111,7 +111,7 @@ static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
             fw_text_add(&planned, "yes");
             fw_text_add(&is, m->value);
         } else {
-            put_span(&planned, a->low, a->high);
+            fw_recipe_put_span(&planned, a->low, a->high);
             put_unit(&planned, a->unit);
         }
         for (int k = 0, n = 0; k < FW_RECIPE_SITES && !word; k++) {
@@ -146,7 +146,7 @@ static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
             fw_recipe_put_value(&planned, fw_quantity_in_unit(s->q));
             fw_text_add(&planned, "; ");
         }
-        put_span(&planned, s->low, s->high);
+        fw_recipe_put_span(&planned, s->low, s->high);
         put_unit(&planned, s->q->unit);
         fw_recipe_put_value(&is, s->value);
         put_unit(&is, s->q->unit);
@@ -275,7 +275,7 @@ static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e, bool over
     if (!fine && !overtaken && yes)
         fw_text_add(out, "yes");
     else if (!fine && !overtaken)
-        put_span(out, a->low, a->high);
+        fw_recipe_put_span(out, a->low, a->high);
     fw_text_add(out, "\n");
 }
 
@@ -287,7 +287,7 @@ static void put_setting(fw_text *out, const fw_recipe_set *s) {
     }
     if (!fw_recipe_asrun_allowed(s)) {
         fw_text_add(out, ": OUT of ");
-        put_span(out, s->low, s->high);
+        fw_recipe_put_span(out, s->low, s->high);
     }
     fw_text_add(out, "\n");
 }

@@ -512,6 +512,7 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     if (e->fate != FW_FATE_RUN || !e->step)
         return FW_OK; /* what became of a wafer is no step that was run */
     FW_TRY(ask_amount(arena, run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_values(e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_waits(run, e, place, diags));
     FW_TRY(ask_runs(arena, run, e, place, diags));
     FW_TRY(ask_as_set(arena, run, e, place, diags));

@@ -337,6 +337,19 @@ class Flowback(unittest.TestCase):
         self.assertIn("written down: pump, left over lunch", told[0])
         self.assertIn("power was 262 W", told[1])
 
+    def test_what_is_not_accepted_is_said_at_once(self):
+        """a value outside of what its step accepts, and every step that was passed over, when the entry is made"""
+        said = self.expect(self.command("--entry", "S01; start=2026-11-02T08:00; end=2026-11-02T08:08; by=AB; thickness=30.0 30.1 30.0 30.2 30.0 um; "
+                                        "cracks or chipped edge=3", "--wafer", "1", "--wafers", "1")).stderr
+        self.assertIn("thickness = 30.0 30.1 30.0 30.2 30.0 um, accepted is 48 to 52 um", said)
+        self.assertEqual(said.count("FW-D736"), 2, said)
+        said = self.expect(self.command("--entry", "S05; start=2026-11-02T09:00; end=2026-11-02T09:20; by=AB", "--wafer", "1")).stderr
+        self.assertIn("3 steps that come before it are not in the log, S02 to S04", said)
+        self.assertNotIn("FW-D736", said)
+        said = self.expect(self.command("--entry", "S08; start=2026-11-02T10:00; end=2026-11-02T10:02; by=AB", "--setting", "temperature=160 Cel",
+                                        "--wafer", "1")).stderr
+        self.assertIn("temperature = 160 Cel, the step allows", said)
+
     def test_a_lot(self):
         self.lot()
         page = self.here / "report.html"
