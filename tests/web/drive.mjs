@@ -400,7 +400,7 @@ export const actions = {
     },
     /** A handle of the drawing, by the mouse, in any number of moves: what is written is what one move to the same place writes. */
     async drag(page, d, settle) {
-        const settled = () => page.waitForFunction(() => globalThis.flexwright.settled(false) && !globalThis.flexwright.parts.draw.drag);
+        const settled = () => page.waitForFunction(() => globalThis.flexwright.settled(false) && !globalThis.flexwright.parts.draw.drag, null, { timeout: 240000 });
         await page.click("#tab-draw");
         try {
             await settle();
