@@ -7,14 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
-    if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
-    for (int i = 0; i < FW_RECIPE_SITES; i++)
-        if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(a->low, a->high, m->site[i]))
-            return false;
-    return true;
-}
-
 /* ---- the list of what is out ---- */
 
 typedef struct builder {
@@ -38,11 +30,6 @@ static fw_status add(builder *b, const fw_recipe_asrun_entry *e, const char *wha
 }
 
 /* "48 to 52", "at most 52" */
-void fw_recipe_put_span(fw_text *out, const char *low, const char *high) {
-    const char *between = low[0] && high[0] ? " to " : low[0] ? " or more" : "at most ";
-    fw_text_printf(out, "%s%s%s", low, between, high);
-}
-
 static void put_unit(fw_text *out, const char *unit) {
     if (strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
 }

@@ -71,7 +71,6 @@ double fw_recipe_asrun_limit(const char *text, double absent);
 bool fw_recipe_asrun_inside(const char *low, const char *high, double value);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
-void fw_recipe_put_span(fw_text *out, const char *low, const char *high); /* "48 to 52" */
 
 /* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set */
 typedef struct fw_recipe_amount_in_time {
@@ -192,9 +191,6 @@ void fw_recipe_put_waited(fw_text *out, const fw_recipe_wait *wait);
 /* FW-D648 where an entry that was just added, or one of before that follows on it, did not wait as it should */
 fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                     fw_place place, fw_diags *diags);
-/* FW-D736 where what was measured or set of an entry that was just added is outside of what its step accepts */
-fw_status fw_recipe_asrun_ask_values(const fw_recipe_asrun_entry *e, fw_place place,
-                                     fw_diags *diags);
 
 typedef struct fw_recipe_asrun_total {
     int logged, out, repeated;

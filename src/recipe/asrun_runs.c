@@ -534,37 +534,3 @@ fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_
     }
     return FW_OK;
 }
-
-static fw_status ask_value(const fw_recipe_asrun_entry *e, const char *what, fw_text *value,
-                           fw_place place, fw_diags *diags) {
-    FW_TRY(fw_text_end(value));
-    fw_diag_warning(diags, 736, place,
-                    "step %s%s%s: %s = %s; do what the sheet says of that before the next step%s",
-                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", what,
-                    value->data, e->deviation ? "" : ", and write down why (deviation=...)");
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-fw_status fw_recipe_asrun_ask_values(const fw_recipe_asrun_entry *e, fw_place place,
-                                     fw_diags *diags) {
-    for (const fw_recipe_measured *m = e->measured; m < e->measured + e->nmeasured; m++) {
-        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
-        fw_text text = fw_text_new(diags->arena);
-        if (fw_recipe_asrun_accepted(a, m)) continue;
-        fw_text_printf(&text, "%s, accepted is ", m->value);
-        if (isnan(m->number))
-            fw_text_add(&text, "yes");
-        else
-            fw_recipe_put_span(&text, a->low, a->high);
-        if (!isnan(m->number) && strcmp(a->unit, "1") != 0) fw_text_printf(&text, " %s", a->unit);
-        FW_TRY(ask_value(e, m->measure, &text, place, diags));
-    }
-    for (const fw_recipe_set *s = e->set; s < e->set + e->nset; s++) {
-        fw_text text = fw_text_new(diags->arena);
-        if (fw_recipe_asrun_allowed(s)) continue;
-        fw_text_printf(&text, "%s, the step allows ", s->text);
-        fw_recipe_put_span(&text, s->low, s->high);
-        FW_TRY(ask_value(e, s->name, &text, place, diags));
-    }
-    return FW_OK;
-}

@@ -505,6 +505,40 @@ static fw_status ask_bath(fw_arena *arena, const fw_recipe_asrun *run,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
+/* FW-D736 where what was measured or set is outside of what the step accepts */
+static fw_status ask_value(const fw_recipe_asrun_entry *e, const char *what, fw_text *value,
+                           fw_place place, fw_diags *diags) {
+    FW_TRY(fw_text_end(value));
+    fw_diag_warning(diags, 736, place,
+                    "step %s%s%s: %s = %s; do what the sheet says of that before the next step%s",
+                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", what,
+                    value->data, e->deviation ? "" : ", and write down why (deviation=...)");
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+static fw_status ask_values(const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
+    for (const fw_recipe_measured *m = e->measured; m < e->measured + e->nmeasured; m++) {
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
+        fw_text text = fw_text_new(diags->arena);
+        if (fw_recipe_asrun_accepted(a, m)) continue;
+        fw_text_printf(&text, "%s, accepted is ", m->value);
+        if (isnan(m->number))
+            fw_text_add(&text, "yes");
+        else
+            fw_recipe_put_span(&text, a->low, a->high);
+        if (!isnan(m->number) && strcmp(a->unit, "1") != 0) fw_text_printf(&text, " %s", a->unit);
+        FW_TRY(ask_value(e, m->measure, &text, place, diags));
+    }
+    for (const fw_recipe_set *s = e->set; s < e->set + e->nset; s++) {
+        fw_text text = fw_text_new(diags->arena);
+        if (fw_recipe_asrun_allowed(s)) continue;
+        fw_text_printf(&text, "%s, the step allows ", s->text);
+        fw_recipe_put_span(&text, s->low, s->high);
+        FW_TRY(ask_value(e, s->name, &text, place, diags));
+    }
+    return FW_OK;
+}
+
 fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, fw_place place,
                                    fw_diags *diags) {
@@ -512,7 +546,7 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     if (e->fate != FW_FATE_RUN || !e->step)
         return FW_OK; /* what became of a wafer is no step that was run */
     FW_TRY(ask_amount(arena, run, e, place, diags));
-    FW_TRY(fw_recipe_asrun_ask_values(e, place, diags));
+    FW_TRY(ask_values(e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_waits(run, e, place, diags));
     FW_TRY(ask_runs(arena, run, e, place, diags));
     FW_TRY(ask_as_set(arena, run, e, place, diags));

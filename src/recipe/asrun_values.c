@@ -580,3 +580,11 @@ const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, con
         if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
     return NULL;
 }
+
+bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
+    if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
+    for (int i = 0; i < FW_RECIPE_SITES; i++)
+        if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(a->low, a->high, m->site[i]))
+            return false;
+    return true;
+}

@@ -492,3 +492,8 @@ bool fw_recipe_asrun_time_read(const char *s, double *time_s, double *ahead_s) {
     *time_s = 86400.0 * (double)day + 3600.0 * hour + 60.0 * minute + second;
     return ahead_read(s + (seconds ? 19 : 16), ahead_s);
 }
+
+void fw_recipe_put_span(fw_text *out, const char *low, const char *high) {
+    const char *between = low[0] && high[0] ? " to " : low[0] ? " or more" : "at most ";
+    fw_text_printf(out, "%s%s%s", low, between, high);
+}

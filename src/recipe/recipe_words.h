@@ -26,6 +26,7 @@ double fw_recipe_row_uncertainty(const fw_quantity *q);
 enum { FW_PLAIN_DIGITS = 12, FW_UNCERTAINTY_DIGITS = 9 };
 void fw_recipe_put_plain(fw_text *out, double value);
 void fw_recipe_put_uncertainty(fw_text *out, double value);
+void fw_recipe_put_span(fw_text *out, const char *low, const char *high); /* "48 to 52" */
 void fw_recipe_put_value(fw_text *out, double value); /* up to 6 significant digits */
 /* unit for people: um as micrometre sign, Cel as degree sign; escaped for HTML */
 void fw_recipe_put_unit(fw_text *out, const char *unit);
