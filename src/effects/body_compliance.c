@@ -112,6 +112,7 @@ static const fw_effects_element_class spring_class = {.effect = "point-spring",
 typedef struct there {
     fw_effects_port_state own; /* of the element, at x = p + d, moving at X w */
     double p[N], w[N], d[N], a[PORTS][9];
+    double passed[N];           /* w as far as what it damps passes the arm */
     double still[N], damped[N]; /* f at x without damping; and what damping adds to it */
     double stiff[N * N], damp[N * N];
     double series[N * N]; /* 1 + A K of what gives (3 ngiven), as factors */
@@ -260,6 +261,24 @@ static void find_slopes(const yielding *y, there *at, int n) {
     }
 }
 
+/* What damps bends the arm as well, by dd = (1 + A K)^-1 A f_damp, and so takes K dd from what presses: X^T f_damp is left of it,
+   which is what damps at w - (1 + A K)^-1 A K w. With that a thing lets go where nothing is left that presses the body; at w
+   itself it would let go while it presses, take hold again at once, and so on for ever */
+static void find_passed(const yielding *y, there *at, int n) {
+    const int m = 3 * y->ngiven;
+    double both[N * N], lost[N];
+    give_stiff(y, at, n, both);
+    for (int k = 0; k < m; k++) {
+        lost[k] = 0;
+        for (int j = 0; j < n; j++)
+            lost[k] += both[k * n + j] * at->w[j];
+    }
+    fw_maths_lu_solve(m, at->series, at->pivot, NULL, lost);
+    memcpy(at->passed, at->w, (size_t)n * sizeof *at->passed);
+    for (int k = 0; k < m; k++)
+        at->passed[place_of(y, k)] -= lost[k];
+}
+
 /* X, and what damps there */
 static bool find_all(const fw_effects_force_element *e, const fw_effects_port_state *s, there *at) {
     const yielding *y = e->data;
@@ -291,7 +310,7 @@ static void force(const fw_effects_force_element *e, const fw_effects_port_state
     const int n = 3 * e->ports;
     there at;
     memset(f, 0, (size_t)n * sizeof *f);
-    if (e->dissipates || e->works) { /* else X is not needed */
+    if ((e->dissipates || e->works) && !s->still) { /* else X is not needed */
         if (find_all(e, s, &at)) back(&at, n, at.damped, f);
     } else {
         find_place(e, s, &at);
@@ -357,6 +376,8 @@ static double switch_value(const fw_effects_force_element *e, const fw_effects_p
     fw_effects_port_state pressed = *s;
     pressed.on = on;
     if (!find_all(e, &pressed, &at)) return y->own.class_->switch_value(&y->own, s, i);
+    find_passed(y, &at, 3 * e->ports);
+    at.own.w = at.passed;
     return y->own.class_->switch_value(&y->own, &at.own, i);
 }
 
@@ -400,7 +421,10 @@ static bool valid(const fw_effects_force_element *e, const fw_effects_port_state
 static double pressing(const fw_effects_force_element *e, const fw_effects_port_state *s) {
     const yielding *y = e->data;
     there at;
-    return find_all(e, s, &at) ? y->own.class_->pressing(&y->own, &at.own) : 0;
+    if (!find_all(e, s, &at)) return 0;
+    find_passed(y, &at, 3 * e->ports);
+    at.own.w = at.passed;
+    return y->own.class_->pressing(&y->own, &at.own);
 }
 
 /* As the elements' own, whose effects they stay. beam: where what is known of a part that bends ends is no proof of anything */

@@ -72,14 +72,18 @@ static void ended(const double *p, double o, double angle, int port, double gap,
     g->curve[turn][turn] = -o * (c * x + s * y);
 }
 
+/* from where the surfaces begin to face each other to u */
+static double angle_behind(double ux, double uy, double from) {
+    const double behind = fmod(atan2(uy, ux) - from, 2 * FW_PI);
+    return behind < 0 ? behind + 2 * FW_PI : behind;
+}
+
 static void overlap_of(const touch *t, const double *p, bool second, overlap *g) {
     double ux = t->sense * (p[3] - p[0]), uy = t->sense * (p[4] - p[1]);
     double from = t->from_rad + p[3 * t->from_port + 2], to = t->to_rad + p[3 * t->to_port + 2];
-    double behind = fmod(atan2(uy, ux) - from, 2 * FW_PI); /* from where they begin to u */
-    if (behind < 0) behind += 2 * FW_PI;
     if (t->face)
         ended(p, -1, t->face_rad + p[2], 0, -t->distance_m, second, g);
-    else if (!t->partial || behind <= to - from)
+    else if (!t->partial || angle_behind(ux, uy, from) <= to - from)
         radial(p, t->side, t->distance_m, second, g);
     else if (cos(from) * ux + sin(from) * uy > cos(to) * ux + sin(to) * uy)
         ended(p, t->sense, from, t->from_port, t->distance_m, second, g);

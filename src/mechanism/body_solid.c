@@ -350,6 +350,21 @@ static bool spread(const grid *s, const double *weight, const int *node, int n,
     return true;
 }
 
+/* of a place in a hole, as of an eyelet, the nodes of its rim: nearest ones that lie on all sides of it; 0: it is in the open */
+static int find_rim(const grid *s, fw_geometry_vec2 at, int *node) {
+    const double all_sides = 0.5;
+    double near = HUGE_VAL;
+    fw_geometry_vec2 sum = {0, 0};
+    int n = 0;
+    for (int i = 0; i < s->nnode; i++)
+        near = fmin(near, vec_distance(place_of(s, i), at));
+    for (int i = 0; i < s->nnode; i++) {
+        const fw_geometry_vec2 off = vec_sub(place_of(s, i), at);
+        if (vec_length(off) < near + s->reach_m) node[n++] = i, sum = vec_add(sum, off);
+    }
+    return vec_length(sum) < all_sides * near * n ? n : 0;
+}
+
 /* unit wrenches about the pin of an end, on nodes about its root, and what balances them: to (3 x 2 nnode) */
 static fw_status load_end(const grid *s, const fw_mechanism_solid_end *end, fw_geometry_vec2 root,
                           double *to, bool *known) {
@@ -357,6 +372,7 @@ static fw_status load_end(const grid *s, const fw_mechanism_solid_end *end, fw_g
     FW_NEED(node);
     for (int i = 0; i < s->nnode; i++)
         if (vec_distance(place_of(s, i), root) < fmax(s->reach_m, end->reach_m)) node[n++] = i;
+    if (n < 4) n = find_rim(s, root, node);
     for (int k = 0; k < 3 && *known; k++) {
         const double unit[3] = {k == 0, k == 1, k == 2}, back[3] = {-unit[0], -unit[1], -unit[2]};
         double *column = to + (size_t)k * 2 * (size_t)s->nnode;

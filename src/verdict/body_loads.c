@@ -88,43 +88,6 @@ fw_status fw_verdict_bends_asked(fw_arena *arena, const fw_verdict_variant_verdi
     return FW_OK;
 }
 
-/* ---- how far a shock that is over throws the device across the plane ----
-   Of a linear device that an acceleration a of what carries it shakes, the energy about that grows by dE/dt = -a 1.M u', at most
-   |a| (m 2E)^(1/2), m all that moves: so (2E)^(1/2) <= m^(1/2) integral of |a|, whatever its modes are, and a place that gives c
-   goes (2E c)^(1/2) at most. c adds up of the bodies as plates and of what hangs over them. In: plates, SI. Out: m; infinite:
-   the shock does not come to its end. Error: an upper bound; twice the slow answer and more where a shock is no shorter than
-   a period. Source: Cauchy and Schwarz. Test: test_out_of_plane.py, test_a_short_shock_throws_by_its_impulse */
-fw_status fw_verdict_thrown_across(fw_arena *arena, const fw_mechanism_plates *p,
-                                   const fw_verdict_hung *hung, const fw_device_scene *s,
-                                   double *far_m) {
-    const fw_mechanism *m = p->mechanism;
-    const size_t n = (size_t)p->n;
-    double speed = 0, mass_kg = 0, most = 0, *c;
-    for (int i = 0; i < s->nbase; i++)
-        if (s->base[i].az_m_per_s2 != 0)
-            speed += fabs(s->base[i].az_m_per_s2) *
-                     fw_quantity_law_impulse_s(s->base[i].law, s->duration_s);
-    *far_m = hung || !(speed > 0) ? speed : (double)INFINITY;
-    if (!(*far_m > 0) || !isfinite(*far_m)) return FW_OK;
-    FW_TRY(fw_mechanism_plates_across(arena, p, &c));
-    for (int b = 0; b < m->nbody; b++) {
-        fw_mechanism_line *line;
-        int nline;
-        mass_kg += p->mass[9 * b];
-        FW_TRY(fw_mechanism_body_lines(arena, m->layout, b, &line, &nline));
-        for (int i = 0; i < nline; i++) { /* what gives most is a corner: c is convex */
-            const double by[3] = {1, line[i].a.y - m->drawn[b].y_m, m->drawn[b].x_m - line[i].a.x};
-            double gives = hung[b].corner_m_per_N;
-            for (size_t k = 0; k < 9; k++)
-                gives +=
-                    by[k / 3] * c[(3 * (size_t)b + k / 3) * n + 3 * (size_t)b + k % 3] * by[k % 3];
-            most = fmax(most, gives);
-        }
-    }
-    *far_m = speed * sqrt(mass_kg * most);
-    return FW_OK;
-}
-
 /* ---- what bodies give in series with what presses on them ----
    A contact or spring of stiffness k, or a cable that is drawn, acts on a place that gives c for its force (the way from there to the
    body's middle, body_arms.c; of all its bodies together, a cable's turns counted twice). With c in series
@@ -150,6 +113,12 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scen
     int n;
     FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
     FW_NEED(b->place = fw_arena_array(arena, fw_verdict_place, (size_t)n));
+    FW_NEED(b->last = fw_arena_array(arena, double, 12 * (size_t)m->nbody));
+    const fw_device_scene *s = n > 0 && scene != FW_NONE ? &m->device->scene[scene] : NULL;
+    if (s) b->late_s = 0.9 * s->duration_s;
+    for (int i = 0; s && i < s->nbase; i++)
+        b->carried_m_per_s2 += hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
+                               fw_quantity_law_largest(s->base[i].law, s->duration_s);
     for (int k = 0; k < n; k++) {
         const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
         if (end[k].scene != scene || !arm->known) continue;
@@ -166,7 +135,8 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scen
                                .id = end[k].id,
                                .arm = arm,
                                .given = given,
-                               .m_per_N = given ? left_of(given) : goes / b->stiff_N};
+                               .m_per_N = given ? left_of(given) : goes / b->stiff_N,
+                               .whole_m_per_N = goes / b->stiff_N};
     }
     return FW_OK;
 }
@@ -281,18 +251,126 @@ static bool is_first(const fw_verdict_bending *b, int place) {
     return true;
 }
 
-void fw_verdict_places_record(fw_verdict_bending *b, const fw_dynamics_instant *now) {
+/* ---- what hits by itself ----
+   The motion has all mass in rigid bodies, and what a place gives without any. What stands on a slender part hits by its own mass
+   first, and rings about the motion: with v at the touch and m of what goes with the place's bend by c k/(1 + c k) (k m)^(1/2) v.
+   Blows that come again add up, at most to all that moves, (2 k E)^(1/2), E the largest kinetic energy:
+
+     F <= F of the motion + min(1, 2 c k) ((2 k E)^(1/2) + D v),   (2 E)^(1/2) <= (2 T)^(1/2) + (c m)^(1/2) (a.M a)^(1/2)
+
+   D of what acts there; the last: what the slender part swings before, a of the motion before anything presses there and of
+   what carries it, m of the body (Rayleigh: no mode of it is slower). In: instants, speeds by what lies between two. Out: N. Error:
+   an upper bound, of rings that fall no slower than the motion: at the end of a scene E is that of its last tenth. Test:
+   test_effects.py, SlenderArms */
+
+/* v.M v */
+static double twice_J(const fw_mechanism *m, const double *v) {
+    double sum = 0;
+    for (int i = 0; i < m->nbody; i++)
+        sum += m->body[i].mass_kg * (v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1]) +
+               m->body[i].inertia_kg_m2 * v[3 * i + 2] * v[3 * i + 2];
+    return sum;
+}
+
+static double stiffness_of(const fw_verdict_place *at) {
+    return at->spring ? at->spring->stiffness_N_per_m : at->element ? at->element->size_N_per_m : 0;
+}
+
+/* by which what acts there may change its length: of all its places together */
+static double fast(const fw_verdict_place *at, const double *q, const double *v) {
+    double sum = 0;
+    for (int i = 0; i < (at->element ? at->element->ports : 2); i++) {
+        const fw_device_spring *k = at->spring;
+        const fw_effects_port port =
+            at->element ? at->element->port[i]
+                        : (fw_effects_port){i ? k->body_b : k->body_a, i ? k->bx_m : k->ax_m,
+                                            i ? k->by_m : k->ay_m};
+        if (port.body == FW_GROUND) continue;
+        const fw_geometry_vec2 r =
+            fw_geometry_vec_rotate((fw_geometry_vec2){port.x_m, port.y_m}, q[3 * port.body + 2]);
+        const double *of = v + 3 * port.body;
+        sum += hypot(of[0] - of[2] * r.y, of[1] + of[2] * r.x);
+    }
+    return sum;
+}
+
+static bool may_ring(const fw_verdict_place *at) {
+    return at->whole_m_per_N * stiffness_of(at) > 0.1 * hardly_gives;
+}
+
+static void find_swing(const fw_mechanism *m, fw_verdict_bending *b) {
+    b->swings_s = HUGE_VAL;
+    for (int i = 0; i < b->nplace; i++)
+        if (may_ring(&b->place[i]))
+            b->swings_s = fmin(b->swings_s,
+                               sqrt(b->place[i].whole_m_per_N * m->body[b->place[i].body].mass_kg));
+}
+
+/* speeds of an instant; *grows: by how much since the anchor, NULL: it is the same. false: none are known */
+static bool find_speeds(const fw_mechanism *m, fw_verdict_bending *b,
+                        const fw_dynamics_instant *now, const double **grows) {
+    const int n = 3 * m->nbody;
+    double *q = b->last, *v = q + n, *anchor = v + n, *by = anchor + n;
+    const double since = now->t_s - b->last_s, middle = now->t_s - 0.5 * since,
+                 round_off = 1e-9 * b->late_s, after = middle - b->anchor_s;
+    const bool known = since > round_off;
+    *grows = NULL;
+    if (!known && !isnan(b->last_s)) return false;
+    for (int i = 0; known && i < n; i++)
+        v[i] = (now->q[i] - q[i]) / since;
+    memcpy(q, now->q, (size_t)n * sizeof *q);
+    b->last_s = now->t_s;
+    if (!known || after < b->swings_s) return known;
+    for (int i = 0; i < n; i++)
+        by[i] = (v[i] - anchor[i]) / after, anchor[i] = v[i];
+    if (!isnan(b->anchor_s)) *grows = by;
+    b->anchor_s = middle;
+    return true;
+}
+
+static void record_blows(const fw_mechanism *m, fw_verdict_bending *b,
+                         const fw_dynamics_instant *now) {
+    const double *grows, *v = b->last + 3 * (size_t)m->nbody;
+    if (!now->loads || b->swings_s == HUGE_VAL || now->loads->quasi_static ||
+        !find_speeds(m, b, now, &grows))
+        return;
+    const bool late = now->t_s >= b->late_s;
+    const double moves_J = twice_J(m, v);
+    b->moves_J = fmax(b->moves_J, moves_J);
+    if (late) b->late_J = fmax(b->late_J, moves_J);
+    for (int i = 0; i < b->nplace; i++) {
+        fw_verdict_place *at = &b->place[i];
+        fw_verdict_blow *blow = &at->blow;
+        double acts[3] = {0};
+        if (!may_ring(at)) continue;
+        const double goes = fast(at, now->q, v);
+        blow->goes = fmax(blow->goes, goes);
+        if (late) blow->late_goes = fmax(blow->late_goes, goes);
+        if (!blow->touched) fw_verdict_place_acts(at, now, acts, NULL);
+        if (!blow->touched && hypot(acts[0], acts[1]) > 0)
+            blow->touched = true, blow->touched_s = now->t_s;
+        if (blow->touched || !grows) continue;
+        blow->swung = fmax(blow->swung, sqrt(twice_J(m, grows)));
+        blow->shaken = fmax(blow->shaken, fast(at, now->q, grows));
+    }
+}
+
+void fw_verdict_places_record(fw_verdict_bending *b, const fw_mechanism *m,
+                              const fw_dynamics_instant *now) {
     if (!now) {
         b->loads = NULL, b->places_J = b->springs_J = 0, b->acted_J = HUGE_VAL;
+        b->moves_J = b->late_J = 0, b->last_s = b->anchor_s = (double)NAN;
         for (int i = 0; i < b->nplace; i++)
-            b->place[i].force_N = 0;
+            b->place[i].force_N = 0, b->place[i].blow = (fw_verdict_blow){0};
         return;
     }
     for (int i = 0; now->loads != b->loads && i < b->nplace; i++) {
         find_element(&b->place[i], now->loads);
         find_spring(&b->place[i], now->loads);
     }
+    if (now->loads != b->loads) find_swing(m, b);
     b->loads = now->loads;
+    record_blows(m, b, now);
     double stored_J = 0;
     for (int i = 0; i < b->nplace; i++) {
         fw_verdict_place *at = &b->place[i];
@@ -383,24 +461,91 @@ static bool capacitance_off(const fw_dynamics_motion *motion, const char *id, do
     return false;
 }
 
+static double damping_of(const fw_device *d, const fw_verdict_place *at) {
+    double most = at->spring ? at->spring->damping_Ns_per_m : 0;
+    for (int i = 0; i < d->nscene; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        for (int k = 0; k < s->ncontact; k++)
+            if (s->contact[k].id && strcmp(s->contact[k].id, at->id) == 0)
+                most = fmax(most, s->contact[k].damping_Ns_per_m);
+        for (int k = 0; k < s->ntendon; k++)
+            if (s->tendon[k].id && strcmp(s->tendon[k].id, at->id) == 0)
+                most = fmax(most, s->tendon[k].damping_Ns_per_m);
+    }
+    return most;
+}
+
+static double blow_of(const fw_mechanism *m, const fw_verdict_bending *b, const char *id,
+                      bool at_end) {
+    const fw_verdict_place *at = NULL;
+    double share = 0;
+    for (int i = 0; i < b->nplace; i++) {
+        const fw_verdict_place *one = &b->place[i];
+        if (!one->id || strcmp(one->id, id) != 0 || !may_ring(one)) continue;
+        const bool passes = one->element && one->port > 0 && one->port + 1 < one->element->ports;
+        share += (passes ? 4 : 1) * one->whole_m_per_N * stiffness_of(one);
+        if (!at || one->whole_m_per_N > at->whole_m_per_N) at = one;
+    }
+    if (!at || share < hardly_gives) return 0;
+    double mass_kg = 0;
+    for (int i = 0; i < m->nbody; i++)
+        mass_kg += m->body[i].mass_kg;
+    const bool over = at_end && at->blow.touched_s < b->late_s; /* what swung before the touch */
+    const double swings_s = sqrt(at->whole_m_per_N * m->body[at->body].mass_kg),
+                 swung = (over ? 0 : at->blow.swung) + sqrt(mass_kg) * b->carried_m_per_s2,
+                 shaken = (over ? 0 : at->blow.shaken) + b->carried_m_per_s2,
+                 root = sqrt(at_end ? b->late_J : b->moves_J) + swings_s * swung,
+                 goes = (at_end ? at->blow.late_goes : at->blow.goes) + swings_s * shaken;
+    return fmin(1, 2 * share) * (sqrt(stiffness_of(at)) * root + damping_of(m->device, at) * goes);
+}
+
+/* false: that measure asks for no force */
+static bool add_blow(const fw_dynamics_motion *x, const fw_device_probe *probe,
+                     fw_device_measure measure, double *low_N, double *high_N) {
+    if (!(*high_N > 0) && !(*low_N < 0)) return false; /* it never presses */
+    const fw_verdict_strain_monitor *saw = x->observed;
+    const double by =
+                     blow_of(saw->mechanism, &saw->bending, probe->of, measure == FW_MEASURE_FINAL),
+                 least = *low_N < 0 ? -HUGE_VAL : 0;
+    switch (measure) {
+    case FW_MEASURE_PEAK:
+    case FW_MEASURE_MAXIMUM:
+        *high_N += by;
+        break;
+    case FW_MEASURE_PEAK_TO_PEAK:
+        *high_N += 2 * by;
+        break;
+    case FW_MEASURE_MINIMUM:
+        *low_N = fmax(least, *low_N - by);
+        break;
+    case FW_MEASURE_FINAL:
+        *low_N = fmax(least, *low_N - by), *high_N += by;
+        break;
+    case FW_MEASURE_SETTLING:
+    case FW_MEASURE_PARASITIC:
+        return false;
+    }
+    return by > 0;
+}
+
 bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const fw_device_probe *probe,
-                             double *low_N, double *high_N) {
+                             fw_device_measure measure, double *low_N, double *high_N) {
     const fw_verdict_bending *b = seen_by(motion);
     const char *id = probe->of;
     if (probe->row == FW_PROBE_IS_capacitance)
         return id && capacitance_off(motion, id, low_N, high_N);
     double left = 1, more = 1, stored_J;
-    if (!b || !id || !first_of(b, id)) return false;
+    if (!b || !id) return false;
     for (int i = 0; i < b->nplace; i++) {
         const fw_verdict_place *at = &b->place[i];
-        if (!(at->force_N > 0) || first_of(b, at->id) != at) continue;
+        if (!first_of(b, id) || !(at->force_N > 0) || first_of(b, at->id) != at) continue;
         const double share = in_series(b, at->id, &stored_J);
         left /= 1 + share;
         if (at->given) more *= 1 + share;
     }
     *low_N *= *low_N > 0 ? left : more; /* below 0: a spring that is pressed */
     *high_N *= *high_N > 0 ? more : left;
-    return left < 1;
+    return add_blow(motion, probe, measure, low_N, high_N) || left < 1;
 }
 
 /* ---- and in series with electrodes ----
@@ -451,101 +596,4 @@ fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_ver
                     field_takes(&motion->loads->element[i], p, m->device->scene[scene].duration_s);
     }
     return FW_OK;
-}
-
-/* ---- how near electrodes come ----
-   By the place of every rotor in each row: across the fingers and by its tilt, of a plate along; of fingers that are nearly
-   at the roots of the others along, too. Error: between rows. Test: test_near_pull_in.py, Motions */
-
-typedef struct near_to { /* m: least gap, and farthest along */
-    double gap, along;
-} near_to;
-
-static near_to nearest(const fw_dynamics_motion *x, int element) {
-    const fw_effects_force_element *e = &x->loads->element[element];
-    const fw_effects_comb_element *c = fw_effects_comb_of(e);
-    near_to n = {HUGE_VAL, -HUGE_VAL};
-    fw_dynamics_motion_rows(x, 0, x->nsample);
-    for (int row = 0; row < x->nsample; row++) {
-        double p[6], w[6], at[3];
-        fw_effects_element_place_ports(e, x->q + (size_t)row * 3 * (size_t)x->nbody, NULL, p, w);
-        fw_effects_comb_place(e, p, at);
-        const bool comb = c->kind == FW_ELECTRODES_COMB;
-        const double half = 0.5 * (comb ? c->overlap_m + at[0] : c->length_m);
-        n.gap = fmin(n.gap, c->gap_m - (comb ? fabs(at[1]) : at[0]) - fabs(at[2]) * half);
-        n.along = fmax(n.along, at[0]);
-    }
-    return n;
-}
-
-double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
-                                    double *kept) {
-    double nearer = 0;
-    *kept = 1;
-    for (int i = 0; i < was->loads->nelement && i < now->loads->nelement; i++) {
-        const fw_effects_comb_element *c = fw_effects_comb_of(&was->loads->element[i]);
-        if (!c || !fw_effects_comb_of(&now->loads->element[i])) continue;
-        const near_to a = nearest(was, i), b = nearest(now, i);
-        const double length = isnan(c->length_m) ? 2 * c->overlap_m : c->length_m;
-        *kept = fmin(*kept, a.gap / c->gap_m);
-        nearer = fmax(nearer, a.gap - b.gap);
-        if (c->kind == FW_ELECTRODES_COMB && length - c->overlap_m - b.along < 2 * b.gap)
-            nearer = fmax(nearer, b.along - a.along);
-    }
-    return nearer;
-}
-
-/* ---- what hangs over swings slower (body_hung.c): 1/omega^2 of the rigid bodies and of what hangs over add up at most (Weyl) ---- */
-
-static int slowest_hung(const fw_verdict_variant_verdict *v, double *s2) {
-    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
-    int body = FW_NONE;
-    *s2 = 0;
-    for (int i = 0; hung && i < v->mechanism->nbody; i++)
-        if (hung[i].in_plane_mode_s2 > *s2) *s2 = hung[i].in_plane_mode_s2, body = i;
-    return body;
-}
-
-double fw_verdict_hangs_lower(const fw_verdict_variant_verdict *v, double f_Hz) {
-    double s2;
-    slowest_hung(v, &s2);
-    return f_Hz > 0 ? f_Hz - f_Hz / sqrt(1 + s2 * pow(FW_TURN * f_Hz, 2)) : 0;
-}
-
-bool fw_verdict_hangs_alone(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
-    const fw_verdict_out_of_plane *o = v->out_of_plane;
-    double s2;
-    if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_INCONCLUSIVE || r->why) return false;
-    if (!(r->low < r->min) || r->high > r->max || slowest_hung(v, &s2) == FW_NONE) return false;
-    for (int k = 0; k < o->nmode; k++)
-        if (o->mode[k].f_Hz == r->value) return false; /* across the plane */
-    const double left = 1 - s2 * pow(FW_TURN * r->low, 2);
-    return !(left > 0) || r->low / sqrt(left) >= r->min;
-}
-
-fw_status fw_verdict_hangs_open(fw_verdict_variant_verdict *v, const char *scene, int number,
-                                const char *what) {
-    FW_NEED(what);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = FW_VERDICT_KEEP_HALF,
-                                                  .not_by_width = true,
-                                                  .text = what};
-    return FW_OK;
-}
-
-fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
-                               const fw_verdict_requirement *r, const char *text) {
-    double s2;
-    const int body = slowest_hung(v, &s2);
-    char own[32];
-    FW_NEED(text = fw_arena_printf(
-                arena,
-                "%s: %s%s, which is rigid in the value, may swing in the plane from %s Hz on where "
-                "it reaches beyond its hinges: make it wider or shorter",
-                text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
-                fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
-    return fw_verdict_hangs_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
 }

@@ -8,8 +8,11 @@
    In: outlines of the layout, SI. Range: a gap below a fifth of a cell parts nothing. Error: widths are known to a
    sixteenth of a cell, which they are less. Cost: of a cell some 100 operations. What such beams do: body_hung.c.
    Theory: docs/theory/effects/out-of-plane.md (4a). Test: test_body_arms.c what_hangs_over_bends, folded_bars */
+#include "base/constants.h"
 #include "base/sort.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
+#include "quantity/law_kind.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <limits.h>
@@ -430,4 +433,96 @@ fw_status fw_verdict_tree_new(fw_arena *arena, const fw_mechanism *m, const fw_l
     FW_TRY(find_held(arena, m, layout, body, arm, t->held));
     t->nhinge = t->held->n + t->held->nroot;
     return FW_OK;
+}
+
+/* ---- how far a shock that is over throws the device across the plane ----
+   Of a linear device that an acceleration a of what carries it shakes, the energy about that grows by dE/dt = -a 1.M u', at most
+   |a| (m 2E)^(1/2), m all that moves: so (2E)^(1/2) <= m^(1/2) integral of |a|, whatever its modes are, and a place that gives c
+   goes (2E c)^(1/2) at most. c adds up of the bodies as plates and of what hangs over them. In: plates, SI. Out: m; infinite:
+   the shock does not come to its end. Error: an upper bound; twice the slow answer and more where a shock is no shorter than
+   a period. Source: Cauchy and Schwarz. Test: test_out_of_plane.py, test_a_short_shock_throws_by_its_impulse */
+fw_status fw_verdict_thrown_across(fw_arena *arena, const fw_mechanism_plates *p,
+                                   const fw_verdict_hung *hung, const fw_device_scene *s,
+                                   double *far_m) {
+    const fw_mechanism *m = p->mechanism;
+    const size_t n = (size_t)p->n;
+    double speed = 0, mass_kg = 0, most = 0, *c;
+    for (int i = 0; i < s->nbase; i++)
+        if (s->base[i].az_m_per_s2 != 0)
+            speed += fabs(s->base[i].az_m_per_s2) *
+                     fw_quantity_law_impulse_s(s->base[i].law, s->duration_s);
+    *far_m = hung || !(speed > 0) ? speed : (double)INFINITY;
+    if (!(*far_m > 0) || !isfinite(*far_m)) return FW_OK;
+    FW_TRY(fw_mechanism_plates_across(arena, p, &c));
+    for (int b = 0; b < m->nbody; b++) {
+        fw_mechanism_line *line;
+        int nline;
+        mass_kg += p->mass[9 * b];
+        FW_TRY(fw_mechanism_body_lines(arena, m->layout, b, &line, &nline));
+        for (int i = 0; i < nline; i++) { /* what gives most is a corner: c is convex */
+            const double by[3] = {1, line[i].a.y - m->drawn[b].y_m, m->drawn[b].x_m - line[i].a.x};
+            double gives = hung[b].corner_m_per_N;
+            for (size_t k = 0; k < 9; k++)
+                gives +=
+                    by[k / 3] * c[(3 * (size_t)b + k / 3) * n + 3 * (size_t)b + k % 3] * by[k % 3];
+            most = fmax(most, gives);
+        }
+    }
+    *far_m = speed * sqrt(mass_kg * most);
+    return FW_OK;
+}
+
+/* ---- what hangs over swings slower (body_hung.c): 1/omega^2 of the rigid bodies and of what hangs over add up at most (Weyl) ---- */
+
+static int slowest_hung(const fw_verdict_variant_verdict *v, double *s2) {
+    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
+    int body = FW_NONE;
+    *s2 = 0;
+    for (int i = 0; hung && i < v->mechanism->nbody; i++)
+        if (hung[i].in_plane_mode_s2 > *s2) *s2 = hung[i].in_plane_mode_s2, body = i;
+    return body;
+}
+
+double fw_verdict_hangs_lower(const fw_verdict_variant_verdict *v, double f_Hz) {
+    double s2;
+    slowest_hung(v, &s2);
+    return f_Hz > 0 ? f_Hz - f_Hz / sqrt(1 + s2 * pow(FW_TURN * f_Hz, 2)) : 0;
+}
+
+bool fw_verdict_hangs_alone(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    double s2;
+    if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_INCONCLUSIVE || r->why) return false;
+    if (!(r->low < r->min) || r->high > r->max || slowest_hung(v, &s2) == FW_NONE) return false;
+    for (int k = 0; k < o->nmode; k++)
+        if (o->mode[k].f_Hz == r->value) return false; /* across the plane */
+    const double left = 1 - s2 * pow(FW_TURN * r->low, 2);
+    return !(left > 0) || r->low / sqrt(left) >= r->min;
+}
+
+fw_status fw_verdict_hangs_open(fw_verdict_variant_verdict *v, const char *scene, int number,
+                                const char *what) {
+    FW_NEED(what);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
+                                                  .not_by_width = true,
+                                                  .text = what};
+    return FW_OK;
+}
+
+fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
+                               const fw_verdict_requirement *r, const char *text) {
+    double s2;
+    const int body = slowest_hung(v, &s2);
+    char own[32];
+    FW_NEED(text = fw_arena_printf(
+                arena,
+                "%s: %s%s, which is rigid in the value, may swing in the plane from %s Hz on where "
+                "it reaches beyond its hinges: make it wider or shorter",
+                text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
+                fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
+    return fw_verdict_hangs_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
 }

@@ -246,6 +246,14 @@ typedef struct fw_verdict_extreme {
     double beside; /* by how much it is larger between the instants */
 } fw_verdict_extreme;
 
+/* largest so far of what a place may hit by (body_loads.c); late: in the last tenth of the scene */
+typedef struct fw_verdict_blow {
+    bool touched;
+    double touched_s;
+    double swung, shaken;   /* before it is touched: (a.M a)^(1/2), and how fast its speed grows */
+    double goes, late_goes; /* speed of all places of what acts there together */
+} fw_verdict_blow;
+
 /* Where what presses or pulls a body beside its hinges follows from how that place goes: a contact, a cable that is drawn.
    What the body gives there is in series with it (arm_rims.c) */
 typedef struct fw_verdict_place {
@@ -254,7 +262,7 @@ typedef struct fw_verdict_place {
     const char *id;  /* of what acts there */
     const fw_verdict_arm *arm;
     const fw_mechanism_give *given; /* what of that the motion has; NULL: nothing */
-    double m_per_N;                 /* what the body gives there at most, beside that */
+    double m_per_N, whole_m_per_N;  /* what the body gives there at most, beside that and with it */
     double
         stiff_N_per_m; /* of what acts there; 0: it is not known yet, or acts whatever the place does */
     double force_N;                          /* largest so far; infinite: not known */
@@ -264,6 +272,7 @@ typedef struct fw_verdict_place {
         *spring; /* or a spring, which acts on its second body there (second) or its first */
     bool second;
     const fw_device_force *force; /* or what is stated */
+    fw_verdict_blow blow;
 } fw_verdict_place;
 
 typedef struct fw_verdict_bending {
@@ -308,6 +317,13 @@ typedef struct fw_verdict_bending {
     double
         acted_J; /* of all bodies as solids with all that acts where it does; infinite: not known */
     double stated_J; /* under loads of which the scene says how large they become, at most */
+    double *
+        last; /* (12 nbody) of the last instant poses, and speeds up to it; speeds at anchor_s, and by what they grow since */
+    double last_s, anchor_s;       /* NaN: none yet */
+    double swings_s;               /* between two anchors */
+    double late_s;                 /* where the last tenth of the scene begins */
+    double carried_m_per_s2;       /* what the scene shakes the device by in the plane */
+    double moves_J, late_J;        /* largest so far of twice the kinetic energy */
     const fw_effects_loads *loads; /* whose elements act there; NULL: the run starts */
 } fw_verdict_bending;
 /* by how much the end of a hinge goes over the hinge's width, or turns over its limit, as the strip of its body gives:
@@ -332,7 +348,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *mechanis
 /* body_loads.c: the places of a scene; at every instant, NULL where the run starts; and when it has ended */
 fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                 fw_verdict_bending *bending);
-void fw_verdict_places_record(fw_verdict_bending *bending, const fw_dynamics_instant *now);
+void fw_verdict_places_record(fw_verdict_bending *bending, const fw_mechanism *mechanism,
+                              const fw_dynamics_instant *now);
 void fw_verdict_places_end(fw_verdict_bending *bending);
 /* force and couple that act on a place now, N, N, N m, world; stored_J NULL, or += what is stored there */
 void fw_verdict_place_acts(const fw_verdict_place *place, const fw_dynamics_instant *now,
@@ -344,7 +361,7 @@ double fw_verdict_bending_all_J(const fw_verdict_bending *bending);
    *low_N and *high_N with what such a force loses at most; false: nothing changes */
 double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe);
 bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const fw_device_probe *probe,
-                             double *low_N, double *high_N);
+                             fw_device_measure measure, double *low_N, double *high_N);
 /* body_loads.c: a stated force on the very place of a displacement that is asked for; by how much that may be less and more for
    what hangs over by such forces, m */
 bool fw_verdict_bends_own(const fw_mechanism_load_end *end, int scene,

@@ -288,7 +288,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->along_N[k] = 0;
         if (b->kept) fw_verdict_solid_keep_none(b->kept);
-        fw_verdict_places_record(b, NULL);
+        fw_verdict_places_record(b, m, NULL);
         for (int i = 0; i < m->nbody; i++)
             b->body_J[i] = 0;
         for (int i = 0; b->rest_N && i < m->nbody; i++)
@@ -330,7 +330,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     }
     record_forces(b, m, now);
     record_rests(b, m, now);
-    fw_verdict_places_record(b, now);
+    fw_verdict_places_record(b, m, now);
     fw_verdict_solid_keep(b, m, now);
     if (b->cut_N_per_m) record_cuts(b, m, now);
     for (int i = 0; i < m->nbody; i++)
@@ -542,4 +542,46 @@ fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const f
             fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
                                         give + 9 * (k / 2));
     return fw_mechanism_plates_new(arena, m, give, soft);
+}
+
+/* ---- how near electrodes come ----
+   By the place of every rotor in each row: across the fingers and by its tilt, of a plate along; of fingers that are nearly
+   at the roots of the others along, too. Error: between rows. Test: test_near_pull_in.py, Motions */
+
+typedef struct near_to { /* m: least gap, and farthest along */
+    double gap, along;
+} near_to;
+
+static near_to nearest(const fw_dynamics_motion *x, int element) {
+    const fw_effects_force_element *e = &x->loads->element[element];
+    const fw_effects_comb_element *c = fw_effects_comb_of(e);
+    near_to n = {HUGE_VAL, -HUGE_VAL};
+    fw_dynamics_motion_rows(x, 0, x->nsample);
+    for (int row = 0; row < x->nsample; row++) {
+        double p[6], w[6], at[3];
+        fw_effects_element_place_ports(e, x->q + (size_t)row * 3 * (size_t)x->nbody, NULL, p, w);
+        fw_effects_comb_place(e, p, at);
+        const bool comb = c->kind == FW_ELECTRODES_COMB;
+        const double half = 0.5 * (comb ? c->overlap_m + at[0] : c->length_m);
+        n.gap = fmin(n.gap, c->gap_m - (comb ? fabs(at[1]) : at[0]) - fabs(at[2]) * half);
+        n.along = fmax(n.along, at[0]);
+    }
+    return n;
+}
+
+double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
+                                    double *kept) {
+    double nearer = 0;
+    *kept = 1;
+    for (int i = 0; i < was->loads->nelement && i < now->loads->nelement; i++) {
+        const fw_effects_comb_element *c = fw_effects_comb_of(&was->loads->element[i]);
+        if (!c || !fw_effects_comb_of(&now->loads->element[i])) continue;
+        const near_to a = nearest(was, i), b = nearest(now, i);
+        const double length = isnan(c->length_m) ? 2 * c->overlap_m : c->length_m;
+        *kept = fmin(*kept, a.gap / c->gap_m);
+        nearer = fmax(nearer, a.gap - b.gap);
+        if (c->kind == FW_ELECTRODES_COMB && length - c->overlap_m - b.along < 2 * b.gap)
+            nearer = fmax(nearer, b.along - a.along);
+    }
+    return nearer;
 }

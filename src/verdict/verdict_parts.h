@@ -125,7 +125,7 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
 /* body_loads.c: by how much what holds rotors is softer at pull-in for what bodies give there, relative, at most */
 fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                    const fw_statics_pull_in *pull_in, double *gives);
-/* body_loads.c: by how much electrodes come nearer in another motion, m, and the share of a gap that this one keeps */
+/* verdict_bending.c: by how much electrodes come nearer in another motion, m, and the share of a gap that this one keeps */
 double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
                                     double *kept);
 /* to (nbody): how far what hangs over bends in a scene at most, m, without stated forces at a probe's place; apart: beyond the middle */

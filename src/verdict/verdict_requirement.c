@@ -390,7 +390,7 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *m, int scene,
         const fw_probe_result *p = &v->probed[scene * n + q->probe];
         const fw_device_probe *of = &m->device->probe[q->probe];
         if (p->known) judge(m, v->motion[scene], p, still, r);
-        if (fw_verdict_places_lower(v->motion[scene], of, &r->low, &r->high)) decide(r);
+        if (fw_verdict_places_lower(v->motion[scene], of, q->measure, &r->low, &r->high)) decide(r);
         if (p->known && q->measure == FW_MEASURE_FINAL)
             FW_TRY(put_ring(v, v->motion[scene], monitor, p, r));
         if (p->known && q->measure == FW_MEASURE_SETTLING && !v->motion[scene]->ended)

@@ -161,7 +161,46 @@ static void series(void **state) {
     }
 }
 
+/* What damps lets go where nothing presses the body any more, and takes hold where it is touched. Judged by what presses the end
+   of the arm alone it let go of two thirds of the force, took hold again at once, and a motion did not get on */
+static void lets_go_of_nothing(void **state) {
+    (void)state;
+    for (int kind = CONTACT; kind <= ROPE; kind++) {
+        if (kind == CABLE || kind == SPRING) continue; /* a cable turns where it is pulled; a spring has no switch */
+        acted a;
+        memset(&a, 0, sizeof a);
+        for (int i = 4; i < 9; i += 4)
+            a.give.c[i] = 2e-3;
+        act(&a, kind, true);
+        double p[9], q[3] = {1e-4, 2e-4, 0}, f[9], none[9] = {0};
+        bool on = true;
+        fw_effects_element_place_ports(a.e, q, NULL, p, f);
+        const double x = p[3] - p[0], y = p[4] - p[1], far = hypot(x, y), face = 0.3, past = kind < CABLE ? -60e-6 : 60e-6;
+        const double ux = kind == FACE ? cos(face) : x / far, uy = kind == FACE ? sin(face) : y / far;
+        const double off = (kind == FACE ? x * ux + y * uy : far) - (kind < CABLE ? 230e-6 : 0.6e-3) - past;
+        p[0] += off * ux, p[1] += off * uy;
+        double slow = 0, fast = past < 0 ? -1e2 : 1e2; /* leaving, m/s */
+        for (int i = 0; i < 200; i++) {
+            const double half = 0.5 * (slow + fast), w[9] = {half * ux, half * uy};
+            fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &on};
+            *(a.e->class_->switch_value(a.e, &s, 0) > 0 ? &slow : &fast) = half;
+        }
+        const double w[9] = {slow * ux, slow * uy}, back[9] = {-slow * ux, -slow * uy};
+        fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &on};
+        a.e->class_->force(a.e, &s, f);
+        assert_true(fabs(slow) > 1e-3 && fabs(slow) < 50);
+        assert_true(hypot(f[0], f[1]) < 1e-6 * 1e3 / 3 * 60e-6);
+        if (a.e->class_->pressing) assert_true(a.e->class_->pressing(a.e, &s) < 1e-6 * 1e3 / 3 * 60e-6);
+        s.w = none;
+        const double elastic = a.e->class_->switch_value(a.e, &s, 0);
+        s.w = back; /* taken hold of by where it is, however fast it comes */
+        assert_true(fabs(a.e->class_->switch_value(a.e, &s, 0) - elastic) < 1e-9 * elastic);
+        fw_arena_free(a.r.arena);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(element_laws), cmocka_unit_test(series)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(element_laws), cmocka_unit_test(series),
+                                       cmocka_unit_test(lets_go_of_nothing)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
