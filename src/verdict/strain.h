@@ -10,6 +10,7 @@
 #include "maths/functions.h"
 #include "mechanism/mechanism.h"
 #include "probe/probe.h"
+#include "statics/statics.h"
 
 /* ---- how bodies give between their hinges: an upper bound from their outlines, as beams ----
    Theory: docs/theory/verdict.md. */
@@ -17,6 +18,8 @@
 /* From where a flexure begins in a body to the body's middle, its centroid or what is nearest to it.
    Energy of a wrench w = (M, Fx, Fy) about the pin, world axes of the drawn pose: w.give.w/(2 E h). */
 typedef struct fw_verdict_arm {
+    const struct fw_verdict_shared
+        *shared;    /* of its body; NULL: no ways go together by what counts */
     bool known;     /* drawn, and its material hangs together */
     bool lost;      /* of a load: it is not, and its body is drawn: too narrow for any grid */
     double give[6]; /* MM, Mx, My, xx, xy, yy: m^-2, m^-1, m^-1, 1, 1, 1 */
@@ -76,6 +79,48 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
 /* a piece of the way around `at`, `from` to `until`, as a strip of width w: added to the arm of a pin (world, m) */
 void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w);
+typedef struct fw_verdict_turn { /* of a body since it was drawn */
+    double rad, cosine, sine;
+} fw_verdict_turn;
+/* Where ways of one body go together they bear together what comes by each of them: body_together.c */
+typedef struct fw_verdict_strip { /* a piece of a way, as fw_verdict_arm_add has it */
+    fw_geometry_vec2 at, from, until;
+    double w;
+} fw_verdict_strip;
+typedef struct
+    fw_verdict_arm_end { /* of a hinge, or where a load acts: pin and root are that place */
+    fw_verdict_arm *to;
+    int index; /* of the arm */
+    fw_geometry_vec2 pin, root;
+    fw_verdict_strip *strip; /* (nstrip) */
+    int nstrip;
+} fw_verdict_arm_end;
+typedef struct fw_verdict_shared {
+    fw_geometry_vec2 about; /* world, as drawn */
+    int first;              /* the first of its ends */
+    struct fw_verdict_trunk {
+        double give[6]; /* as an arm's, about `about` */
+        int n, *end;    /* indices of arms */
+        bool counts;    /* several, and it is more than a 200th of a way */
+    } * trunk;
+    int n;
+    bool counts;
+} fw_verdict_shared;
+/* shared of a body's ends (n): of every one of them, or NULL; cell: of the grid of ways */
+fw_status fw_verdict_ways_meet(fw_arena *arena, const fw_verdict_arm_end *end, int n, double cell,
+                               fw_geometry_vec2 about);
+/* By how much more trunks store by what all ends put on them than by each, J, where that is more. w (3 for each arm, nw of them;
+   the rest bear nothing): (M, Fx, Fy) about `about`, axes as drawn */
+double fw_verdict_shared_J(const fw_verdict_shared *shared, double stiff_N, const double *w,
+                           int nw);
+/* w.give.w/(2 E h) as it is, J */
+double fw_verdict_arm_J(const fw_verdict_arm *arm, double stiff_N, const double w[3]);
+/* what a hinge puts on its end 2 k + side about its pin, in the axes in which the body was drawn; on: the flexure's moment and
+   the force on body b, world */
+void fw_verdict_end_put(const double on[3], int side, const fw_verdict_turn *turn, double w[3]);
+/* the same wrench about another place */
+void fw_verdict_wrench_about(fw_geometry_vec2 pin, fw_geometry_vec2 about, const double w[3],
+                             double to[3]);
 /* a body with holes, cut straight across: its lines (n), where its hinges are (nhinge), and the end that is asked */
 enum { FW_VERDICT_RUN = 16, FW_VERDICT_WIDE = 256 };
 typedef struct fw_verdict_pierced {
@@ -178,9 +223,6 @@ const char *fw_verdict_range_words(fw_arena *arena, const double number[2]);
 /* plates on flexures with what bodies may give at most (verdict_out_of_plane.c) */
 fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, struct fw_mechanism_plates *soft);
-typedef struct fw_verdict_turn { /* of a body since it was drawn */
-    double rad, cosine, sine;
-} fw_verdict_turn;
 /* J of a wrench that a hinge puts on the body, turned back to the drawn pose */
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
                                double fx_N, double fy_N, const fw_verdict_turn *turn);
@@ -253,6 +295,7 @@ typedef struct fw_verdict_place {
     double x_m, y_m; /* local to it */
     const char *id;  /* of what acts there */
     const fw_verdict_arm *arm;
+    int end;                        /* of the arms: the first of all that acts at this place */
     const fw_mechanism_give *given; /* what of that the motion has; NULL: nothing */
     double m_per_N;                 /* what the body gives there at most, beside that */
     double
@@ -266,6 +309,19 @@ typedef struct fw_verdict_place {
     const fw_device_force *force; /* or what is stated */
 } fw_verdict_place;
 
+/* what acts on a body beside its hinges: at (n), of which those on it count; end: (3 nend) for each arm, room */
+typedef struct fw_verdict_places {
+    int body, n, nend;
+    const fw_verdict_place *at;
+    double *end;
+} fw_verdict_places;
+/* body_together.c: J of a body as beams at an instant as fw_verdict_solid_kept has it, with what acts at its places; the least
+   of what is in balance with all of that. *meet_J: what its hinges' ways store together beyond each by itself; *aside_J: the
+   ways of its places alone */
+double fw_verdict_beams_J(const fw_mechanism *mechanism, const fw_verdict_arm *arm, double stiff_N,
+                          const double *instant, const fw_verdict_turn *turn,
+                          const fw_verdict_places *places, double *meet_J, double *aside_J);
+
 typedef struct fw_verdict_bending {
     const fw_verdict_arm
         *arm;       /* (2 nhinge); NULL: nothing is drawn, forces of hinges alone are seen */
@@ -276,6 +332,7 @@ typedef struct fw_verdict_bending {
         gone; /* largest so far by which an end of a flexure goes over its width, or turns over its limit */
     double *body_J;        /* (2 nbody) the largest of each, then those of the instant */
     fw_verdict_turn *turn; /* (nbody) of the instant */
+    double *end; /* (6 nhinge) what hinges put on their ends at the instant (fw_verdict_shared_J) */
     double *
         worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
     double hardest_N2; /* of hardest_N, the sum of all squared */
@@ -310,6 +367,38 @@ typedef struct fw_verdict_bending {
     double stated_J; /* under loads of which the scene says how large they become, at most */
     const fw_effects_loads *loads; /* whose elements act there; NULL: the run starts */
 } fw_verdict_bending;
+
+/* ---- body_solids.c: what bodies store by all that acts on them, as beams and as solids ---- */
+typedef struct fw_verdict_solids {
+    const fw_mechanism *m;
+    const fw_layout *layout;
+    const fw_verdict_arm *arm;
+    const fw_mechanism_solid *solid; /* (nbody) */
+    double stiff_N;
+    double *w, *each; /* room for wrenches; (2 nbody) */
+    double *end;      /* (3 nend) what acts on each end of an arm, about its own place */
+    int nend;
+} fw_verdict_solids;
+fw_status fw_verdict_solids_new(fw_arena *arena, const struct fw_verdict_variant_verdict *verdict,
+                                fw_verdict_solids *solids);
+/* both: J at an instant as fw_verdict_solid_kept has it, with what acts at the places of b, as beams and as solids where these
+   are known. *mixed: the second is no form in what acts, but at least what bodies store */
+void fw_verdict_solids_J(const fw_verdict_solids *solids, const fw_verdict_bending *b,
+                         const double *instant, double both[2], bool *mixed);
+/* on (3 nhinge): moment of each flexure, and force on its body b, by a force of 1 N at a place of a body at rest */
+fw_status fw_verdict_unit_load(fw_arena *arena, const fw_verdict_solids *solids,
+                               const fw_statics_modes *modes, int body, fw_geometry_vec2 at,
+                               double direction_rad, double *on);
+/* body_farther.c: by how much a displacement may be less and more than of rigid bodies by all that bodies give in a scene, m,
+   0 where that is not known. direction_rad: NaN, any. *soft is looked for where it is not known yet */
+struct fw_verdict_soft;
+fw_status fw_verdict_goes_farther(fw_arena *arena, const struct fw_verdict_variant_verdict *verdict,
+                                  int scene, const fw_device_probe *probe, double direction_rad,
+                                  struct fw_verdict_soft *soft, double *down, double *up,
+                                  bool *known);
+fw_status fw_verdict_say_bent(fw_arena *arena, struct fw_verdict_variant_verdict *verdict,
+                              const char *scene, int number, const char *what, int body,
+                              double by_m);
 /* by how much the end of a hinge goes over the hinge's width, or turns over its limit, as the strip of its body gives:
    the derivatives of fw_verdict_arm_energy_J by what the hinge puts on it */
 double fw_verdict_arm_gone(const fw_verdict_bending *bending, const fw_mechanism_hinge *hinge,
@@ -320,6 +409,8 @@ typedef struct fw_verdict_solid_kept {
     double *instant;
     int n, seen, every, nplace;
 } fw_verdict_solid_kept;
+/* doubles of one instant: (3 nhinge) moment of the flexure and force on body b, world, (nbody) turns, (3 nplace) what acts */
+size_t fw_verdict_instant_size(const fw_mechanism *mechanism, int nplace);
 fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *mechanism, int nplace,
                                     fw_verdict_solid_kept **kept);
 void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept);
@@ -351,7 +442,8 @@ bool fw_verdict_bends_own(const fw_mechanism_load_end *end, int scene,
                           const fw_device_probe *probe);
 struct fw_verdict_variant_verdict;
 fw_status fw_verdict_bends_asked(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
-                                 int scene, const fw_device_probe *probe, double *down, double *up);
+                                 int scene, const fw_device_probe *probe, double *down, double *up,
+                                 double *rings_m);
 /* body_loads.c: how far the end of a way goes at most, for a force of E h, whichever way that acts */
 double fw_verdict_arm_goes(const fw_verdict_arm *arm);
 /* what the body of a probed stiffness or compliance gives at its place along its direction at most, m/N; 0: not known */
