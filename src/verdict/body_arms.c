@@ -9,7 +9,7 @@
    that of the least integral of 1/w^3 over a grid of cells (Hart, Nilsson and Raphael 1968: what is left of it is
    at least the distance over the largest w^3), w there from the distance to the nearest cell that an edge crosses. It is then moved square to itself, by up to a cell, to where the
    circle is largest to a hundredth of it, and there w is exact. */
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "base/sort.h"
 #include "geometry/segment.h"
 #include <math.h>

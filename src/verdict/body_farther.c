@@ -18,7 +18,7 @@
    Elasticity, 3rd ed., art. 86); Cauchy and Schwarz. Theory: docs/theory/verdict.md. Test: test_effects.py BodiesOfBars */
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>

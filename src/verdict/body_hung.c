@@ -23,7 +23,7 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>

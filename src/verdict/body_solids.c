@@ -5,7 +5,7 @@
 #include "geometry/segment.h"
 #include "maths/dense.h"
 #include "statics/statics.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What ways of one body (body_arms.c) bear together where they go together. */
 #include "geometry/segment.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include <math.h>
 #include <string.h>
 
