@@ -64,6 +64,7 @@ fw_script_test(cli.unsymmetric COMMAND ${Python3_EXECUTABLE} tests/turn.py tests
 fw_script_test(cli.probe COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_probe.py ${FW_PROGRAM} TIMEOUT 900)
 fw_script_test(cli.friction_range COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_friction_range.py ${FW_PROGRAM} TIMEOUT 900)
 fw_script_test(cli.effects COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_effects.py ${FW_PROGRAM} TIMEOUT 900)
+fw_script_test(cli.bars COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_bars.py ${FW_PROGRAM} TIMEOUT 600)
 fw_script_test(cli.schedule COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_schedule.py ${FW_PROGRAM})
 fw_script_test(cli.flowback COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_flowback.py ${FW_PROGRAM})
 fw_script_test(cli.limits COMMAND ${Python3_EXECUTABLE} tests/turn.py tests/cli/test_limits.py ${FW_PROGRAM})

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Probabilities by counting failures: the limit state evaluated in batches, the intervals of a count, the two methods that
    do nothing else, and subset simulation, which counts level by level. */
-#include "chance/estimators.h"
+#include "chance/estimate.h"
 #include "base/sort.h"
 #include "chance/random.h"
 #include "maths/functions.h"

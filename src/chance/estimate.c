@@ -2,7 +2,6 @@
 /* An estimate of a probability by the method that is asked for or that suits. */
 #include "chance/estimate.h"
 #include "base/text.h"
-#include "chance/estimators.h"
 #include "chance/random.h"
 #include <math.h>
 #include <stdbool.h>

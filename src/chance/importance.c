@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The nearest points of failure, and importance sampling around them. */
-#include "chance/estimators.h"
+#include "chance/estimate.h"
 #include "chance/random.h"
 #include "maths/functions.h"
 #include <float.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "chance/indices.h"
+#include "chance/joint.h"
 #include "chance/random.h"
 #include "maths/functions.h"
 #include <math.h>

@@ -6,7 +6,7 @@
 
    and the coefficients are those of L_q^T c = w. Legendre's polynomials keep A^T A near a diagonal where points fill the cube
    evenly, so that squaring its condition costs nothing. */
-#include "chance/surface.h"
+#include "chance/joint.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <string.h>

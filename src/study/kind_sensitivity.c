@@ -6,7 +6,7 @@
    either side (moved inside where the range ends), judged at an accuracy of 1e-9; its error is the
    difference to the polynomial through the inner five. Weights: Fornberg 1988. Test: tests/unit/study/
    test_response.c (weights), tests/cli/test_study.py against differences of tight runs. */
-#include "chance/indices.h"
+#include "chance/joint.h"
 #include "maths/functions.h"
 #include "study/study_parts.h"
 #include <math.h>

@@ -14,7 +14,7 @@
    say, at 95 %, that fewer than 3 / n of those that are told are told wrongly). A device that was decided by something else
    than hinges and requirements, or was not run, ends the study: surfaces know nothing of it (FW-D660). */
 #include "chance/random.h"
-#include "chance/surface.h"
+#include "chance/joint.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <string.h>

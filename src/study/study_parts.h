@@ -6,7 +6,7 @@
 #include "study/study.h"
 #include "base/svg.h"
 #include "chance/estimate.h"
-#include "chance/indices.h"
+#include "chance/joint.h"
 #include <jansson.h>
 #include <pthread.h>
 #include <stdatomic.h>

@@ -9,7 +9,7 @@
    that of the least integral of 1/w^3 over a grid of cells (Hart, Nilsson and Raphael 1968: what is left of it is
    at least the distance over the largest w^3), w there from the distance to the nearest cell that an edge crosses. It is then moved square to itself, by up to a cell, to where the
    circle is largest to a hundredth of it, and there w is exact. */
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "base/sort.h"
 #include "geometry/segment.h"
 #include <math.h>
@@ -34,10 +34,11 @@ typedef struct grid {
     double *stiff; /* cell^3/away^3: what a cell adds to a way's cost */
     double least;  /* of those */
     int ninside;
-    double *cost;           /* of the way there; HUGE_VAL: not reached; -1: no material */
-    int *from;              /* the cell before; -1 */
-    int *touched, ntouched; /* cells with a cost */
-    int *way, nway;         /* cells from a hinge to the middle */
+    double *cost;            /* of the way there; HUGE_VAL: not reached; -1: no material */
+    int *from;               /* the cell before; -1 */
+    int *touched, ntouched;  /* cells with a cost */
+    int *way, nway;          /* cells from a hinge to the middle */
+    fw_verdict_arm_end *end; /* whose way that is */
 } grid;
 
 static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
@@ -431,14 +432,22 @@ static double widest(const grid *g, edges *around, fw_geometry_vec2 *at, fw_geom
     return 2 * best;
 }
 
+static void add_piece(const grid *g, const fw_verdict_pierced *pierced, fw_geometry_vec2 at,
+                      fw_geometry_vec2 from, fw_geometry_vec2 until, double w) {
+    fw_verdict_arm_end *end = g->end;
+    fw_verdict_arm_add(end->to, end->pin, at, from, until, w);
+    fw_verdict_arm_rims(pierced, end->pin, from, until, w, end->to);
+    end->strip[end->nstrip++] = (fw_verdict_strip){at, from, until, w};
+}
+
 /* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own
    root is in its closed form: the way begins where it is a cell inside */
-static void follow(const grid *g, edges *around, const fw_verdict_pierced *pierced,
-                   fw_geometry_vec2 pin, fw_verdict_arm *arm) {
+static fw_status follow(const grid *g, edges *around, const fw_verdict_pierced *pierced) {
     const int last = g->nway - 1;
     around->wide.n = 0;
-    arm->known = true;
-    arm->narrow_m = HUGE_VAL;
+    g->end->to->known = true;
+    g->end->to->narrow_m = HUGE_VAL;
+    FW_NEED(g->end->strip = fw_arena_array(g->arena, fw_verdict_strip, (size_t)g->nway + 2));
     fw_geometry_vec2 from = place(g, g->way[0]), here = from;
     double w = 0;
     for (int i = 0; i < last;) {
@@ -448,14 +457,12 @@ static void follow(const grid *g, edges *around, const fw_verdict_pierced *pierc
         if (!is_inside(g, next)) next = p;
         double wide = widest(g, around, &next, vec_left(vec_unit(off)));
         fw_geometry_vec2 until = w > 0 ? vec_along(here, 0.5, vec_sub(next, here)) : from;
-        fw_verdict_arm_add(arm, pin, here, from, until, w);
-        fw_verdict_arm_rims(pierced, pin, from, until, w, arm);
+        if (w > 0) add_piece(g, pierced, here, from, until, w);
         from = until, here = next, i = to;
         w = fw_greater(wide, 1e-3 * g->cell);
     }
-    if (last < 1) return;
-    fw_verdict_arm_add(arm, pin, here, from, place(g, g->way[last]), w);
-    fw_verdict_arm_rims(pierced, pin, from, place(g, g->way[last]), w, arm);
+    if (last > 0) add_piece(g, pierced, here, from, place(g, g->way[last]), w);
+    return FW_OK;
 }
 
 /* Does a way from this cell begin at the place? Of an arm between two rows of cells the nearest one is elsewhere. */
@@ -468,22 +475,19 @@ static bool begins_at(const grid *g, const edges *around, fw_geometry_vec2 at, i
 
 /* ---- bodies ---- */
 
-typedef struct end { /* of a hinge, or where a load acts: pin and root are that place */
-    fw_verdict_arm *to;
-    fw_geometry_vec2 pin, root;
-} end;
-
-static int ends_of(const fw_mechanism *m, int body, fw_verdict_arm *arm, end *out) {
+static int ends_of(const fw_mechanism *m, int body, fw_verdict_arm *arm, fw_verdict_arm_end *out) {
     int n = 0;
     for (int i = 0; i < 2 * m->nhinge; i++) {
         fw_geometry_vec2 pin, root;
-        if (fw_mechanism_hinge_end(m, body, i, &pin, &root)) out[n++] = (end){&arm[i], pin, root};
+        if (fw_mechanism_hinge_end(m, body, i, &pin, &root))
+            out[n++] = (fw_verdict_arm_end){.to = &arm[i], .index = i, .pin = pin, .root = root};
     }
     return n;
 }
 
 /* what straight cuts need of a body; of which end they are told later */
-static fw_status pierced_of(const grid *g, const end *ends, int nhinge, fw_verdict_pierced *out) {
+static fw_status pierced_of(const grid *g, const fw_verdict_arm_end *ends, int nhinge,
+                            fw_verdict_pierced *out) {
     FW_NEED(out->room = fw_arena_array(g->arena, double, (size_t)g->nline + 1));
     FW_NEED(out->hinge = fw_arena_array(g->arena, fw_geometry_vec2, (size_t)nhinge + 1));
     for (int k = 0; k < nhinge; k++)
@@ -502,7 +506,7 @@ static fw_status keep_way(const grid *g, fw_verdict_arm *to) {
 
 /* ends: of hinges (nhinge), then of loads, n in all */
 static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *layout, int body,
-                         const end *ends, int nhinge, int n, double hole_m) {
+                         fw_verdict_arm_end *ends, int nhinge, int n, double hole_m) {
     grid g = {.arena = scratch, .kept = kept};
     fw_verdict_pierced pierced = {.hole_m = hole_m};
     FW_TRY(take_lines(layout, body, &g));
@@ -516,6 +520,8 @@ static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *lay
         double cells = across * across / (cell * cell);
         if (cells > CELLS) break;
         fw_arena_rewind(scratch, lines); /* the former cells */
+        for (int i = 0; i < n; i++)
+            ends[i].nstrip = 0;
         FW_TRY(lay(&g, cell));
         int middle = cell_at(&g, layout->body[body].centroid, 2);
         if (middle < 0) continue;
@@ -531,12 +537,14 @@ static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *lay
             const int begin = cell_at(&g, ends[i].root, 0);
             find_way(&g, &q, begin, middle);
             const bool there = begins_at(&g, &around, ends[i].root, begin);
-            if (g.nway > 0 && (there || i < nhinge)) follow(&g, &around, &pierced, ends[i].pin, to);
+            g.end = &ends[i];
+            if (g.nway > 0 && (there || i < nhinge)) FW_TRY(follow(&g, &around, &pierced));
             if (to->known && i < nhinge) FW_TRY(keep_way(&g, to));
             to->lost = !to->known && i >= nhinge;
             if (!to->known || !there || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }
+    FW_TRY(fw_verdict_ways_meet(kept, ends, n, g.cell, layout->body[body].centroid));
     for (int i = 0; i < nhinge; i++) {
         pierced.own = i, pierced.root = ends[i].root;
         if (ends[i].to->known) fw_verdict_arm_cut_at_edge(&pierced, ends[i].to);
@@ -558,11 +566,12 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
     for (int b = 0; layout && layout->drawn && b < m->nbody; b++) {
         fw_arena *scratch = fw_arena_part(arena, 0);
         FW_NEED(scratch);
-        end *ends = fw_arena_array(scratch, end, n + (size_t)nload);
+        fw_verdict_arm_end *ends = fw_arena_array(scratch, fw_verdict_arm_end, n + (size_t)nload);
         int nhinge = ends ? ends_of(m, b, *arm, ends) : 0, found = nhinge;
         for (int j = 0; ends && j < nload; j++)
             if (load[j].body == b && load[j].first == j)
-                ends[found++] = (end){*arm + n + j, load[j].at, load[j].at};
+                ends[found++] = (fw_verdict_arm_end){
+                    .to = *arm + n + j, .index = (int)n + j, .pin = load[j].at, .root = load[j].at};
         fw_status status = ends ? FW_OK : FW_NOMEM;
         if (nhinge > 0) status = arms_of(scratch, arena, layout, b, ends, nhinge, found, hole_m);
         fw_arena_free(scratch);

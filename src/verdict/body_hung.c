@@ -23,7 +23,7 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -413,7 +413,6 @@ static double on_one_side(const fw_mechanism *m, const fw_mechanism_load_end *en
     return sum;
 }
 
-/* to (nbody): how far each bends at most in a scene */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     const fw_device_probe *but, double *to, double *apart_m) {
     const fw_mechanism *m = v->mechanism;
@@ -515,32 +514,36 @@ fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v
 
 /* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
 
-static fw_status say_bent(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
-                          int number, const char *what, int body, double by_m) {
-    char text[32];
-    FW_NEED(what);
-    what = fw_arena_printf(
-        arena,
-        "%s, and %s%s, which is rigid there, may bend in the plane by up to %s um where it reaches "
-        "beyond its hinges: make it wider or shorter",
-        what, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
-        fw_number_text(text, sizeof text, 1e6 * by_m, 3));
-    return fw_verdict_hangs_open(v, scene, number, what);
-}
-
-/* of a displacement along a direction, with its sign, only what its own body does counts */
+/* Of a displacement along a direction, with its sign, only what its own body does counts; and of any what hinges and loads do
+   together, beside what the band has of hinges alone */
 static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
-                          const fw_verdict_requirement *r, double *down, double *up) {
+                          const fw_verdict_requirement *r, fw_verdict_soft *soft, double *down,
+                          double *up) {
     const fw_device *d = v->mechanism->device;
     const fw_device_probe *p = &d->probe[d->requirement[r->asked].probe];
-    double *to, apart;
-    if (p->row != FW_PROBE_IS_displacement || p->body == FW_GROUND || isnan(p->direction_rad) ||
-        !r->measure || !fw_words_hold("final maximum minimum", " ", r->measure))
+    const fw_dynamics_motion *x = v->motion[r->scene_index];
+    const fw_verdict_strain_monitor *saw = x ? x->observed : NULL;
+    const double has =
+        fw_verdict_bending_share(x) * fabs(isnan(r->origin) ? r->value : r->value - r->origin);
+    double *to, apart, less, more, rings = 0;
+    if (!saw || !saw->bending.rest_N || p->row != FW_PROBE_IS_displacement ||
+        p->body == FW_GROUND || !r->measure || strcmp(r->measure, "settling-time") == 0)
         return FW_OK;
-    FW_NEED(to = fw_arena_array(arena, double, (size_t)v->mechanism->nbody));
-    FW_TRY(fw_verdict_bends_in_plane(arena, v, r->scene_index, p, to, &apart));
-    FW_TRY(fw_verdict_bends_asked(arena, v, r->scene_index, p, down, up));
-    *down = fmax(*down + to[p->body], apart), *up = fmax(*up + to[p->body], apart);
+    bool known,
+        across = strcmp(r->measure, "parasitic") == 0,
+        way = !isnan(p->direction_rad) && fw_words_hold("final maximum minimum", " ", r->measure);
+    const double times = strcmp(r->measure, "peak-to-peak") == 0 ? 2 : 1, /* at either end */
+        along = p->direction_rad + (across ? 0.5 * FW_PI : 0);
+    FW_TRY(fw_verdict_goes_farther(arena, v, r->scene_index, p, along, soft, &less, &more, &known));
+    if (!way) less = more = times * fmax(less, more); /* whichever way it is farthest */
+    if (way) {
+        FW_NEED(to = fw_arena_array(arena, double, (size_t)v->mechanism->nbody));
+        FW_TRY(fw_verdict_bends_in_plane(arena, v, r->scene_index, p, to, &apart));
+        FW_TRY(fw_verdict_bends_asked(arena, v, r->scene_index, p, down, up, &rings));
+        if (known) *down = *up = 0; /* what it gives by itself is in the whole */
+    }
+    *down = fmax(*down, less - has) + rings, *up = fmax(*up, more - has) + rings;
+    if (way) *down = fmax(*down + to[p->body], apart), *up = fmax(*up + to[p->body], apart);
     return FW_OK;
 }
 
@@ -548,15 +551,17 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body,
                        fw_verdict_variant_verdict *v) {
     const char *name = v->mechanism->device->scene[scene].name;
     const double hardly = 1e-4; /* of a value: its band is as it was */
-    for (int k = 0; k < v->nclearance; k++) {
+    fw_verdict_soft soft = {.looked = false};
+    for (int k = 0; by > 0 && k < v->nclearance; k++) {
         fw_verdict_clearance *c = &v->clearance[k];
         if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
         if (c->low_m - by > c->required_m) continue;
         c->decision = FW_INCONCLUSIVE;
-        FW_TRY(say_bent(arena, v, name, 638,
-                        c->required_m > 0 ? "what is asked for between parts is only just kept"
-                                          : "parts only just do not meet",
-                        body, by));
+        FW_TRY(fw_verdict_say_bent(arena, v, name, 638,
+                                   c->required_m > 0
+                                       ? "what is asked for between parts is only just kept"
+                                       : "parts only just do not meet",
+                                   body, by));
     }
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
@@ -564,12 +569,12 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body,
         const fw_verdict_decision was = r->decision;
         if (r->scene_index != scene || !moves || r->why || was == FW_REJECT) continue;
         double down = by, up = by;
-        FW_TRY(asked_of(arena, v, r, &down, &up));
+        FW_TRY(asked_of(arena, v, r, &soft, &down, &up));
         if (!(fmax(down, up) > hardly * fabs(r->value))) continue;
         fw_verdict_requirement_widen(down, up, r);
         if (was != FW_ACCEPT || r->decision == FW_ACCEPT) continue;
-        FW_TRY(say_bent(arena, v, name, 639, fw_verdict_requirement_text(arena, r), body,
-                        fmax(down, up)));
+        FW_TRY(fw_verdict_say_bent(arena, v, name, 639, fw_verdict_requirement_text(arena, r), body,
+                                   fmax(down, up)));
     }
     return FW_OK;
 }
@@ -589,7 +594,7 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
                 other = by, by = to[b], body = b;
             else
                 other = fmax(other, to[b]);
-        if (by + other > 0) FW_TRY(opens(arena, i, by + other, body, v));
+        FW_TRY(opens(arena, i, by + other, body, v));
     }
     return FW_OK;
 }

@@ -52,7 +52,8 @@ static double turned_most(const fw_mechanism *m, const fw_dynamics_motion *x, in
 }
 
 fw_status fw_verdict_bends_asked(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                 const fw_device_probe *p, double *down, double *up) {
+                                 const fw_device_probe *p, double *down, double *up,
+                                 double *rings_m) {
     const fw_mechanism *m = v->mechanism;
     const fw_dynamics_motion *x = v->motion[scene];
     const fw_verdict_bending *b = &((const fw_verdict_strain_monitor *)x->observed)->bending;
@@ -62,7 +63,7 @@ fw_status fw_verdict_bends_asked(fw_arena *arena, const fw_verdict_variant_verdi
     fw_mechanism_load_end *end;
     int n;
     FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
-    *down = *up = 0;
+    *down = *up = *rings_m = 0;
     for (int k = 0; k < n; k++) {
         const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
         if (!fw_verdict_bends_own(&end[k], scene, p) || !arm->known) continue;
@@ -82,8 +83,8 @@ fw_status fw_verdict_bends_asked(fw_arena *arena, const fw_verdict_variant_verdi
             rings = slow_s > 0
                         ? fw_quantity_law_responds(f->law, end_s, 1 / slow_s, fast / slow_s).behind
                         : most;
-        *up += fmax(most * high, least * low) + rings * size;
-        *down += fmax(-most * low, -least * high) + rings * size;
+        *up += fmax(most * high, least * low), *down += fmax(-most * low, -least * high);
+        *rings_m += rings * size;
     }
     return FW_OK;
 }
@@ -97,7 +98,6 @@ fw_status fw_verdict_bends_asked(fw_arena *arena, const fw_verdict_variant_verdi
 
    which is what counts beside what bodies give between their hinges. In: forces of the rigid motion, without damping.
    Range: to first order. Cost: none where c k < 1/500. Test: test_effects.py SlenderArms */
-
 enum { PORTS_SEEN = 16 };
 static const double hardly_gives = 0.002; /* c k */
 
@@ -134,6 +134,7 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scen
                                .y_m = end[k].y_m,
                                .id = end[k].id,
                                .arm = arm,
+                               .end = 2 * m->nhinge + end[k].first,
                                .given = given,
                                .m_per_N = given ? left_of(given) : goes / b->stiff_N,
                                .whole_m_per_N = goes / b->stiff_N};
@@ -380,6 +381,53 @@ void fw_verdict_places_record(fw_verdict_bending *b, const fw_mechanism *m,
         at->force_N = fmax(at->force_N, hypot(acts[0], acts[1]));
     }
     b->springs_J = fmax(b->springs_J, stored_J);
+}
+
+/* ---- along a motion ----
+   What hinges and loads put on bodies, at up to KEPT instants that lie equally far from each other in number: where they are
+   more, every second one is left out. An instant: (3 nhinge) moment of the flexure, N m, and force on body b, N, world; (nbody)
+   how far each has turned; (3 nplace) force and couple of what acts there */
+enum { KEPT = 256 };
+
+size_t fw_verdict_instant_size(const fw_mechanism *m, int nplace) {
+    return 3 * (size_t)m->nhinge + (size_t)m->nbody + 3 * (size_t)nplace;
+}
+
+fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *m, int nplace,
+                                    fw_verdict_solid_kept **kept) {
+    FW_NEED(*kept = fw_arena_one(arena, fw_verdict_solid_kept));
+    (*kept)->nplace = nplace;
+    FW_NEED((*kept)->instant =
+                fw_arena_array(arena, double, KEPT *fw_verdict_instant_size(m, nplace)));
+    fw_verdict_solid_keep_none(*kept);
+    return FW_OK;
+}
+
+void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept) {
+    kept->n = kept->seen = 0, kept->every = 1;
+}
+
+void fw_verdict_solid_keep(const fw_verdict_bending *b, const fw_mechanism *m,
+                           const fw_dynamics_instant *now) {
+    fw_verdict_solid_kept *kept = b->kept;
+    const size_t size = fw_verdict_instant_size(m, kept->nplace);
+    if (kept->seen++ % kept->every != 0) return;
+    if (kept->n == KEPT) {
+        for (size_t i = 1; 2 * i < KEPT; i++)
+            memcpy(kept->instant + i * size, kept->instant + 2 * i * size, size * sizeof(double));
+        kept->n = KEPT / 2, kept->every *= 2;
+    }
+    double *to = kept->instant + (size_t)kept->n++ * size;
+    for (int k = 0; k < m->nhinge; k++) {
+        const int j = m->hinge[k].pin;
+        *to++ = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
+        *to++ = now->reaction_N[2 * j];
+        *to++ = now->reaction_N[2 * j + 1];
+    }
+    for (int i = 0; i < m->nbody; i++)
+        *to++ = b->turn[i].rad;
+    for (int i = 0; i < b->nplace; i++, to += 3)
+        fw_verdict_place_acts(&b->place[i], now, to, NULL);
 }
 
 /* c k of all places of one thing, and what they store */

@@ -5,70 +5,21 @@
 #include "geometry/segment.h"
 #include "maths/dense.h"
 #include "statics/statics.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
 
 /* ---- along a motion ---- */
 
-/* What hinges and loads put on bodies, at up to KEPT instants that lie equally far from each other in number: where they are
-   more, every second one is left out. An instant: (3 nhinge) moment of the flexure, N m, and force on body b, N, world; (nbody)
-   how far each has turned; (3 nplace) force and couple of what acts there */
-enum { KEPT = 256 };
-
-static size_t instant_size(const fw_mechanism *m, int nplace) {
-    return 3 * (size_t)m->nhinge + (size_t)m->nbody + 3 * (size_t)nplace;
-}
-
-fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *m, int nplace,
-                                    fw_verdict_solid_kept **kept) {
-    FW_NEED(*kept = fw_arena_one(arena, fw_verdict_solid_kept));
-    (*kept)->nplace = nplace;
-    FW_NEED((*kept)->instant = fw_arena_array(arena, double, KEPT *instant_size(m, nplace)));
-    fw_verdict_solid_keep_none(*kept);
-    return FW_OK;
-}
-
-void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept) {
-    kept->n = kept->seen = 0, kept->every = 1;
-}
-
-void fw_verdict_solid_keep(const fw_verdict_bending *b, const fw_mechanism *m,
-                           const fw_dynamics_instant *now) {
-    fw_verdict_solid_kept *kept = b->kept;
-    const size_t size = instant_size(m, kept->nplace);
-    if (kept->seen++ % kept->every != 0) return;
-    if (kept->n == KEPT) {
-        for (size_t i = 1; 2 * i < KEPT; i++)
-            memcpy(kept->instant + i * size, kept->instant + 2 * i * size, size * sizeof(double));
-        kept->n = KEPT / 2, kept->every *= 2;
-    }
-    double *to = kept->instant + (size_t)kept->n++ * size;
-    for (int k = 0; k < m->nhinge; k++) {
-        const int j = m->hinge[k].pin;
-        *to++ = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
-        *to++ = now->reaction_N[2 * j];
-        *to++ = now->reaction_N[2 * j + 1];
-    }
-    for (int i = 0; i < m->nbody; i++)
-        *to++ = b->turn[i].rad;
-    for (int i = 0; i < b->nplace; i++, to += 3)
-        fw_verdict_place_acts(&b->place[i], now, to, NULL);
-}
-
-typedef struct solids {
-    const fw_mechanism *m;
-    const fw_layout *layout;
-    const fw_verdict_arm *arm;
-    double stiff_N;
-} solids;
+typedef fw_verdict_solids solids;
 
 /* where loads act on a body, in any scene; 0 where one of them is narrower than the body's hinges and their ways, or there are
    too many: then all acts in the middle */
 static fw_status add_loads(fw_arena *arena, const solids *s, int body, double narrow_m,
                            fw_mechanism_solid_end **end, int *n) {
     enum { LOADS = 16 };
+    const double alike = 0.9; /* bars of one width differ by what a way finds of it */
     fw_mechanism_load_end *load;
     int nload, first = *n;
     FW_TRY(fw_mechanism_load_ends(arena, s->m, &load, &nload));
@@ -77,7 +28,7 @@ static fw_status add_loads(fw_arena *arena, const solids *s, int body, double na
     for (int k = 0; k < nload; k++) {
         const fw_verdict_arm *arm = &s->arm[2 * s->m->nhinge + k];
         if (load[k].body != body || load[k].first != k) continue;
-        if (!arm->known || arm->narrow_m < narrow_m || *n - first >= LOADS) {
+        if (!arm->known || arm->narrow_m < alike * narrow_m || *n - first >= LOADS) {
             *n = first;
             return FW_OK;
         }
@@ -115,8 +66,8 @@ static fw_status make_solid(fw_arena *arena, const solids *s, int body, fw_mecha
 }
 
 /* w (3n) of a body at an instant: what its hinges put on it, axes of the drawn pose, and in its middle, `about`, all else: what
-   loads, and inertia, bend beyond that is another bound (theory, 5a). placed: what acts at places is there, and not in the middle */
-static void wrenches_of(const solids *s, const fw_verdict_bending *b, int body,
+   loads, and inertia, bend beyond that is another bound (theory, 5a). placed: what acts at places is there, and not in the middle; false: the solid has not all of these */
+static bool wrenches_of(const solids *s, const fw_verdict_bending *b, int body,
                         const fw_mechanism_solid *of, const double *instant, bool placed,
                         fw_geometry_vec2 about, double *w) {
     const fw_mechanism *m = s->m;
@@ -135,6 +86,7 @@ static void wrenches_of(const solids *s, const fw_verdict_bending *b, int body,
         rest[1] -= force.x, rest[2] -= force.y;
     }
     double *middle = w;
+    bool all = true;
     for (w += 3; w < first + 3 * of->n; w++)
         *w = 0;
     for (int i = 0; placed && i < b->nplace; i++, acts += 3) {
@@ -147,19 +99,23 @@ static void wrenches_of(const solids *s, const fw_verdict_bending *b, int body,
         int end = of->nhinge + 1;
         while (end < of->n && vec_distance(of->end[end].pin, place) > same_m)
             end++;
-        if (end == of->n) continue; /* it stays in the middle */
+        if (end == of->n) all = false; /* it stays in the middle */
+        if (end == of->n) continue;
         double *to = first + 3 * end;
         to[0] += acts[2], to[1] += force.x, to[2] += force.y;
         rest[0] -= acts[2] + vec_cross(arm, force);
         rest[1] -= force.x, rest[2] -= force.y;
     }
     memcpy(middle, rest, sizeof rest);
+    return all;
 }
 
 /* largest over instants: as beams, and as solids where these are known, with what acts beside hinges in the middle and where
    it does */
 typedef struct stored {
     double beams_J, solids_J, acted_J, gone;
+    bool
+        mixed; /* of a body as a solid something that acts on it is not in that: it is no form in what acts */
     double *beam_J, *solid_J; /* (nbody) */
 } stored;
 
@@ -174,15 +130,17 @@ static double end_goes(const solids *s, const fw_mechanism_solid *of, const doub
     return fmax(far / h->input.width_m, fabs(to[0] - middle[0]) / h->closed_form.limit_angle_rad);
 }
 
-/* of one body: adds to what all store at the instant */
+/* of one body: adds to what all store at the instant. sum: as beams; as solids where these are known, of hinges, and of what
+   acts; of all that acts where it does, as beams, as solids, and as the stiffer of both */
 static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
                         const fw_mechanism_solid *of, const double *instant, double *w,
-                        stored *most, double sum[3]) {
+                        stored *most, double sum[6]) {
     const fw_mechanism *m = s->m;
     const double rad = instant[3 * m->nhinge + body];
     const fw_verdict_turn turn = {rad, cos(rad), sin(rad)};
     const fw_geometry_vec2 about = s->layout->body[body].centroid;
-    double beam = 0;
+    const fw_verdict_places places = {body, b->nplace, s->nend, b->place, s->end};
+    double beam = 0, meet, aside;
     if (of->known) wrenches_of(s, b, body, of, instant, false, about, w);
     for (int i = 0, end = 0; i < 2 * m->nhinge; i++) {
         const fw_mechanism_hinge *h = &m->hinge[i / 2];
@@ -198,15 +156,21 @@ static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
         if (s->arm[i].known)
             beam += fw_verdict_arm_energy_J(&s->arm[i], s->stiff_N, -on[0], on[1], on[2], &turn);
     }
+    const double all =
+        fw_verdict_beams_J(m, s->arm, s->stiff_N, instant, &turn, &places, &meet, &aside);
+    beam += meet;
     const double one = of->known ? fw_mechanism_solid_energy_J(of, s->stiff_N, w) : beam;
-    double acted = one;
-    if (of->known && of->n > of->nhinge + 1) {
-        wrenches_of(s, b, body, of, instant, true, about, w);
-        acted = fw_mechanism_solid_energy_J(of, s->stiff_N, w);
+    double acted = one, known = all;
+    if (of->known) {
+        const bool placed = wrenches_of(s, b, body, of, instant, true, about, w);
+        if (of->n > of->nhinge + 1) acted = fw_mechanism_solid_energy_J(of, s->stiff_N, w);
+        known = placed ? acted : fmin(all, pow(sqrt(one) + sqrt(aside), 2)); /* two in step */
+        most->mixed = most->mixed || !placed;
     }
     most->beam_J[body] = fmax(most->beam_J[body], beam);
     most->solid_J[body] = fmax(most->solid_J[body], one);
     sum[0] += beam, sum[1] += one, sum[2] += acted;
+    sum[3] += all, sum[4] += known, sum[5] += fmin(all, known);
 }
 
 static fw_status take_solids(fw_arena *arena, const solids *s, const fw_mechanism_solid *solid,
@@ -221,8 +185,9 @@ static fw_status take_solids(fw_arena *arena, const solids *s, const fw_mechanis
     double *w = fw_arena_array(arena, double, 3 * (size_t)most_ends + 3);
     FW_NEED(most.beam_J && most.solid_J ? w : NULL);
     for (int k = 0; k < b->kept->n; k++) {
-        const double *instant = b->kept->instant + (size_t)k * instant_size(m, b->nplace);
-        double sum[3] = {0};
+        const double *instant =
+            b->kept->instant + (size_t)k * fw_verdict_instant_size(m, b->nplace);
+        double sum[6] = {0};
         for (int i = 0; i < m->nbody; i++)
             body_stores(s, b, i, &solid[i], instant, w, &most, sum);
         most.beams_J = fmax(most.beams_J, sum[0]), most.solids_J = fmax(most.solids_J, sum[1]);
@@ -242,6 +207,16 @@ static fw_status take_solids(fw_arena *arena, const solids *s, const fw_mechanis
     return FW_OK;
 }
 
+/* room for what acts on every end, in scenes and where stiffnesses are asked for */
+static fw_status ends_new(fw_arena *arena, solids *s) {
+    fw_mechanism_load_end *load;
+    int n;
+    FW_TRY(fw_mechanism_load_ends(arena, s->m, &load, &n));
+    s->nend = 2 * s->m->nhinge + n;
+    FW_NEED(s->end = fw_arena_array(arena, double, 3 * (size_t)s->nend + 3));
+    return FW_OK;
+}
+
 /* Solids are made of bodies that as beams give a hundredth of what the hinges do, where all of them come to what is told */
 static fw_status by_solids(fw_arena *arena, const fw_layout *layout, fw_verdict_bending *b,
                            fw_verdict_variant_verdict *v) {
@@ -250,6 +225,7 @@ static fw_status by_solids(fw_arena *arena, const fw_layout *layout, fw_verdict_
     solids s = {.m = m, .layout = layout, .arm = b->arm, .stiff_N = b->stiff_N};
     if (!b->kept || b->kept->n == 0 || !(b->bodies_J > fw_verdict_bending_told * b->hinges_J))
         return FW_OK;
+    FW_TRY(ends_new(arena, &s));
     fw_mechanism_solid *solid = fw_arena_array(arena, fw_mechanism_solid, (size_t)m->nbody);
     FW_NEED(solid);
     for (int i = 0; i < m->nbody; i++) {
@@ -381,13 +357,13 @@ static void hinge_puts(const small *x, int hinge, double on[3]) {
 /* 2 U_b of the load x->f: as beams, and as solids where they are known, with what acts at the place there, too, if that is known */
 static void load_stores(small *x, double *beams, double *found) {
     const fw_mechanism *m = x->s.m;
-    double sum[3] = {0};
+    double sum[6] = {0};
     fw_verdict_displaced(x->modes, x->f, x->u);
     for (int k = 0; k < m->nhinge; k++)
         hinge_puts(x, k, x->instant + 3 * k);
     for (int i = 0; i < m->nbody; i++)
         body_stores(&x->s, &x->at, i, &x->solid[i], x->instant, x->w, &x->most, sum);
-    *beams = 2 * sum[0], *found = 2 * (x->at.nplace > 0 ? sum[2] : sum[1]);
+    *beams = 2 * sum[0], *found = 2 * (x->at.nplace > 0 ? sum[5] : sum[1]);
 }
 
 /* Of all that bodies may store those that store a twentieth of it are made solids */
@@ -408,26 +384,60 @@ static fw_status make_solids(small *x, fw_verdict_variant_verdict *v) {
     return FW_OK;
 }
 
-static fw_status small_new(fw_arena *arena, const fw_verdict_variant_verdict *v, small *x) {
+fw_status fw_verdict_solids_new(fw_arena *arena, const fw_verdict_variant_verdict *v, solids *s) {
     const fw_mechanism *m = v->mechanism;
     const size_t bodies = (size_t)m->nbody;
     size_t ends = 2 * (size_t)m->nhinge + 64;
     const fw_mechanism_solid *none = fw_arena_array(arena, fw_mechanism_solid, bodies);
     FW_NEED(none);
-    x->arena = arena;
-    x->s = (solids){.m = m,
-                    .layout = m->layout,
-                    .arm = v->arm,
-                    .stiff_N = m->variant->material.youngs.value * m->variant->thickness_m};
-    x->solid = v->solid ? v->solid : none;
-    x->at = (fw_verdict_bending){.arm = v->arm, .stiff_N = x->s.stiff_N, .place = &x->place};
+    *s = (solids){.m = m,
+                  .layout = m->layout,
+                  .arm = v->arm,
+                  .solid = v->solid ? v->solid : none,
+                  .stiff_N = m->variant->material.youngs.value * m->variant->thickness_m};
     for (int i = 0; i < m->nbody; i++)
-        if (x->solid[i].known) ends += (size_t)x->solid[i].n;
-    FW_NEED(x->f = fw_arena_array(arena, double, 6 * bodies + instant_size(m, 1) + 3 * ends));
+        if (s->solid[i].known) ends += (size_t)s->solid[i].n;
+    FW_NEED(s->w = fw_arena_array(arena, double, 3 * ends + 2 * bodies));
+    s->each = s->w + 3 * ends;
+    return ends_new(arena, s);
+}
+
+static fw_status small_new(fw_arena *arena, const fw_verdict_variant_verdict *v, small *x) {
+    const fw_mechanism *m = v->mechanism;
+    const size_t bodies = (size_t)m->nbody;
+    x->arena = arena;
+    FW_TRY(fw_verdict_solids_new(arena, v, &x->s));
+    x->solid = x->s.solid, x->w = x->s.w;
+    x->at = (fw_verdict_bending){.arm = v->arm, .stiff_N = x->s.stiff_N, .place = &x->place};
+    FW_NEED(x->f = fw_arena_array(arena, double, 6 * bodies + fw_verdict_instant_size(m, 1)));
     x->u = x->f + 3 * bodies, x->instant = x->u + 3 * bodies;
-    x->w = x->instant + instant_size(m, 1);
     FW_NEED(x->most.beam_J = fw_arena_array(arena, double, 2 * bodies));
     x->most.solid_J = x->most.beam_J + bodies;
+    return FW_OK;
+}
+
+void fw_verdict_solids_J(const solids *s, const fw_verdict_bending *b, const double *instant,
+                         double both[2], bool *mixed) {
+    double sum[6] = {0};
+    stored most = {.beam_J = s->each, .solid_J = s->each + s->m->nbody};
+    for (int i = 0; i < s->m->nbody; i++)
+        body_stores(s, b, i, &s->solid[i], instant, s->w, &most, sum);
+    *mixed = *mixed || most.mixed;
+    both[0] = sum[3], both[1] = sum[4];
+}
+
+fw_status fw_verdict_unit_load(fw_arena *arena, const solids *s, const fw_statics_modes *modes,
+                               int body, fw_geometry_vec2 at, double direction_rad, double *on) {
+    small x = {.s = *s, .modes = modes};
+    const double fx = cos(direction_rad), fy = sin(direction_rad);
+    const fw_geometry_vec2 r =
+        vec_sub(at, (fw_geometry_vec2){s->m->drawn[body].x_m, s->m->drawn[body].y_m});
+    FW_NEED(x.f = fw_arena_array(arena, double, 6 * (size_t)s->m->nbody));
+    x.u = x.f + 3 * s->m->nbody;
+    x.f[3 * body] = fx, x.f[3 * body + 1] = fy, x.f[3 * body + 2] = r.x * fy - r.y * fx;
+    fw_verdict_displaced(modes, x.f, x.u);
+    for (int k = 0; k < s->m->nhinge; k++)
+        hinge_puts(&x, k, on + 3 * k);
     return FW_OK;
 }
 
@@ -445,10 +455,14 @@ static fw_status load_place(small *x, const fw_probe *p) {
     double *f = x->f + 3 * at->body, *acts = x->instant + 3 * m->nhinge + m->nbody;
     f[0] = acts[0] = c, f[1] = acts[1] = s, f[2] = r.x * s - r.y * c;
     for (int k = 0; k < n; k++) {
-        const fw_mechanism_solid *of = &x->solid[end[k].body];
+        const int by = 2 * m->nhinge + end[k].first;
         if (end[k].scene != FW_NONE || end[k].id != p->asked->id) continue;
-        x->place = (fw_verdict_place){.body = end[k].body, .x_m = end[k].x_m, .y_m = end[k].y_m};
-        x->at.nplace = of->known && of->n > of->nhinge + 1;
+        x->place = (fw_verdict_place){.body = end[k].body,
+                                      .x_m = end[k].x_m,
+                                      .y_m = end[k].y_m,
+                                      .arm = &x->s.arm[by],
+                                      .end = by};
+        x->at.nplace = x->s.arm[by].known;
     }
     return FW_OK;
 }
@@ -507,7 +521,7 @@ static fw_status small_gives(small *x, const fw_probe *p, int mode, double gives
     }
     FW_TRY(load_place(x, p));
     load_stores(x, &beams, &found);
-    *most = x->at.nplace > 0 ? fmin(beams + gives, found) : fmin(beams, found) + gives;
+    *most = x->at.nplace > 0 ? found : fmin(beams, found) + gives;
     return FW_OK;
 }
 

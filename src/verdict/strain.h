@@ -17,6 +17,8 @@
 /* From where a flexure begins in a body to the body's middle, its centroid or what is nearest to it.
    Energy of a wrench w = (M, Fx, Fy) about the pin, world axes of the drawn pose: w.give.w/(2 E h). */
 typedef struct fw_verdict_arm {
+    const struct fw_verdict_shared
+        *shared;    /* of its body; NULL: no ways go together by what counts */
     bool known;     /* drawn, and its material hangs together */
     bool lost;      /* of a load: it is not, and its body is drawn: too narrow for any grid */
     double give[6]; /* MM, Mx, My, xx, xy, yy: m^-2, m^-1, m^-1, 1, 1, 1 */
@@ -76,6 +78,9 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *mechanism,
 /* a piece of the way around `at`, `from` to `until`, as a strip of width w: added to the arm of a pin (world, m) */
 void fw_verdict_arm_add(fw_verdict_arm *arm, fw_geometry_vec2 pin, fw_geometry_vec2 at,
                         fw_geometry_vec2 from, fw_geometry_vec2 until, double w);
+typedef struct fw_verdict_turn { /* of a body since it was drawn */
+    double rad, cosine, sine;
+} fw_verdict_turn;
 /* a body with holes, cut straight across: its lines (n), where its hinges are (nhinge), and the end that is asked */
 enum { FW_VERDICT_RUN = 16, FW_VERDICT_WIDE = 256 };
 typedef struct fw_verdict_pierced {
@@ -178,9 +183,6 @@ const char *fw_verdict_range_words(fw_arena *arena, const double number[2]);
 /* plates on flexures with what bodies may give at most (verdict_out_of_plane.c) */
 fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, struct fw_mechanism_plates *soft);
-typedef struct fw_verdict_turn { /* of a body since it was drawn */
-    double rad, cosine, sine;
-} fw_verdict_turn;
 /* J of a wrench that a hinge puts on the body, turned back to the drawn pose */
 double fw_verdict_arm_energy_J(const fw_verdict_arm *arm, double stiff_N, double moment_Nm,
                                double fx_N, double fy_N, const fw_verdict_turn *turn);
@@ -261,6 +263,7 @@ typedef struct fw_verdict_place {
     double x_m, y_m; /* local to it */
     const char *id;  /* of what acts there */
     const fw_verdict_arm *arm;
+    int end;                        /* of the arms: the first of all that acts at this place */
     const fw_mechanism_give *given; /* what of that the motion has; NULL: nothing */
     double m_per_N, whole_m_per_N;  /* what the body gives there at most, beside that and with it */
     double
@@ -285,6 +288,7 @@ typedef struct fw_verdict_bending {
         gone; /* largest so far by which an end of a flexure goes over its width, or turns over its limit */
     double *body_J;        /* (2 nbody) the largest of each, then those of the instant */
     fw_verdict_turn *turn; /* (nbody) of the instant */
+    double *end; /* (6 nhinge) what hinges put on their ends at the instant (fw_verdict_shared_J) */
     double *
         worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
     double hardest_N2; /* of hardest_N, the sum of all squared */
@@ -326,6 +330,7 @@ typedef struct fw_verdict_bending {
     double moves_J, late_J;        /* largest so far of twice the kinetic energy */
     const fw_effects_loads *loads; /* whose elements act there; NULL: the run starts */
 } fw_verdict_bending;
+
 /* by how much the end of a hinge goes over the hinge's width, or turns over its limit, as the strip of its body gives:
    the derivatives of fw_verdict_arm_energy_J by what the hinge puts on it */
 double fw_verdict_arm_gone(const fw_verdict_bending *bending, const fw_mechanism_hinge *hinge,
@@ -336,6 +341,8 @@ typedef struct fw_verdict_solid_kept {
     double *instant;
     int n, seen, every, nplace;
 } fw_verdict_solid_kept;
+/* doubles of one instant: (3 nhinge) moment of the flexure and force on body b, world, (nbody) turns, (3 nplace) what acts */
+size_t fw_verdict_instant_size(const fw_mechanism *mechanism, int nplace);
 fw_status fw_verdict_solid_keep_new(fw_arena *arena, const fw_mechanism *mechanism, int nplace,
                                     fw_verdict_solid_kept **kept);
 void fw_verdict_solid_keep_none(fw_verdict_solid_kept *kept);
@@ -368,7 +375,8 @@ bool fw_verdict_bends_own(const fw_mechanism_load_end *end, int scene,
                           const fw_device_probe *probe);
 struct fw_verdict_variant_verdict;
 fw_status fw_verdict_bends_asked(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
-                                 int scene, const fw_device_probe *probe, double *down, double *up);
+                                 int scene, const fw_device_probe *probe, double *down, double *up,
+                                 double *rings_m);
 /* body_loads.c: how far the end of a way goes at most, for a force of E h, whichever way that acts */
 double fw_verdict_arm_goes(const fw_verdict_arm *arm);
 /* what the body of a probed stiffness or compliance gives at its place along its direction at most, m/N; 0: not known */

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
@@ -271,6 +271,16 @@ static void record_straight(fw_verdict_bending *b, const fw_mechanism *m,
     b->bodies_J = fmax(b->bodies_J, bodies);
 }
 
+static void put_on_end(const fw_verdict_bending *b, const fw_mechanism *m, int end,
+                       double angle_rad, const double force[2]) {
+    const fw_mechanism_pin *pin = &m->pin[m->hinge[end / 2].pin];
+    const double on[3] = {pin->stiffness_Nm_per_rad * angle_rad, force[0], force[1]};
+    double w[3];
+    fw_verdict_end_put(on, end % 2, &b->turn[end % 2 ? pin->body_b : pin->body_a], w);
+    fw_verdict_wrench_about(fw_mechanism_pin_place(m, pin, end % 2), b->arm[end].shared->about, w,
+                            b->end + 3 * end);
+}
+
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (now && b->worst) {
@@ -323,10 +333,18 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                         force[0], force[1], &b->turn[body[side]]);
             bodies += one;
             each[body[side]] += one;
+            if (arm->shared) put_on_end(b, m, 2 * k + side, angle, force);
             b->gone =
                 fmax(b->gone, fw_verdict_arm_gone(b, h, arm, -pin->stiffness_Nm_per_rad * angle,
                                                   force, &b->turn[body[side]]));
         }
+    }
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_verdict_shared *shared = b->arm[i].shared;
+        if (!shared || shared->first != i) continue;
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        const double more = fw_verdict_shared_J(shared, b->stiff_N, b->end, 2 * m->nhinge);
+        bodies += more, each[i % 2 ? pin->body_b : pin->body_a] += more;
     }
     record_forces(b, m, now);
     record_rests(b, m, now);
@@ -376,6 +394,7 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     if (!arm) return FW_OK; /* nothing is drawn: what tips is found by forces alone */
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;
+    FW_NEED(bending->end = fw_arena_array(arena, double, 6 * (size_t)m->nhinge));
     FW_TRY(fw_verdict_places_new(arena, m, scene, bending));
     FW_TRY(fw_verdict_solid_keep_new(arena, m, bending->nplace, &bending->kept));
     if (!(m->device->release_pitch_m > 0)) return FW_OK;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Design points against closed forms: planes, a parabola with two, a plane in unequal directions, starts that lead nowhere. */
-#include "chance/estimators.h"
+#include "chance/estimate.h"
 #include "limits.h"
 
 static fw_chance_points find(limit_state *l, size_t budget, size_t starts, const double *start) {

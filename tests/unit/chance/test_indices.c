@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Indices of functions that have them in closed form: linear, Ishigami's, a product; groups, coverage, what is missing. */
-#include "chance/indices.h"
+#include "chance/joint.h"
 #include "base/constants.h"
 #include "maths/functions.h"
 #include "chance_test.h"

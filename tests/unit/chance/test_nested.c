@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Levels of a spread and yield by place against closed forms and quadrature. */
-#include "chance/indices.h"
+#include "chance/joint.h"
 #include "maths/functions.h"
 #include "chance_test.h"
 

@@ -2,7 +2,7 @@
 /* Response surfaces against what they are made of: polynomials come back, what a point left out misses is what a surface
    without it misses, kinks are said to be off by. */
 #include "chance/random.h"
-#include "chance/surface.h"
+#include "chance/joint.h"
 #include "chance_test.h"
 
 enum { DIMENSIONS = 3, MOST = 400 };

@@ -1,0 +1,94 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bodies under all that acts on them at once: ways that go together, as beams and as solids, and how much farther a place goes.
+   Private to body_*.c and verdict_bending.c. */
+#ifndef FW_VERDICT_BODY_H
+#define FW_VERDICT_BODY_H
+#include "statics/statics.h"
+#include "verdict/strain.h"
+
+/* Where ways of one body go together they bear together what comes by each of them: body_together.c */
+typedef struct fw_verdict_strip { /* a piece of a way, as fw_verdict_arm_add has it */
+    fw_geometry_vec2 at, from, until;
+    double w;
+} fw_verdict_strip;
+typedef struct
+    fw_verdict_arm_end { /* of a hinge, or where a load acts: pin and root are that place */
+    fw_verdict_arm *to;
+    int index; /* of the arm */
+    fw_geometry_vec2 pin, root;
+    fw_verdict_strip *strip; /* (nstrip) */
+    int nstrip;
+} fw_verdict_arm_end;
+typedef struct fw_verdict_shared {
+    fw_geometry_vec2 about; /* world, as drawn */
+    int first;              /* the first of its ends */
+    struct fw_verdict_trunk {
+        double give[6]; /* as an arm's, about `about` */
+        int n, *end;    /* indices of arms */
+        bool counts;    /* several, and it is more than a 200th of a way */
+    } * trunk;
+    int n;
+    bool counts;
+} fw_verdict_shared;
+/* shared of a body's ends (n): of every one of them, or NULL; cell: of the grid of ways */
+fw_status fw_verdict_ways_meet(fw_arena *arena, const fw_verdict_arm_end *end, int n, double cell,
+                               fw_geometry_vec2 about);
+/* By how much more trunks store by what all ends put on them than by each, J, where that is more. w (3 for each arm, nw of them;
+   the rest bear nothing): (M, Fx, Fy) about `about`, axes as drawn */
+double fw_verdict_shared_J(const fw_verdict_shared *shared, double stiff_N, const double *w,
+                           int nw);
+/* w.give.w/(2 E h) as it is, J */
+double fw_verdict_arm_J(const fw_verdict_arm *arm, double stiff_N, const double w[3]);
+/* what a hinge puts on its end 2 k + side about its pin, in the axes in which the body was drawn; on: the flexure's moment and
+   the force on body b, world */
+void fw_verdict_end_put(const double on[3], int side, const fw_verdict_turn *turn, double w[3]);
+/* the same wrench about another place */
+void fw_verdict_wrench_about(fw_geometry_vec2 pin, fw_geometry_vec2 about, const double w[3],
+                             double to[3]);
+
+/* what acts on a body beside its hinges: at (n), of which those on it count; end: (3 nend) for each arm, room */
+typedef struct fw_verdict_places {
+    int body, n, nend;
+    const fw_verdict_place *at;
+    double *end;
+} fw_verdict_places;
+/* body_together.c: J of a body as beams at an instant as fw_verdict_solid_kept has it, with what acts at its places; the least
+   of what is in balance with all of that. *meet_J: what its hinges' ways store together beyond each by itself; *aside_J: the
+   ways of its places alone */
+double fw_verdict_beams_J(const fw_mechanism *mechanism, const fw_verdict_arm *arm, double stiff_N,
+                          const double *instant, const fw_verdict_turn *turn,
+                          const fw_verdict_places *places, double *meet_J, double *aside_J);
+
+/* ---- body_solids.c: what bodies store by all that acts on them, as beams and as solids ---- */
+typedef struct fw_verdict_solids {
+    const fw_mechanism *m;
+    const fw_layout *layout;
+    const fw_verdict_arm *arm;
+    const fw_mechanism_solid *solid; /* (nbody) */
+    double stiff_N;
+    double *w, *each; /* room for wrenches; (2 nbody) */
+    double *end;      /* (3 nend) what acts on each end of an arm, about its own place */
+    int nend;
+} fw_verdict_solids;
+fw_status fw_verdict_solids_new(fw_arena *arena, const struct fw_verdict_variant_verdict *verdict,
+                                fw_verdict_solids *solids);
+/* both: J at an instant as fw_verdict_solid_kept has it, with what acts at the places of b, as beams and as solids where these
+   are known. *mixed: the second is no form in what acts, but at least what bodies store */
+void fw_verdict_solids_J(const fw_verdict_solids *solids, const fw_verdict_bending *b,
+                         const double *instant, double both[2], bool *mixed);
+/* on (3 nhinge): moment of each flexure, and force on its body b, by a force of 1 N at a place of a body at rest */
+fw_status fw_verdict_unit_load(fw_arena *arena, const fw_verdict_solids *solids,
+                               const fw_statics_modes *modes, int body, fw_geometry_vec2 at,
+                               double direction_rad, double *on);
+/* body_farther.c: by how much a displacement may be less and more than of rigid bodies by all that bodies give in a scene, m,
+   0 where that is not known. direction_rad: NaN, any. *soft is looked for where it is not known yet */
+struct fw_verdict_soft;
+fw_status fw_verdict_goes_farther(fw_arena *arena, const struct fw_verdict_variant_verdict *verdict,
+                                  int scene, const fw_device_probe *probe, double direction_rad,
+                                  struct fw_verdict_soft *soft, double *down, double *up,
+                                  bool *known);
+fw_status fw_verdict_say_bent(fw_arena *arena, struct fw_verdict_variant_verdict *verdict,
+                              const char *scene, int number, const char *what, int body,
+                              double by_m);
+
+#endif

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How much farther a place of a body goes in a scene than rigid bodies let it, by all that acts there at once.
+
+   Loads f at places of flexible bodies displace them by D f more than of rigid ones, and by least complementary energy D lies
+   between 0 and B, the form of 2 U_b of what hinges and loads put on the bodies (body_solids.c). So of a load f and a unit
+   load n at the place and along the direction that are asked for
+
+     (n.B f - r)/2 <= n.D f <= (n.B f + r)/2,   r^2 = (n.B n)(f.B f)
+
+   What hinges put on bodies, and what acts beside them, are parts of one f: neither's share alone bounds what they do
+   together, which is up to four times the half of each. f: what acts at an instant of the motion, hinges' forces as it has them;
+   n: at rest (body_solids.c). A body that has turned by theta since it was drawn turns f against n: 2 theta r besides.
+   2 U_b of any direction is that along x and that along y at most. Bodies as beams and as solids are two forms B, and D is below both.
+
+   In: instants kept of a motion, SI. Range: flexures with an axis, no joints beside them. Of a place that is no end of a known
+   way (a probe outside of the material) only what goes with the body's middle. Error: a bound, but for what lies between
+   the instants. Cost: three energies an instant. Source: least complementary energy (S. Timoshenko, J. Goodier, Theory of
+   Elasticity, 3rd ed., art. 86); Cauchy and Schwarz. Theory: docs/theory/verdict.md. Test: test_effects.py BodiesOfBars */
+#include "base/constants.h"
+#include "geometry/segment.h"
+#include "verdict/body.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct farther {
+    fw_verdict_solids s;
+    fw_verdict_bending
+        at; /* the places of the scene, and the one that is asked for, if it has a way */
+    int scene_places;
+    double *load, *unit, *sum; /* instants */
+    size_t size;
+} farther;
+
+/* what the scene's motion has, and room */
+static fw_status farther_new(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                             const fw_verdict_bending *b, const fw_device_probe *p, farther *x) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_geometry_vec2 own = fw_mechanism_local_place(m, p->body, p->x_m, p->y_m);
+    const double same_m = 1e-9;
+    fw_verdict_place *place;
+    fw_mechanism_load_end *end;
+    int n, k = 0;
+    FW_TRY(fw_verdict_solids_new(arena, v, &x->s));
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
+    FW_NEED(place = fw_arena_array(arena, fw_verdict_place, (size_t)b->nplace + 1));
+    if (b->nplace > 0) memcpy(place, b->place, (size_t)b->nplace * sizeof *place);
+    x->at = *b;
+    x->at.place = place, x->scene_places = b->nplace;
+    while (k < n && (end[k].body != p->body || vec_distance(end[k].at, own) > same_m))
+        k++;
+    const int by = k < n ? 2 * m->nhinge + end[k].first : 0;
+    if (k < n && x->s.arm[by].known)
+        place[x->at.nplace++] = (fw_verdict_place){
+            .body = p->body, .x_m = p->x_m, .y_m = p->y_m, .arm = &x->s.arm[by], .end = by};
+    x->size = fw_verdict_instant_size(m, x->at.nplace);
+    FW_NEED(x->load = fw_arena_array(arena, double, 3 * x->size));
+    x->unit = x->load + x->size, x->sum = x->unit + x->size;
+    return FW_OK;
+}
+
+/* gives += 2 U_b of a unit load at the place, n.B n */
+static fw_status unit_gives(fw_arena *arena, farther *x, const fw_statics_modes *modes,
+                            const fw_device_probe *p, double direction_rad, double gives[2]) {
+    const fw_mechanism *m = x->s.m;
+    double by[2];
+    bool mixed = false;
+    memset(x->unit, 0, x->size * sizeof *x->unit);
+    FW_TRY(fw_verdict_unit_load(arena, &x->s, modes, p->body,
+                                fw_mechanism_local_place(m, p->body, p->x_m, p->y_m), direction_rad,
+                                x->unit));
+    if (x->at.nplace > x->scene_places) {
+        double *acts = x->unit + 3 * m->nhinge + m->nbody + 3 * x->scene_places;
+        acts[0] = cos(direction_rad), acts[1] = sin(direction_rad);
+    }
+    fw_verdict_solids_J(&x->s, &x->at, x->unit, by, &mixed);
+    gives[0] += 2 * by[0], gives[1] += 2 * by[1];
+    return FW_OK;
+}
+
+/* n.B f by U_b of the load and so many times the unit load, and less so many; *mixed: it is not known */
+static double works(farther *x, int form, double times, bool *mixed) {
+    double sum[2][2];
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < x->size; i++)
+            x->sum[i] = x->load[i] + (k ? -times : times) * x->unit[i];
+        fw_verdict_solids_J(&x->s, &x->at, x->sum, sum[k], mixed);
+    }
+    return 0.5 * (sum[0][form] - sum[1][form]) / times;
+}
+
+/* of an instant; gives: n.B n. What both forms of B allow */
+static void take_instant(farther *x, const double *instant, int body, const double gives[2],
+                         bool directed, double *down, double *up) {
+    const fw_mechanism *m = x->s.m;
+    const size_t kept = fw_verdict_instant_size(m, x->scene_places);
+    double by[2];
+    bool mixed = false;
+    memset(x->load, 0, x->size * sizeof *x->load);
+    memcpy(x->load, instant, kept * sizeof *instant);
+    fw_verdict_solids_J(&x->s, &x->at, x->load, by, &mixed);
+    const double size = sqrt(2 * fmin(by[0], by[1]) * fmin(gives[0], gives[1]));
+    double low = -size, high = size;
+    for (int form = 0; directed && form < 2; form++) {
+        const double r = sqrt(2 * by[form] * gives[form]);
+        bool unknown = form == 1 && mixed;
+        if (!(r > 0) || unknown) continue;
+        const double along = works(x, form, sqrt(2 * by[form] / gives[form]), &unknown);
+        if (form == 1 && unknown) continue;
+        low = fmax(low, 0.5 * (along - r)), high = fmin(high, 0.5 * (along + r));
+    }
+    const double turned = 2 * fabs(instant[3 * m->nhinge + body]) * size;
+    *up = fmax(*up, high + turned), *down = fmax(*down, turned - low);
+}
+
+fw_status fw_verdict_goes_farther(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                  const fw_device_probe *p, double direction_rad,
+                                  fw_verdict_soft *soft, double *down, double *up, bool *known) {
+    const fw_dynamics_motion *motion = v->motion[scene];
+    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
+    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
+    static const fw_effect_choice as_it_is = {.mode = FW_EFFECTS_AUTO};
+    const bool directed = !isnan(direction_rad);
+    double gives[2] = {0};
+    farther x;
+    *down = *up = 0, *known = false;
+    if (!b || !b->arm || !b->kept || b->kept->n == 0 || p->body == FW_GROUND) return FW_OK;
+    if (!soft->looked) FW_TRY(fw_verdict_soft_new(arena, &as_it_is, 0, v, soft));
+    if (!soft->modes) return FW_OK;
+    FW_TRY(farther_new(arena, v, b, p, &x));
+    if (!directed) FW_TRY(unit_gives(arena, &x, soft->modes, p, 0.5 * FW_PI, gives));
+    FW_TRY(unit_gives(arena, &x, soft->modes, p, directed ? direction_rad : 0, gives));
+    *known = x.at.nplace > x.scene_places;
+    const size_t kept = fw_verdict_instant_size(v->mechanism, x.scene_places);
+    for (int k = 0; k < b->kept->n; k++)
+        take_instant(&x, b->kept->instant + (size_t)k * kept, p->body, gives, directed, down, up);
+    return FW_OK;
+}
+
+/* ---- what is said of it ---- */
+
+fw_status fw_verdict_say_bent(fw_arena *arena, fw_verdict_variant_verdict *v, const char *scene,
+                              int number, const char *what, int body, double by_m) {
+    char text[32];
+    FW_NEED(what);
+    what = fw_arena_printf(
+        arena,
+        "%s, and %s%s, which is rigid there, may bend in the plane by up to %s um where it reaches "
+        "beyond its hinges: make it wider or shorter",
+        what, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
+        fw_number_text(text, sizeof text, 1e6 * by_m, 3));
+    return fw_verdict_hangs_open(v, scene, number, what);
+}

@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What ways of one body (body_arms.c) bear together where they go together. */
+#include "geometry/segment.h"
+#include "verdict/body.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- ways that go together ----
+   Every end of a body has a way to the body's middle, on which it bears its own wrench: an arm. Stresses of all of them add up,
+   and where ways go together one strip, a trunk, bears the sum of the wrenches of its ends:
+
+     2 E h U = sum over trunks (sum w_i).t.(sum w_i)
+
+   t the form of a trunk, the part of ways that the same ends have; one end alone has the first part of its way. Ways are the
+   stiffest to one place: where two have met they stay together, and a trunk is found from the middle back to where its ways
+   part by more than half of its width, or by 60 degrees. Of a motion the arms' own sum stays, and trunks add by how much more they
+   store by the sum than by each wrench (fw_verdict_shared_J): those of which that is less lose nothing, and what gives less
+   than a 200th of its ways is left out.
+   In: strips, world, m; wrenches about the body's middle. Error: strips_less. Cost: squares of the ends, times pieces.
+   Source: least complementary energy (S. Timoshenko, J. Goodier, Theory of Elasticity, 3rd ed., art. 86). Test:
+   test_effects.py BodiesOfBars */
+
+/* from which piece of way a on it goes with way b; a->nstrip: nowhere */
+static int meets_from(const fw_verdict_arm_end *a, const fw_verdict_arm_end *b, double cell) {
+    int k = a->nstrip, at = b->nstrip - 1;
+    for (; k > 0 && at >= 0; k--) {
+        const fw_verdict_strip *s = &a->strip[k - 1];
+        double off = vec_distance(b->strip[at].at, s->at);
+        for (double next; at > 0 && (next = vec_distance(b->strip[at - 1].at, s->at)) <= off; at--)
+            off = next;
+        const fw_geometry_vec2 with = vec_sub(b->strip[at].until, b->strip[at].from),
+                               own = vec_sub(s->until, s->from);
+        if (off > 0.5 * fmax(s->w, b->strip[at].w) + 1.5 * cell) break;
+        if (vec_dot(own, with) < 0.5 * vec_length(own) * vec_length(with))
+            break; /* it comes from elsewhere */
+    }
+    return k;
+}
+
+/* the part of an arm's own give that a trunk is, at most */
+static double part_of(const double t[6], fw_geometry_vec2 about, const fw_verdict_arm_end *end) {
+    const fw_geometry_vec2 p = vec_sub(end->pin, about);
+    const double *g = end->to->give,
+                 forces = t[3] + t[5] - 2 * p.y * t[1] + 2 * p.x * t[2] + vec_dot(p, p) * t[0];
+    return fmax(t[0] / g[0], forces / (g[3] + g[5]));
+}
+
+static bool counts(const fw_verdict_arm_end *end, const int *member, int n,
+                   const fw_verdict_shared *s, const double t[6]) {
+    const double hardly = 0.005;
+    bool any = false;
+    for (int k = 0; k < n; k++)
+        any = any || part_of(t, s->about, &end[member[k]]) > hardly;
+    return any;
+}
+
+/* pieces `from` to `until` of way i, of all members */
+static fw_status add_trunk(fw_arena *arena, const fw_verdict_arm_end *end, int i, int from,
+                           int until, const int *member, int n, fw_verdict_shared *to) {
+    fw_verdict_arm piece = {.narrow_m = HUGE_VAL};
+    struct fw_verdict_trunk *t = &to->trunk[to->n++];
+    for (int k = from; k < until; k++) {
+        const fw_verdict_strip *s = &end[i].strip[k];
+        fw_verdict_arm_add(&piece, to->about, s->at, s->from, s->until, s->w);
+    }
+    memcpy(t->give, piece.give, sizeof t->give);
+    t->counts = n > 1 && counts(end, member, n, to, piece.give);
+    to->counts = to->counts || t->counts;
+    FW_NEED(t->end = fw_arena_array(arena, int, (size_t)n));
+    for (int k = 0; k < n; k++)
+        t->end[t->n++] = end[member[k]].index;
+    return FW_OK;
+}
+
+/* what way i has for itself, and with those behind it, up to where it meets one before it, which has the rest */
+static fw_status trunks_of(fw_arena *arena, const fw_verdict_arm_end *end, int n, int i,
+                           const int *with, int *member, fw_verdict_shared *to) {
+    int until = end[i].nstrip, from = until;
+    for (int j = 0; j < i; j++)
+        until = with[j] < until ? with[j] : until;
+    for (int j = i + 1; j < n; j++)
+        from = with[j] < from ? with[j] : from;
+    member[0] = i;
+    FW_TRY(add_trunk(arena, end, i, 0, from < until ? from : until, member, 1, to));
+    for (int next; from < until; from = next) {
+        int many = 1;
+        next = until;
+        for (int j = i + 1; j < n; j++)
+            if (with[j] <= from)
+                member[many++] = j;
+            else if (with[j] < next)
+                next = with[j];
+        FW_TRY(add_trunk(arena, end, i, from, next, member, many, to));
+    }
+    return FW_OK;
+}
+
+fw_status fw_verdict_ways_meet(fw_arena *arena, const fw_verdict_arm_end *end, int n, double cell,
+                               fw_geometry_vec2 about) {
+    fw_verdict_shared *to = fw_arena_one(arena, fw_verdict_shared);
+    int *with = fw_arena_array(arena, int, 2 * (size_t)n + 1);
+    FW_NEED(to && with ? to : NULL);
+    to->about = about, to->first = n > 0 ? end[0].index : 0;
+    FW_NEED(to->trunk = fw_arena_array(arena, struct fw_verdict_trunk, (size_t)n * (size_t)n + 1));
+    for (int i = 0; i < n; i++) {
+        if (!end[i].to->known) continue;
+        for (int j = 0; j < n; j++)
+            with[j] =
+                end[j].to->known && j != i ? meets_from(&end[i], &end[j], cell) : end[i].nstrip;
+        FW_TRY(trunks_of(arena, end, n, i, with, with + n, to));
+    }
+    for (int i = 0; to->counts && i < n; i++)
+        end[i].to->shared = to;
+    return FW_OK;
+}
+
+static double stored_twice(const double g[6], const double w[3]) {
+    return g[0] * w[0] * w[0] + 2 * w[0] * (g[1] * w[1] + g[2] * w[2]) + g[3] * w[1] * w[1] +
+           2 * g[4] * w[1] * w[2] + g[5] * w[2] * w[2];
+}
+
+double fw_verdict_arm_J(const fw_verdict_arm *arm, double stiff_N, const double w[3]) {
+    return stored_twice(arm->give, w) / (2 * stiff_N);
+}
+
+void fw_verdict_end_put(const double on[3], int side, const fw_verdict_turn *turn, double w[3]) {
+    const double sign = side ? 1 : -1, x = sign * on[1], y = sign * on[2];
+    w[0] = -sign * on[0];
+    w[1] = turn->cosine * x + turn->sine * y, w[2] = turn->cosine * y - turn->sine * x;
+}
+
+void fw_verdict_wrench_about(fw_geometry_vec2 pin, fw_geometry_vec2 about, const double w[3],
+                             double to[3]) {
+    to[0] = w[0] + (pin.x - about.x) * w[2] - (pin.y - about.y) * w[1];
+    to[1] = w[1], to[2] = w[2];
+}
+
+/* what the ends of a trunk put on it together, and 2 E h times what it stores by each */
+static double sum_of(const struct fw_verdict_trunk *t, const double *w, int nw, double all[3]) {
+    double each = 0;
+    all[0] = all[1] = all[2] = 0;
+    for (int k = 0; k < t->n; k++) {
+        const double *one = w + 3 * t->end[k];
+        if (t->end[k] >= nw) continue;
+        all[0] += one[0], all[1] += one[1], all[2] += one[2];
+        each += stored_twice(t->give, one);
+    }
+    return each;
+}
+
+double fw_verdict_shared_J(const fw_verdict_shared *s, double stiff_N, const double *w, int nw) {
+    double sum = 0, all[3];
+    for (int i = 0; i < s->n; i++)
+        if (s->trunk[i].counts) {
+            const double each = sum_of(&s->trunk[i], w, nw, all);
+            sum += fmax(stored_twice(s->trunk[i].give, all) - each, 0);
+        }
+    return sum / (2 * stiff_N);
+}
+
+static double trunks_J(const fw_verdict_shared *s, double stiff_N, const double *w, int nw) {
+    double sum = 0, all[3];
+    for (int i = 0; i < s->n; i++) {
+        sum_of(&s->trunk[i], w, nw, all);
+        sum += stored_twice(s->trunk[i].give, all);
+    }
+    return sum / (2 * stiff_N);
+}
+
+/* ---- a body as beams with all that acts on it where it does ---- */
+
+/* Solids of bars with corners, junctions and heads give up to that much more than strips of inscribed circles */
+static const double strips_less = 0.05;
+
+/* what acts at places of the body, about each, axes as drawn: all of one place together with the first of them */
+static void put_at_places(const fw_verdict_places *p, const double *acts,
+                          const fw_verdict_turn *turn) {
+    for (int i = 0; i < p->n; i++, acts += 3) {
+        double *w = p->end + 3 * p->at[i].end;
+        if (p->at[i].body != p->body || !p->at[i].arm || !p->at[i].arm->known) continue;
+        w[0] += acts[2];
+        w[1] += turn->cosine * acts[0] + turn->sine * acts[1];
+        w[2] += turn->cosine * acts[1] - turn->sine * acts[0];
+    }
+}
+
+static bool is_first_there(const fw_verdict_places *p, int i) {
+    for (int j = 0; j < i; j++)
+        if (p->at[j].end == p->at[i].end) return false;
+    return p->at[i].body == p->body && p->at[i].arm && p->at[i].arm->known;
+}
+
+double fw_verdict_beams_J(const fw_mechanism *m, const fw_verdict_arm *arm, double stiff_N,
+                          const double *instant, const fw_verdict_turn *turn,
+                          const fw_verdict_places *p, double *meet_J, double *aside_J) {
+    const fw_verdict_shared *shared = NULL;
+    double sum = 0, *end = p->end;
+    memset(end, 0, 3 * (size_t)p->nend * sizeof *end);
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        double w[3];
+        if ((i % 2 ? pin->body_b : pin->body_a) != p->body || !arm[i].known) continue;
+        fw_verdict_end_put(instant + 3 * (i / 2), i % 2, turn, w);
+        sum += fw_verdict_arm_J(&arm[i], stiff_N, w);
+        shared = arm[i].shared;
+        if (shared)
+            fw_verdict_wrench_about(fw_mechanism_pin_place(m, pin, i % 2), shared->about, w,
+                                    end + 3 * i);
+    }
+    *meet_J = shared ? fw_verdict_shared_J(shared, stiff_N, end, 2 * m->nhinge) : 0;
+    *aside_J = 0;
+    put_at_places(p, instant + 3 * m->nhinge + m->nbody, turn);
+    for (int i = 0; i < p->n; i++) {
+        double *w = end + 3 * p->at[i].end, own[3];
+        if (!is_first_there(p, i)) continue;
+        *aside_J += fw_verdict_arm_J(p->at[i].arm, stiff_N, w);
+        memcpy(own, w, sizeof own);
+        if (shared)
+            fw_verdict_wrench_about(
+                fw_mechanism_local_place(m, p->body, p->at[i].x_m, p->at[i].y_m), shared->about,
+                own, w);
+    }
+    const double all = shared ? trunks_J(shared, stiff_N, end, p->nend) : sum + *aside_J;
+    return (1 + strips_less) * all;
+}
