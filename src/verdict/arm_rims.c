@@ -467,3 +467,130 @@ fw_status fw_verdict_required_poses(fw_arena *arena, fw_verdict_variant_verdict 
             fw_number_text(y, sizeof y, w->fail_y_m * 1e6, 4),
             fw_number_text(phi, sizeof phi, w->fail_phi_rad * FW_DEG_PER_RAD, 3)));
 }
+
+/* ---- what takes hold where it is met ----
+   A contact, a stop of a joint or a cable does nothing until it is met, so that nothing of it is in proportion to anything.
+   What it leaves is followed instead: g at the start, the most c that the motion takes of it, and by modes what a swing adds,
+   S (up - 1) with S the way that it goes and up as of a hinge (resonance.c). Not met where c + S (up - 1) < g. In: elements
+   of the motion. Error: small motions; of c the cubic between samples. Test: test_effects.py, Resonance */
+
+enum { REACH_PORTS = 64 };
+
+/* what an element says of itself with its ports moved by `by` of w; > 0: it is met */
+static double says(const fw_effects_force_element *e, const double *p, const double *w, double by) {
+    double at[3 * REACH_PORTS], still[3 * REACH_PORTS] = {0};
+    bool on[REACH_PORTS] = {false};
+    for (int i = 0; i < 3 * e->ports; i++)
+        at[i] = p[i] + by * w[i];
+    const fw_effects_port_state state = {.load = 1, .p = at, .w = still, .on = on, .still = true};
+    return e->class_->switch_value(e, &state, 0);
+}
+
+/* of what it says, per way of the port by which it goes most */
+static double per_way(const fw_effects_force_element *e, const double *q) {
+    const double little_m = 1e-8;
+    double p[3 * REACH_PORTS], w[3 * REACH_PORTS], most = 0;
+    fw_effects_element_place_ports(e, q, NULL, p, w);
+    memset(w, 0, sizeof w);
+    for (int i = 0; i < e->ports; i++) {
+        double slope[2];
+        for (int axis = 0; axis < 2; axis++) {
+            double *along = &w[3 * i + axis];
+            *along = 1;
+            slope[axis] = (says(e, p, w, little_m) - says(e, p, w, -little_m)) / (2 * little_m);
+            *along = 0;
+        }
+        most = fmax(most, hypot(slope[0], slope[1]));
+    }
+    return most;
+}
+
+/* m by which it is met, below 0: that it leaves */
+static double overlap_at(const fw_verdict_reach *r, const double *q) {
+    double p[3 * REACH_PORTS], w[3 * REACH_PORTS];
+    const fw_effects_stop *t = r->stop;
+    if (t) {
+        const double a = t->body_a == FW_GROUND ? 0 : q[3 * t->body_a + 2],
+                     b = t->body_b == FW_GROUND ? 0 : q[3 * t->body_b + 2];
+        return t->side * (b - a - t->free_angle_rad - t->at_rad) / r->per_m;
+    }
+    fw_effects_element_place_ports(r->element, q, NULL, p, w);
+    return says(r->element, p, w, 0) / r->per_m;
+}
+
+double fw_verdict_reach_by(const fw_verdict_reach *r, const double *q, const double *u) {
+    const double little_m = 1e-8;
+    double p[3 * REACH_PORTS], w[3 * REACH_PORTS], most = 0;
+    const fw_effects_stop *t = r->stop;
+    if (t)
+        return t->side *
+               ((t->body_b == FW_GROUND ? 0 : u[3 * t->body_b + 2]) -
+                (t->body_a == FW_GROUND ? 0 : u[3 * t->body_a + 2])) /
+               r->per_m;
+    fw_effects_element_place_ports(r->element, q, u, p, w);
+    for (int i = 0; i < r->element->ports; i++)
+        most = fmax(most, hypot(w[3 * i], w[3 * i + 1]));
+    if (!(most > 0)) return 0;
+    const double by = little_m / most;
+    return (says(r->element, p, w, by) - says(r->element, p, w, -by)) / (2 * by * r->per_m);
+}
+
+/* the largest and least overlap of a motion, by cubics through values and rates at its samples */
+static void follow(const fw_dynamics_motion *x, const fw_verdict_reach *r, double *least,
+                   double *most) {
+    enum { BETWEEN = 8 };
+    const size_t n = 3 * (size_t)x->nbody;
+    double value = overlap_at(r, x->q), rate = fw_verdict_reach_by(r, x->q, x->v);
+    *least = *most = value;
+    for (int i = 1; i < x->nsample; i++) {
+        const double *q = x->q + (size_t)i * n, *v = x->v + (size_t)i * n;
+        const double to = overlap_at(r, q), goes = fw_verdict_reach_by(r, q, v),
+                     dt = x->t_s[i] - x->t_s[i - 1];
+        for (int k = 1; k <= BETWEEN; k++) {
+            const double t = (double)k / BETWEEN, left = 1 - t;
+            const double at = left * left * ((1 + 2 * t) * value + t * dt * rate) +
+                              t * t * ((1 + 2 * left) * to - left * dt * goes);
+            *least = fmin(*least, at), *most = fmax(*most, at);
+        }
+        value = to, rate = goes;
+    }
+}
+
+static void take_reach(const fw_dynamics_motion *x, fw_verdict_reach r, fw_verdict_shaken *to) {
+    double least, most;
+    if (!(r.per_m > 0) || !isfinite(r.per_m)) return;
+    follow(x, &r, &least, &most);
+    r.gap_m = -overlap_at(&r, x->q);
+    r.closes_m = most + r.gap_m, r.goes_m = fmax(r.closes_m, -r.gap_m - least);
+    to->reach[to->nreach++] = r;
+}
+
+fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *x, double unit_m,
+                                fw_verdict_shaken *to) {
+    const fw_effects_loads *loads = x->loads;
+    to->nreach = 0, to->reach = NULL;
+    if (!loads) return FW_OK;
+    FW_NEED(to->reach = fw_arena_array(arena, fw_verdict_reach,
+                                       (size_t)loads->nelement + (size_t)loads->nstop));
+    for (int i = 0; i < loads->nelement; i++) {
+        const fw_effects_force_element *e = &loads->element[i];
+        if (e->switches != 1 || e->ports > REACH_PORTS || e->laws > 0 || !e->class_->switch_value)
+            continue;
+        take_reach(x,
+                   (fw_verdict_reach){.id = e->id,
+                                      .pin = FW_NONE,
+                                      .element = e,
+                                      .stiff_N_per_m = e->size_N_per_m,
+                                      .per_m = per_way(e, x->q)},
+                   to);
+    }
+    for (int i = 0; i < loads->nstop; i++)
+        take_reach(x,
+                   (fw_verdict_reach){.pin = loads->stop[i].pin,
+                                      .stop = &loads->stop[i],
+                                      .stiff_N_per_m =
+                                          loads->stop[i].stiffness_Nm_per_rad / (unit_m * unit_m),
+                                      .per_m = 1 / unit_m},
+                   to);
+    return FW_OK;
+}
