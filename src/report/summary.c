@@ -20,7 +20,9 @@ static void use_of(fw_text *text, const fw_verdict_check *c) {
     if (!isfinite(c->low) || !isfinite(c->high)) return;
     fw_text_real(text, " (%.1f to ", 100 * c->low);
     fw_text_real(text, "%.1f %%", 100 * c->high);
-    if (c->most > c->high)
+    if (!isfinite(c->most) && !isnan(c->most))
+        fw_text_add(text, "; of what the flow makes between its corners that is not known");
+    else if (c->most > c->high)
         fw_text_real(text, "; no corner of the flow is above %.1f %%", 100 * c->most);
     fw_text_add(text, ")");
 }

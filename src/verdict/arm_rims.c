@@ -468,94 +468,129 @@ fw_status fw_verdict_required_poses(fw_arena *arena, fw_verdict_variant_verdict 
             fw_number_text(phi, sizeof phi, w->fail_phi_rad * FW_DEG_PER_RAD, 3)));
 }
 
-/* ---- how near electrodes come ----
-   By the place of every rotor in each row: across the fingers and by its tilt, of a plate along; of fingers that are nearly
-   at the roots of the others along, too. Error: between rows. Test: test_near_pull_in.py, Motions */
+/* ---- what takes hold where it is met ----
+   A contact, a stop of a joint or a cable does nothing until it is met, so that nothing of it is in proportion to anything.
+   What it leaves is followed instead: g at the start, the most c that the motion takes of it, and by modes what a swing adds,
+   S (up - 1) with S the way that it goes and up as of a hinge (resonance.c). Not met where c + S (up - 1) < g. In: elements
+   of the motion. Error: small motions; of c the cubic between samples. Test: test_effects.py, Resonance */
 
-typedef struct near_to { /* m: least gap, and farthest along */
-    double gap, along;
-} near_to;
+enum { REACH_PORTS = 64 };
 
-static near_to nearest(const fw_dynamics_motion *x, int element) {
-    const fw_effects_force_element *e = &x->loads->element[element];
-    const fw_effects_comb_element *c = fw_effects_comb_of(e);
-    near_to n = {HUGE_VAL, -HUGE_VAL};
-    fw_dynamics_motion_rows(x, 0, x->nsample);
-    for (int row = 0; row < x->nsample; row++) {
-        double p[6], w[6], at[3];
-        fw_effects_element_place_ports(e, x->q + (size_t)row * 3 * (size_t)x->nbody, NULL, p, w);
-        fw_effects_comb_place(e, p, at);
-        const bool comb = c->kind == FW_ELECTRODES_COMB;
-        const double half = 0.5 * (comb ? c->overlap_m + at[0] : c->length_m);
-        n.gap = fmin(n.gap, c->gap_m - (comb ? fabs(at[1]) : at[0]) - fabs(at[2]) * half);
-        n.along = fmax(n.along, at[0]);
-    }
-    return n;
+/* what an element says of itself with its ports moved by `by` of w; > 0: it is met */
+static double says(const fw_effects_force_element *e, const double *p, const double *w, double by) {
+    double at[3 * REACH_PORTS], still[3 * REACH_PORTS] = {0};
+    bool on[REACH_PORTS] = {false};
+    for (int i = 0; i < 3 * e->ports; i++)
+        at[i] = p[i] + by * w[i];
+    const fw_effects_port_state state = {.load = 1, .p = at, .w = still, .on = on, .still = true};
+    return e->class_->switch_value(e, &state, 0);
 }
 
-double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
-                                    double *kept) {
-    double nearer = 0;
-    *kept = 1;
-    for (int i = 0; i < was->loads->nelement && i < now->loads->nelement; i++) {
-        const fw_effects_comb_element *c = fw_effects_comb_of(&was->loads->element[i]);
-        if (!c || !fw_effects_comb_of(&now->loads->element[i])) continue;
-        const near_to a = nearest(was, i), b = nearest(now, i);
-        const double length = isnan(c->length_m) ? 2 * c->overlap_m : c->length_m;
-        *kept = fmin(*kept, a.gap / c->gap_m);
-        nearer = fmax(nearer, a.gap - b.gap);
-        if (c->kind == FW_ELECTRODES_COMB && length - c->overlap_m - b.along < 2 * b.gap)
-            nearer = fmax(nearer, b.along - a.along);
-    }
-    return nearer;
-}
-
-/* ---- and in series with electrodes ----
-   Pull-in comes where the field takes the stiffness k that holds its rotor; where a place of the rotor's body gives c that is
-   k/(1 + c k), and k is what the field takes there: the largest eigenvalue of -df/dp at the pull-in voltage and pose. Test:
-   test_effects.py SlenderArms */
-
-static double field_takes(const fw_effects_force_element *e, const fw_statics_pull_in *p,
-                          double duration_s) {
-    enum { TIMES = 64, ROTOR = 1 };
-    double at[6], w[6], stiff[36], damp[36], most = 0;
-    if (!e->class_->electrodes || e->ports != 2 || e->switches > 0) return 0;
-    fw_effects_element_place_ports(e, p->q, NULL, at, w);
-    for (int i = 0; i <= TIMES; i++) { /* wherever its law is largest */
-        const double t_s = duration_s * i / TIMES;
-        const fw_effects_port_state seen = {.t_s = t_s,
-                                            .piece_s = t_s,
-                                            .load = p->margin * p->margin,
-                                            .p = at,
-                                            .w = w,
-                                            .still = true};
-        e->class_->tangent(e, &seen, stiff, damp);
-        const double *row = stiff + 3 * ROTOR * 6 + 3 * ROTOR;
-        const double a = -row[0], b = -0.5 * (row[1] + row[6]), c = -row[7];
-        most = fmax(most, 0.5 * (a + c) + hypot(0.5 * (a - c), b));
+/* of what it says, per way of the port by which it goes most */
+static double per_way(const fw_effects_force_element *e, const double *q) {
+    const double little_m = 1e-8;
+    double p[3 * REACH_PORTS], w[3 * REACH_PORTS], most = 0;
+    fw_effects_element_place_ports(e, q, NULL, p, w);
+    memset(w, 0, sizeof w);
+    for (int i = 0; i < e->ports; i++) {
+        double slope[2];
+        for (int axis = 0; axis < 2; axis++) {
+            double *along = &w[3 * i + axis];
+            *along = 1;
+            slope[axis] = (says(e, p, w, little_m) - says(e, p, w, -little_m)) / (2 * little_m);
+            *along = 0;
+        }
+        most = fmax(most, hypot(slope[0], slope[1]));
     }
     return most;
 }
 
-fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                   const fw_statics_pull_in *p, double *gives) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_dynamics_motion *motion = v->motion[scene];
-    fw_mechanism_load_end *end;
-    int n;
-    *gives = 0;
-    if (!v->arm || v->straight || !p->q || !motion || !motion->loads) return FW_OK;
-    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *arm = &v->arm[2 * m->nhinge + k];
-        if (end[k].scene != scene || !end[k].id || !arm->known) continue;
-        const double goes = fw_verdict_arm_goes(arm);
-        for (int i = 0; i < motion->loads->nelement; i++)
-            if (motion->loads->element[i].id &&
-                strcmp(motion->loads->element[i].id, end[k].id) == 0)
-                *gives +=
-                    goes / (m->variant->material.youngs.value * m->variant->thickness_m) *
-                    field_takes(&motion->loads->element[i], p, m->device->scene[scene].duration_s);
+/* m by which it is met, below 0: that it leaves */
+static double overlap_at(const fw_verdict_reach *r, const double *q) {
+    double p[3 * REACH_PORTS], w[3 * REACH_PORTS];
+    const fw_effects_stop *t = r->stop;
+    if (t) {
+        const double a = t->body_a == FW_GROUND ? 0 : q[3 * t->body_a + 2],
+                     b = t->body_b == FW_GROUND ? 0 : q[3 * t->body_b + 2];
+        return t->side * (b - a - t->free_angle_rad - t->at_rad) / r->per_m;
     }
+    fw_effects_element_place_ports(r->element, q, NULL, p, w);
+    return says(r->element, p, w, 0) / r->per_m;
+}
+
+double fw_verdict_reach_by(const fw_verdict_reach *r, const double *q, const double *u) {
+    const double little_m = 1e-8;
+    double p[3 * REACH_PORTS], w[3 * REACH_PORTS], most = 0;
+    const fw_effects_stop *t = r->stop;
+    if (t)
+        return t->side *
+               ((t->body_b == FW_GROUND ? 0 : u[3 * t->body_b + 2]) -
+                (t->body_a == FW_GROUND ? 0 : u[3 * t->body_a + 2])) /
+               r->per_m;
+    fw_effects_element_place_ports(r->element, q, u, p, w);
+    for (int i = 0; i < r->element->ports; i++)
+        most = fmax(most, hypot(w[3 * i], w[3 * i + 1]));
+    if (!(most > 0)) return 0;
+    const double by = little_m / most;
+    return (says(r->element, p, w, by) - says(r->element, p, w, -by)) / (2 * by * r->per_m);
+}
+
+/* the largest and least overlap of a motion, by cubics through values and rates at its samples */
+static void follow(const fw_dynamics_motion *x, const fw_verdict_reach *r, double *least,
+                   double *most) {
+    enum { BETWEEN = 8 };
+    const size_t n = 3 * (size_t)x->nbody;
+    double value = overlap_at(r, x->q), rate = fw_verdict_reach_by(r, x->q, x->v);
+    *least = *most = value;
+    for (int i = 1; i < x->nsample; i++) {
+        const double *q = x->q + (size_t)i * n, *v = x->v + (size_t)i * n;
+        const double to = overlap_at(r, q), goes = fw_verdict_reach_by(r, q, v),
+                     dt = x->t_s[i] - x->t_s[i - 1];
+        for (int k = 1; k <= BETWEEN; k++) {
+            const double t = (double)k / BETWEEN, left = 1 - t;
+            const double at = left * left * ((1 + 2 * t) * value + t * dt * rate) +
+                              t * t * ((1 + 2 * left) * to - left * dt * goes);
+            *least = fmin(*least, at), *most = fmax(*most, at);
+        }
+        value = to, rate = goes;
+    }
+}
+
+static void take_reach(const fw_dynamics_motion *x, fw_verdict_reach r, fw_verdict_shaken *to) {
+    double least, most;
+    if (!(r.per_m > 0) || !isfinite(r.per_m)) return;
+    follow(x, &r, &least, &most);
+    r.gap_m = -overlap_at(&r, x->q);
+    r.closes_m = most + r.gap_m, r.goes_m = fmax(r.closes_m, -r.gap_m - least);
+    to->reach[to->nreach++] = r;
+}
+
+fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *x, double unit_m,
+                                fw_verdict_shaken *to) {
+    const fw_effects_loads *loads = x->loads;
+    to->nreach = 0, to->reach = NULL;
+    if (!loads) return FW_OK;
+    FW_NEED(to->reach = fw_arena_array(arena, fw_verdict_reach,
+                                       (size_t)loads->nelement + (size_t)loads->nstop));
+    for (int i = 0; i < loads->nelement; i++) {
+        const fw_effects_force_element *e = &loads->element[i];
+        if (e->switches != 1 || e->ports > REACH_PORTS || e->laws > 0 || !e->class_->switch_value)
+            continue;
+        take_reach(x,
+                   (fw_verdict_reach){.id = e->id,
+                                      .pin = FW_NONE,
+                                      .element = e,
+                                      .stiff_N_per_m = e->size_N_per_m,
+                                      .per_m = per_way(e, x->q)},
+                   to);
+    }
+    for (int i = 0; i < loads->nstop; i++)
+        take_reach(x,
+                   (fw_verdict_reach){.pin = loads->stop[i].pin,
+                                      .stop = &loads->stop[i],
+                                      .stiff_N_per_m =
+                                          loads->stop[i].stiffness_Nm_per_rad / (unit_m * unit_m),
+                                      .per_m = 1 / unit_m},
+                   to);
     return FW_OK;
 }

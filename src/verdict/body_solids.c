@@ -573,3 +573,15 @@ fw_status fw_verdict_soft_leaves(fw_arena *arena, const fw_verdict_soft *soft, c
     if (is_mode) *left = sqrt(*left);
     return FW_OK;
 }
+
+/* NULL: there are none */
+fw_status fw_verdict_modes_about(fw_arena *arena, const fw_mechanism *m,
+                                 const fw_device_scene *scene, bool at_equilibrium, double accuracy,
+                                 const fw_statics_modes **modes) {
+    const fw_statics_mode_options o = {.accuracy = accuracy, .at_equilibrium = at_equilibrium};
+    fw_diags own = fw_diags_new(arena);
+    *modes = NULL;
+    fw_status status = fw_statics_small_motions(arena, m, scene, &o, &own, modes);
+    if (status == FW_CANCELLED) return status;
+    return status == FW_NOMEM || own.failed ? FW_NOMEM : FW_OK;
+}

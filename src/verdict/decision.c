@@ -480,6 +480,22 @@ double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
     return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
 }
 
+/* Of what is near nothing goes farther than the pair that goes farthest; of what is farther off the share of its way that was
+   found counts, or what was asked about where none is above that */
+bool fw_verdict_may_come(const fw_verdict_clearance *c, double by) {
+    const double left = c->low_m - c->required_m;
+    return c->way.share * by > 1 && !(left > (by - 1) * c->least.farthest_m);
+}
+
+/* the most of what anything moves or bends by: what a probe goes with is not looked up */
+void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]) {
+    most[0] = most[1] = 1;
+    for (int h = 0; h <= nhinge; h++) {
+        most[0] = fmax(most[0], factor[2 * h]);
+        most[1] = fmin(most[1], factor[2 * h + 1]);
+    }
+}
+
 /* ---- what may still decide what is required ---- */
 
 const char fw_verdict_at_rest[] = "at rest";
@@ -550,7 +566,9 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
                                below ? "least" : "most", bound, r->open);
     fw_probe_text(low, r->low, r->unit), fw_probe_text(high, r->high, r->unit);
     const char *all = "";
-    if (below ? r->all_low < r->low : r->all_high > r->high) { /* on the side that is asked for */
+    if (below ? isinf(r->all_low) : isinf(r->all_high)) {
+        all = "; of what the flow makes between its corners that is not known";
+    } else if (below ? r->all_low < r->low : r->all_high > r->high) { /* of what is asked for */
         char end[FW_PROBE_TEXT];
         fw_probe_text(end, below ? r->all_low : r->all_high, r->unit);
         if (!fw_text_same(end, below ? low : high))

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What would have to be known or held better so that everything a flow may make is accepted: the
-   one input that does it alone, by how much; else the share of all ranges. Theory: docs/theory/as-fabricated.md. */
+   one input that does it alone, by how much; else the share of all ranges. And what dies between the corners of these ranges
+   may do. Theory: docs/theory/as-fabricated.md. */
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -271,5 +274,228 @@ fw_status fw_verdict_not_known(fw_arena *arena, const fw_verdict_variant_verdict
                 "state it in a laboratory pack (a <corner> may have an assumed range)",
                 v->variant->flow ? v->variant->flow : "this flow", list.data,
                 n > 1 ? "each of them" : "it"));
+    return FW_OK;
+}
+
+/* ---- what dies between corners may do ----
+   Where their modes may lie, and which of the devices that were run stand for them: requirement_corners.c. What is met there,
+   though by no device that was run, may strain anything. What one of them meets by o behind a gap g has the energy of its
+   swing left there, k o^2 = K (S^2 - g^2) with k its own stiffness and K that of modes there. Where S goes up by u,
+   o'^2 = u^2 o^2 + (u^2 - 1) g^2 K/k, and hinges and forces are taken to go up by o'/o, of the hardest over that of the hardest
+   run. In: what the search has run. Error: small motions. Test: test_effects.py Resonance */
+
+typedef struct amid {
+    int scene;
+    double *factor, *each, late; /* of one device that was run, with its modes anywhere */
+    double *goes;                /* (nbody) how far anything of a body goes at most */
+    double harder;               /* blows, over the hardest of what was run; infinite: none was */
+    const char *met;             /* what is met there alone, as words; NULL: nothing */
+    const char *what;            /* what may be beyond its limit, as words; NULL: nothing */
+    double times;                /* how much farther anything goes than as drawn */
+} amid;
+
+/* hinges of one device that was run; what they use there enters `most` */
+static fw_status amid_hinges(fw_verdict_search *s, int point, double harder, amid *to) {
+    const fw_verdict_fabricated_corner *c = &s->fabricated->corner[point];
+    const double *now = c->shaken[to->scene].factor;
+    const size_t scenes = (size_t)s->device->nscene;
+    for (int h = 0; h < s->v->nhinge; h++) {
+        const fw_verdict_hinge_verdict *is = &c->hinge[h];
+        const double used = exp(s->ln[(size_t)point * (size_t)s->ncheck + (size_t)h * (scenes + 1) +
+                                      (size_t)to->scene]);
+        const bool same = is->scene && strcmp(is->scene, s->device->scene[to->scene].name) == 0;
+        const double band = is->utilisation > 0 ? is->utilisation_high / is->utilisation : 1,
+                     by = to->each[h] * harder;
+        if (isnan(used)) continue;
+        s->fabricated->hinge[h].most = fmax(s->fabricated->hinge[h].most, used * by + is->numeric);
+        if (!to->what && used * band * by / (same ? now[2 * h] : 1) >= 1)
+            FW_NEED(to->what = fw_arena_printf(s->arena, "%s%s", FW_NAMED("hinge", is->id)));
+    }
+    return FW_OK;
+}
+
+static bool bears_blows(const fw_device *d, const fw_verdict_requirement *r) {
+    const int row = d->probe[d->requirement[r->asked].probe].row;
+    return row == FW_PROBE_IS_force || row == FW_PROBE_IS_torque || row == FW_PROBE_IS_power;
+}
+
+/* requirements of one device that was run; its band has already what an error of its own frequencies does */
+static void amid_requirements(fw_verdict_search *s, int point, double harder, amid *to) {
+    const fw_verdict_fabricated_corner *c = &s->fabricated->corner[point];
+    const fw_verdict_shaken *now = &c->shaken[to->scene];
+    double most[2];
+    fw_verdict_requirement_factor(to->factor, s->v->nhinge, most);
+    most[0] = 1 + fmax(0, most[0] - now->required[0]);
+    most[1] = 1 - fmax(0, now->required[1] - most[1]);
+    for (int k = 0; c->requirement && k < s->v->nrequirement; k++) {
+        fw_verdict_requirement r = c->requirement[k];
+        if (r.scene_index != to->scene || !r.measure || r.why) continue;
+        fw_verdict_requirement_shaken(most, fmax(0, to->late - now->required_late),
+                                      s->device->requirement[r.asked].measure, &r);
+        if (harder > 1 && bears_blows(s->device, &r)) {
+            const double more = (harder - 1) * (isinf(harder) ? 1 : r.swing);
+            fw_verdict_requirement_widen(r.size || isnan(r.origin) ? 0 : more, more, &r);
+        }
+        if (s->fabricated->requirement) {
+            fw_verdict_requirement *made = &s->fabricated->requirement[k];
+            made->all_low = isnan(made->all_low) ? made->all_low : fmin(made->all_low, r.low);
+            made->all_high = isnan(made->all_high) ? made->all_high : fmax(made->all_high, r.high);
+        }
+        if (!to->what && r.decision != FW_ACCEPT) to->what = r.probe;
+    }
+}
+
+/* how far the device as drawn would have to go to go as far, the body counts that would have to most */
+static double farther_than_drawn(const fw_verdict_search *s, const amid *a) {
+    const double hardly = 1e-3, *drawn = s->v->shaken ? s->v->shaken[a->scene].most : NULL;
+    const int nh = s->v->nhinge, nb = s->v->mechanism->nbody;
+    double farthest = 0, times = 1;
+    for (int b = 0; drawn && b < nb; b++)
+        farthest = fmax(farthest, drawn[nh + b]);
+    for (int b = 0; drawn && b < nb; b++)
+        if (drawn[nh + b] > hardly * farthest) times = fmax(times, a->goes[b] / drawn[nh + b]);
+    return times;
+}
+
+/* ---- what is met ---- */
+
+static bool is_met(const fw_verdict_reach *r) {
+    return r->closes_m >= r->gap_m;
+}
+
+/* m by which a device that was run meets it with its modes anywhere; not above 0: it does not */
+static double meets_by(const fw_verdict_reach *r, double up, double own) {
+    const double softly = r->gives_m_per_N > 0 && r->stiff_N_per_m > 0
+                              ? 1 / (r->gives_m_per_N * r->stiff_N_per_m)
+                              : HUGE_VAL; /* K/k; not known: as hard as may be */
+    if (is_met(r)) {
+        const double o = r->closes_m - r->gap_m, more = fmax(1, up / own), g = fmax(r->gap_m, 0);
+        if (more == 1) return o;
+        return sqrt(more * more * o * o + softly * g * g * (more * more - 1));
+    }
+    const double far = fw_verdict_reach_takes(r, up);
+    return far < r->gap_m ? 0 : fmax(DBL_MIN, sqrt(softly * (far * far - r->gap_m * r->gap_m)));
+}
+
+static bool same_reach(const fw_verdict_reach *a, const fw_verdict_reach *b) {
+    return a->pin == b->pin && fw_text_same(a->id, b->id);
+}
+
+/* the blow of one thing that a device between corners may meet, over the hardest of those that were run */
+static fw_status one_met(fw_verdict_search *s, const fw_verdict_reach *of, double most, amid *to) {
+    double run = 0;
+    for (int p = 0; p < s->fabricated->ncorner; p++) {
+        const fw_verdict_shaken *there = s->fabricated->corner[p].shaken;
+        for (int c = 0; there && c < there[to->scene].nreach; c++) {
+            const fw_verdict_reach *r = &there[to->scene].reach[c];
+            if (same_reach(r, of)) run = fmax(run, r->closes_m - r->gap_m);
+        }
+    }
+    if (run > 0) {
+        to->harder = fmax(to->harder, most / run);
+        return FW_OK;
+    }
+    to->harder = HUGE_VAL;
+    if (!to->met) FW_NEED(to->met = fw_verdict_reach_name(s->arena, s->v->mechanism, of));
+    return FW_OK;
+}
+
+static fw_status amid_met(fw_verdict_search *s, int point, amid *to) {
+    const fw_verdict_shaken *now = &s->fabricated->corner[point].shaken[to->scene];
+    const int first = s->v->nhinge + s->v->mechanism->nbody;
+    for (int c = 0; c < now->nreach; c++) {
+        const double by = meets_by(&now->reach[c], to->each[first + c], now->each[first + c]);
+        if (by > 0) FW_TRY(one_met(s, &now->reach[c], by, to));
+    }
+    return FW_OK;
+}
+
+/* ---- all of a scene ---- */
+
+/* of every device that was run first what it meets, then what that leaves of hinges and requirements */
+static fw_status look_between(fw_verdict_search *s, amid *to) {
+    const fw_verdict_fabricated_verdict *f = s->fabricated;
+    const int nh = s->v->nhinge, nb = s->v->mechanism->nbody;
+    const size_t factors = 2 * (size_t)nh + 2, points = (size_t)f->ncorner;
+    double *factor = fw_arena_array(s->arena, double, points *factors),
+           *late = fw_arena_array(s->arena, double, points),
+           **each = fw_arena_array(s->arena, double *, points);
+    FW_NEED(factor && late && each ? factor : NULL);
+    for (int p = 0; p < f->ncorner; p++) {
+        const fw_verdict_shaken *there = f->corner[p].shaken;
+        fw_verdict_shaken own;
+        if (!there || there[to->scene].n == 0 || !fw_verdict_leads(s, to->scene, p)) continue;
+        FW_TRY(fw_verdict_anywhere(s, to->scene, p, &own));
+        to->factor = factor + (size_t)p * factors;
+        FW_NEED(to->each = each[p] =
+                    fw_arena_array(s->arena, double, (size_t)nh + (size_t)nb + (size_t)own.nreach));
+        FW_TRY(fw_verdict_shaken_within(s->arena, s->v->mechanism, to->scene, &own,
+                                        f->all ? FW_VERDICT_NO_SOFTER : FW_VERDICT_OF_ANY,
+                                        to->factor, to->each, &late[p]));
+        for (int b = 0; b < nb; b++)
+            to->goes[b] = fmax(to->goes[b], own.most[nh + b] * to->each[nh + b]);
+        FW_TRY(amid_met(s, p, to));
+    }
+    for (int p = 0; p < f->ncorner; p++) {
+        const fw_verdict_shaken *there = f->corner[p].shaken;
+        if (!there || !each[p]) continue;
+        to->factor = factor + (size_t)p * factors, to->each = each[p], to->late = late[p];
+        FW_TRY(amid_hinges(s, p, to->harder, to));
+        amid_requirements(s, p, to->harder, to);
+    }
+    to->times = farther_than_drawn(s, to);
+    for (int k = 0; k < s->v->nclearance; k++) {
+        const fw_verdict_clearance *of = &s->v->clearance[k];
+        if (!to->what && of->scene_index == to->scene && of->box == FW_NONE &&
+            fw_verdict_may_come(of, to->times))
+            to->what = "a distance between parts";
+    }
+    return FW_OK;
+}
+
+static fw_status tell_between(fw_verdict_search *s, const amid *a, fw_verdict_variant_verdict *v) {
+    const fw_device_scene *scene = &s->device->scene[a->scene];
+    const char *flow = v->variant->flow ? v->variant->flow : "this flow";
+    char most[32];
+    const char *text =
+        a->met
+            ? fw_arena_printf(
+                  s->arena,
+                  "as %s makes it a mode may lie where the law of %s%s shakes it hardest, and "
+                  "%s may be met there, though at no corner of its ranges: everything goes up to "
+                  "%s times as far as drawn, and what hinges and contacts bear then is not known; "
+                  "leave it more room, keep the frequencies apart by more than the flow moves "
+                  "them, or state what damps",
+                  flow, FW_NAMED("scene", scene->name), a->met,
+                  fw_number_text(most, sizeof most, a->times, 2))
+            : fw_arena_printf(
+                  s->arena,
+                  "as %s makes it a mode may lie where the law of %s%s shakes it hardest, though "
+                  "at no corner of its ranges: up to %s times what it does as drawn, and %s may "
+                  "then be beyond its limit; keep the frequencies apart by more than the flow "
+                  "moves them, or state what damps",
+                  flow, FW_NAMED("scene", scene->name),
+                  fw_number_text(most, sizeof most, a->times, 2), a->what);
+    FW_NEED(s->fabricated->reason = text);
+    s->fabricated->decision = v->decision = FW_INCONCLUSIVE;
+    return fw_verdict_scene_reason(v, scene, a->met ? 731 : 636, FW_INCONCLUSIVE,
+                                   FW_VERDICT_KEEP_HALF, text);
+}
+
+fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v) {
+    const fw_verdict_shaken *nominal =
+        s->fabricated->ncorner > 1 ? s->fabricated->corner[0].shaken : NULL;
+    double *goes = fw_arena_array(s->arena, double, (size_t)v->mechanism->nbody);
+    bool accepted = s->fabricated->decision == FW_ACCEPT;
+    FW_NEED(goes);
+    for (int i = 0; nominal && i < s->device->nscene; i++) {
+        amid a = {.scene = i, .goes = goes, .harder = 1};
+        if (nominal[i].n == 0) continue;
+        memset(goes, 0, (size_t)v->mechanism->nbody * sizeof *goes);
+        FW_TRY(look_between(s, &a));
+        if (!accepted || (!a.met && !a.what)) continue;
+        FW_TRY(tell_between(s, &a, v));
+        accepted = false;
+    }
     return FW_OK;
 }

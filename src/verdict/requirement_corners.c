@@ -179,6 +179,29 @@ static bool is_worse(const fw_verdict_requirement *a, const fw_verdict_requireme
                                                           : a->utilisation > b->utilisation;
 }
 
+void fw_verdict_ends_apart(fw_verdict_search *s, int point,
+                           const fw_verdict_fabricated_corner *narrower) {
+    for (int e = 0; narrower->requirement && e < 2 * s->v->nrequirement; e++) {
+        const fw_verdict_requirement *r = &narrower->requirement[e / 2];
+        fw_verdict_end *end = &s->end[e];
+        const double was = end_of(s, point, e),
+                     now = r->why ? (double)NAN : (e % 2 ? r->high : r->low);
+        if (isnan(was) || isnan(now)) continue; /* it is undecided there */
+        const double z = fabs(z_of(end, now) - z_of(end, was));
+        end->apart[0] += isnan(z) ? HUGE_VAL : z, end->apart[1] += fabs(now - was);
+    }
+}
+
+/* By what hinges that differ may change of it besides: by their shares, but of what one of them may turn about or leave little
+   of by their sum */
+static double with_apart(const fw_verdict_end *end, double value, int way) {
+    const double much = 1, z = z_of(end, value);
+    if (end->apart[1] == 0) return value;
+    return end->sign == 0 || isnan(z) || !(end->apart[0] < much)
+               ? value + way * end->apart[1]
+               : value_of(end, z + way * end->apart[0]);
+}
+
 /* over all corners; NaN where the nominal device is rejected and no other was run, and where it has no
    value at some corner */
 static void cover(const fw_verdict_search *s, int k, fw_verdict_requirement *made) {
@@ -187,6 +210,7 @@ static void cover(const fw_verdict_search *s, int k, fw_verdict_requirement *mad
     for (int p = 0; p < s->fabricated->ncorner; p++)
         if (s->first == 0 || !at_point(s, p, k)) return;
     for (int p = 0; p < s->fabricated->ncorner; p++) {
+        if (s->fabricated->corner[p].sign) continue;
         made->all_low = fmin(made->all_low, end_of(s, p, 2 * k));
         made->all_high = fmax(made->all_high, end_of(s, p, 2 * k + 1));
     }
@@ -195,6 +219,12 @@ static void cover(const fw_verdict_search *s, int k, fw_verdict_requirement *mad
         if ((bits & fixed) || fw_verdict_search_find(s, bits) != FW_NONE) continue;
         made->all_low = fmin(made->all_low, bound(s, 2 * k, false, bits));
         made->all_high = fmax(made->all_high, bound(s, 2 * k + 1, true, bits));
+    }
+    made->all_low = with_apart(&s->end[2 * k], made->all_low, -1);
+    made->all_high = with_apart(&s->end[2 * k + 1], made->all_high, 1);
+    for (int p = 0; p < s->fabricated->ncorner; p++) {
+        made->all_low = fmin(made->all_low, end_of(s, p, 2 * k));
+        made->all_high = fmax(made->all_high, end_of(s, p, 2 * k + 1));
     }
     if (size) made->all_low = fmax(made->all_low, 0);
 }
@@ -426,8 +456,10 @@ fw_status fw_verdict_search_most(fw_verdict_search *s) {
      ln w = ln w0 + sum of slopes d ln w/dx (x - x0)
 
    over all ranges, by the runs that slopes are made of, and at least what was met at any corner; with the error at either
-   end. The nominal device is widened by what it may do anywhere there (fw_verdict_shaken_within), loads by its
-   stiffness, too. Test: test_effects.py Resonance */
+   end. Every device that was run is widened by what it may do anywhere there (fw_verdict_shaken_within), loads by its
+   stiffness, too, and the most of all counts: of dies at one frequency that goes farthest which weighs least, and ranges have
+   their lightest die at a corner; it is softer than the nominal one by more than its frequency says. All that is as made has
+   it: bands of requirements, what a hinge uses at most (held_ranges.c). Test: test_effects.py Resonance */
 
 /* a mode as it is at a point; NULL: nothing is known of it there */
 static const fw_verdict_shaken_mode *mode_at(const fw_verdict_search *s, int point, int scene,
@@ -459,63 +491,85 @@ static void spread_mode(const fw_verdict_search *s, int scene, fw_verdict_shaken
     }
 }
 
-/* what may be beyond its limit there, as words; NULL: nothing */
-static const char *meets(const fw_verdict_search *s, int scene, const double *factor, double late) {
-    const fw_verdict_fabricated_corner *c = &s->fabricated->corner[0];
-    const double *now = c->shaken[scene].factor;
-    const int nh = s->v->nhinge, scenes = s->device->nscene;
-    double most[2];
-    for (int h = 0; h < nh; h++) {
-        const fw_verdict_hinge_verdict *is = &c->hinge[h];
-        const double used = exp(s->ln[(size_t)h * ((size_t)scenes + 1) + (size_t)scene]);
-        const bool same = is->scene && strcmp(is->scene, s->device->scene[scene].name) == 0;
-        const double band = is->utilisation > 0 ? is->utilisation_high / is->utilisation : 1;
-        if (used * band * factor[2 * h] / (same ? now[2 * h] : 1) >= 1)
-            return fw_arena_printf(s->arena, "%s%s", FW_NAMED("hinge", is->id));
-    }
-    fw_verdict_requirement_factor(factor, nh, most);
-    for (int k = 0; c->requirement && k < s->v->nrequirement; k++) {
-        fw_verdict_requirement r = c->requirement[k];
-        if (r.scene_index != scene || !r.measure || r.why) continue;
-        fw_verdict_requirement_shaken(most, late, s->device->requirement[r.asked].measure, &r);
-        if (r.decision != FW_ACCEPT) return r.probe;
-    }
-    for (int k = 0; k < s->v->nclearance; k++) {
-        const fw_verdict_clearance *of = &s->v->clearance[k];
-        if (of->scene_index == scene && of->box == FW_NONE && of->way.share * factor[2 * nh] >= 1)
-            return "a distance between parts";
-    }
-    return NULL;
-}
-
-fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v) {
-    const fw_verdict_shaken *nominal =
-        s->fabricated->ncorner > 1 ? s->fabricated->corner[0].shaken : NULL;
-    double *factor = fw_arena_array(s->arena, double, 2 * (size_t)v->nhinge + 2), late;
-    FW_NEED(factor);
-    for (int i = 0; nominal && i < s->device->nscene; i++) {
-        fw_verdict_shaken wide = nominal[i];
-        if (wide.n == 0) continue;
-        FW_NEED(wide.mode = fw_arena_grow(s->arena, wide.mode, (size_t)wide.n, (size_t)wide.n,
-                                          sizeof *wide.mode));
-        for (int k = 0; k < wide.n; k++)
-            spread_mode(s, i, &wide.mode[k]);
-        FW_TRY(fw_verdict_shaken_within(s->arena, v->mechanism, i, &wide, factor, &late));
-        const char *what = meets(s, i, factor, late);
-        if (!what) continue;
-        char most[32];
-        const char *flow = v->variant->flow ? v->variant->flow : "this flow";
-        FW_NEED(s->fabricated->reason = fw_arena_printf(
-                    s->arena,
-                    "as %s makes it a mode may lie where the law of %s%s shakes it hardest, though "
-                    "at no corner of its ranges: up to %s times what it does as made nominally, "
-                    "and %s may then be beyond its limit; keep the frequencies apart by more than "
-                    "the flow moves them, or state what damps",
-                    flow, FW_NAMED("scene", s->device->scene[i].name),
-                    fw_number_text(most, sizeof most, factor[2 * v->nhinge], 2), what));
-        s->fabricated->decision = v->decision = FW_INCONCLUSIVE;
-        return fw_verdict_scene_reason(v, &s->device->scene[i], 636, FW_INCONCLUSIVE,
-                                       FW_VERDICT_KEEP_HALF, s->fabricated->reason);
+fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
+                              fw_verdict_shaken *to) {
+    const fw_verdict_shaken *nominal = &s->fabricated->corner[0].shaken[scene];
+    *to = s->fabricated->corner[point].shaken[scene];
+    const size_t n = (size_t)to->n;
+    FW_NEED(to->mode = fw_arena_grow(s->arena, to->mode, n, n, sizeof *to->mode));
+    for (int k = 0; k < to->n; k++) {
+        fw_verdict_shaken_mode *mode = &to->mode[k];
+        for (int p = 0; p < s->fabricated->ncorner; p++) {
+            const fw_verdict_shaken_mode *at = mode_at(s, p, scene, mode->number);
+            if (at) mode->low = fmin(mode->low, at->low), mode->high = fmax(mode->high, at->high);
+        }
+        for (int i = 0; i < nominal->n; i++) {
+            fw_verdict_shaken_mode wide = nominal->mode[i];
+            if (wide.number != mode->number) continue;
+            spread_mode(s, scene, &wide);
+            mode->low = fmin(mode->low, wide.low), mode->high = fmax(mode->high, wide.high);
+        }
     }
     return FW_OK;
+}
+
+/* ---- which of those that were run lead ----
+   What rings by the same law at the same frequency goes as far as its loads hold it at rest, c, or at one frequency as it is
+   light, c w^2; a hinge is strained likewise. So of each hinge, requirement, body and thing that may be met those two lead of
+   which that is most (of a requirement also least), and others add nothing. What is followed by single laws costs little, and all of them are looked at. */
+
+/* by the mode that has most, over how far it goes; 0: not known */
+static double held_by(const fw_verdict_search *s, const fw_verdict_shaken *of, bool light) {
+    const int first = s->v->nhinge, end = first + s->v->mechanism->nbody;
+    double most = 0;
+    for (int k = 0; k < of->n; k++) {
+        const fw_verdict_shaken_mode *mode = &of->mode[k];
+        double share = 0, size = fabs(mode->start) / mode->omega;
+        for (int i = first; i < end; i++)
+            share = fmax(share, fw_verdict_bends_most(mode->bends[i]));
+        for (int j = 0; mode->size && j < of->nload; j++)
+            size = fmax(size, fabs(mode->size[j]));
+        if (mode->size) most = fmax(most, size * share * (light ? pow(mode->omega, 2) : 1));
+    }
+    return most;
+}
+
+/* of what is asked about (hinges, requirements, ways of bodies, gaps) how much there is of number q */
+static double amount_of(const fw_verdict_search *s, int scene, int point, int q) {
+    const fw_verdict_fabricated_corner *c = &s->fabricated->corner[point];
+    const fw_verdict_shaken *of = &c->shaken[scene];
+    const int nh = s->v->nhinge, nr = s->v->nrequirement, nb = s->v->mechanism->nbody;
+    if (q < nh)
+        return exp(s->ln[(size_t)point * (size_t)s->ncheck +
+                         (size_t)q * ((size_t)s->device->nscene + 1) + (size_t)scene]);
+    if (q < nh + nr) {
+        const fw_verdict_requirement *r = at_point(s, point, q - nh);
+        return r && r->measure && r->scene_index == scene ? fabs(r->swing) : 0;
+    }
+    if (q < nh + nr + nb) return of->most[q - nr];
+    const int reach = q - nh - nr - nb;
+    return reach < of->nreach ? of->most[nh + nb + reach] : 0;
+}
+
+bool fw_verdict_leads(const fw_verdict_search *s, int scene, int point) {
+    const fw_verdict_shaken *own = &s->fabricated->corner[point].shaken[scene];
+    const int asked = s->v->nhinge + s->v->nrequirement,
+              all = asked + s->v->mechanism->nbody + own->nreach;
+    for (int light = 0; light < 2; light++) {
+        const double held = held_by(s, own, light);
+        if (point == 0 || !(held > 0)) return true;
+        for (int q = 0; q < all; q++) {
+            const double is = held * amount_of(s, scene, point, q);
+            bool most = is > 0, least = most && q >= s->v->nhinge && q < asked;
+            for (int p = 0; p < s->fabricated->ncorner && (most || least); p++) {
+                const fw_verdict_shaken *there = s->fabricated->corner[p].shaken;
+                if (p == point || !there || there[scene].n == 0) continue;
+                const double other = held_by(s, &there[scene], light) * amount_of(s, scene, p, q);
+                most = most && !(other > is || (other == is && p < point));
+                least = least && !(other < is || (other == is && p < point));
+            }
+            if (most || least) return true;
+        }
+    }
+    return false;
 }

@@ -115,25 +115,15 @@ static fw_status steady_part(fw_arena *arena, const fw_device_scene *s, fw_devic
     return FW_OK;
 }
 
-/* NULL: there are none */
-static fw_status modes_about(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                             bool at_equilibrium, double accuracy, const fw_statics_modes **modes) {
-    const fw_statics_mode_options o = {.accuracy = accuracy, .at_equilibrium = at_equilibrium};
-    fw_diags own = fw_diags_new(arena);
-    *modes = NULL;
-    fw_status status = fw_statics_small_motions(arena, m, scene, &o, &own, modes);
-    if (status == FW_CANCELLED) return status;
-    return status == FW_NOMEM || own.failed ? FW_NOMEM : FW_OK;
-}
-
 /* ---- what a mode may do more or less ---- */
 
 typedef fw_verdict_answer answer;
 
-/* r of one law over [low, high]; of what is of another stiffness there, a load moves it the more, too */
+/* r of one law where a mode may lie, and what of it bends hinges */
 static answer answers_to(const shaking *by, double end_s, const fw_verdict_shaken_mode *mode,
-                         double low, double high, bool softer) {
-    const double most_steps = 3e6, steps = 24 * high / (2 * FW_PI);
+                         fw_verdict_softness softer) {
+    const double most_steps = 3e6, low = mode->low, high = mode->high,
+                 steps = 24 * high / (2 * FW_PI);
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(by->law);
     const double a_second = fmax(steps, 48 * wave.fastest_Hz),
                  end = fmin(end_s, most_steps / a_second); /* by then it swings evenly */
@@ -142,14 +132,15 @@ static answer answers_to(const shaking *by, double end_s, const fw_verdict_shake
     const double own = (by->as == FW_LAW_SQUARED ? 2 : 1) * wave.rad_per_s;
     const double n =
         fmin(2 + ceil((high - low) * end / 0.5), fmax(20, most_steps / (a_second * end)));
-    answer r = {1, 1};
+    answer r = {1, 1, 1};
     if (!(as_computed > 0)) return r;
     for (double k = 0; k <= n; k++) {
         const double at = k == n ? fmin(fmax(own, low), high) : low + (high - low) * k / (n - 1);
         const double now = fw_quantity_law_swing(by->law, by->as, end, at, mode->damping);
-        const bool load = softer && by->as != FW_LAW_OF_COORDINATE;
-        const double by_stiffness = load ? mode->omega * mode->omega / (at * at) : 1;
+        const double by_stiffness =
+            by->as == FW_LAW_OF_COORDINATE ? 1 : fw_verdict_soft_by(softer, mode->omega, at);
         if (!(now >= 0)) continue;
+        r.strained = fmax(r.strained, now / as_computed * fmax(1, by_stiffness));
         r.up = fmax(r.up, now / as_computed * by_stiffness);
         r.down = fmin(r.down, now / as_computed * by_stiffness);
     }
@@ -158,14 +149,15 @@ static answer answers_to(const shaking *by, double end_s, const fw_verdict_shake
 
 /* of what comes again, and of each law that goes to and fro; to: rows, of every hinge and body */
 static fw_status answers_of(fw_arena *arena, const shakings *by, const fw_verdict_shaken *shaken,
-                            int k, bool softer, int rows, answer *to) {
+                            int k, fw_verdict_softness softer, int rows, answer *to) {
     const fw_verdict_shaken_mode *mode = &shaken->mode[k];
     FW_TRY(fw_verdict_rings_again(arena, &by->pieces, by->end_s, shaken, k, rows, softer, to));
     for (int j = 0; j < by->n; j++) {
-        const answer now = answers_to(&by->item[j], by->end_s, mode, mode->low, mode->high, softer);
+        const answer now = answers_to(&by->item[j], by->end_s, mode, softer);
         for (int i = 0; i < rows; i++) {
             const double share = fw_verdict_bends_most(mode->bends[i]);
             to[i].up = fmax(to[i].up, 1 + share * (now.up - 1));
+            to[i].strained = fmax(to[i].strained, 1 + share * (now.strained - 1));
             to[i].down = fmin(to[i].down, 1 - share * (1 - now.down));
         }
     }
@@ -173,10 +165,10 @@ static fw_status answers_of(fw_arena *arena, const shakings *by, const fw_verdic
 }
 
 static double late_of(const fw_verdict_shaken_mode *mode, const answer *r, double end_s, int nhinge,
-                      int rows) {
+                      int bodies) {
     const double phase = fmax(mode->high - mode->omega, mode->omega - mode->low) * end_s;
     double most = 0;
-    for (int i = nhinge; i < rows; i++)
+    for (int i = nhinge; i < bodies; i++)
         most = fmax(most, fmin(r[i].up - 1 + 2 * fw_verdict_bends_most(mode->bends[i]),
                                r[i].up - 1 + phase * fw_verdict_bends_most(mode->bends[i])));
     return mode->late * most;
@@ -185,24 +177,26 @@ static double late_of(const fw_verdict_shaken_mode *mode, const answer *r, doubl
 /* All modes that lie elsewhere one by one, and where one share moves them all; of what moves the body that is worst off
    counts */
 static fw_status add_answers(fw_arena *arena, const fw_mechanism *m, const shakings *by,
-                             const fw_verdict_shaken *shaken, bool softer, double *factor,
-                             double *late) {
-    const int nh = m->nhinge, rows = nh + m->nbody;
+                             const fw_verdict_shaken *shaken, fw_verdict_softness softer,
+                             double *factor, double *each, double *late) {
+    const int nh = m->nhinge, bodies = nh + m->nbody, rows = bodies + shaken->nreach;
     answer *sum = fw_arena_array(arena, answer, 2 * (size_t)rows), *now = sum + rows;
     FW_NEED(sum);
     for (int i = 0; i < rows; i++)
-        sum[i] = (answer){1, 1};
+        sum[i] = (answer){1, 1, 1};
     for (int k = 0; k < shaken->n; k++) {
         FW_TRY(answers_of(arena, by, shaken, k, softer, rows, now));
         for (int i = 0; i < rows; i++) {
-            sum[i].up += now[i].up - 1;
+            sum[i].up += now[i].up - 1, sum[i].strained += now[i].strained - 1;
             sum[i].down = fmax(0, sum[i].down - (1 - now[i].down));
         }
-        *late += late_of(&shaken->mode[k], now, by->end_s, nh, rows);
+        *late += late_of(&shaken->mode[k], now, by->end_s, nh, bodies);
     }
     FW_TRY(
         fw_verdict_rings_again(arena, &by->pieces, by->end_s, shaken, FW_NONE, rows, softer, now));
-    for (int i = 0; i < rows; i++) {
+    for (int i = 0; i < rows; i++)
+        each[i] = i < nh ? fmax(sum[i].strained, now[i].strained) : fmax(sum[i].up, now[i].up);
+    for (int i = 0; i < bodies; i++) {
         double *to = factor + 2 * (i < nh ? i : nh);
         to[0] = fmax(to[0], fmax(sum[i].up, now[i].up));
         to[1] = fmin(to[1], fmax(0, fmin(sum[i].down, now[i].down)));
@@ -233,9 +227,9 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     FW_TRY(find_laws(arena, m, s, by));
     if ((by->n == 0 && !by->again) || motion->nsample < 2) return FW_OK;
     FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
-    FW_TRY(modes_about(arena, m, &steady, moves, 0.03, &modes));
-    if (modes && slowly) FW_TRY(modes_about(arena, m, &steady, false, 0.03, &rest));
-    if (!modes) FW_TRY(modes_about(arena, m, &still, false, 0.03, &modes));
+    FW_TRY(fw_verdict_modes_about(arena, m, &steady, moves, 0.03, &modes));
+    if (modes && slowly) FW_TRY(fw_verdict_modes_about(arena, m, &steady, false, 0.03, &rest));
+    if (!modes) FW_TRY(fw_verdict_modes_about(arena, m, &still, false, 0.03, &modes));
     if (!modes) return FW_OK;
     FW_NEED(to->mode = fw_arena_array(arena, fw_verdict_shaken_mode, MODES_SHAKEN));
     FW_TRY(fw_verdict_swings(arena, m, s, by->again, modes, motion, MODES_SHAKEN, to));
@@ -340,10 +334,10 @@ static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, con
     if (by->n == 0) return FW_OK;
     for (int i = 0; i < 2; i++) {
         FW_TRY(held_at(arena, s, i ? -1 : 1, &held));
-        FW_TRY(modes_about(arena, m, &held, true, fine, &at[i]));
+        FW_TRY(fw_verdict_modes_about(arena, m, &held, true, fine, &at[i]));
     }
     FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
-    FW_TRY(modes_about(arena, m, &steady, moves, fine, &rest));
+    FW_TRY(fw_verdict_modes_about(arena, m, &steady, moves, fine, &rest));
     for (int k = 0; rest && (at[0] || at[1]) && k < rest->count && k < MODES_SHAKEN; k++) {
         const fw_statics_mode *mode = &rest->mode[k];
         if (!(mode->stiffness_per_s2 > 0)) continue;
@@ -370,18 +364,21 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
         hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_mode_s2);
     for (int k = 0; k < to->n; k++)
         to->mode[k].low /= sqrt(1 + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
-    FW_TRY(add_answers(arena, m, &by, to, false, to->factor, &to->late));
+    FW_NEED(to->each = fw_arena_array(arena, double,
+                                      (size_t)m->nhinge + (size_t)m->nbody + (size_t)to->nreach));
+    FW_TRY(add_answers(arena, m, &by, to, FW_VERDICT_AS_STIFF, to->factor, to->each, &to->late));
     return v->corner ? FW_OK : may_pump(arena, m, scene, &by, bodies, v);
 }
 
 fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *m, int scene,
-                                   const fw_verdict_shaken *shaken, double *factor, double *late) {
+                                   const fw_verdict_shaken *shaken, int softer, double *factor,
+                                   double *each, double *late) {
     shakings by;
     FW_TRY(find_laws(arena, m, &m->device->scene[scene], &by));
     for (int h = 0; h <= m->nhinge; h++)
         factor[2 * h] = factor[2 * h + 1] = 1;
     *late = 0;
-    return add_answers(arena, m, &by, shaken, true, factor, late);
+    return add_answers(arena, m, &by, shaken, softer, factor, each, late);
 }
 
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *m, int scene, bool *shaken) {
@@ -412,7 +409,7 @@ static fw_status may_meet(fw_arena *arena, int scene, double by, fw_verdict_vari
     const fw_device_scene *s = &v->mechanism->device->scene[scene];
     for (int k = 0; k < v->nclearance; k++) {
         const fw_verdict_clearance *c = &v->clearance[k];
-        if (c->scene_index != scene || c->decision != FW_ACCEPT || !(c->way.share * by > 1))
+        if (c->scene_index != scene || c->decision != FW_ACCEPT || !fw_verdict_may_come(c, by))
             continue;
         const char *text = fw_arena_printf(
             arena,
@@ -462,15 +459,6 @@ static double largest_of(const double *x, int n) {
     return most;
 }
 
-/* the most of what anything moves or bends by: what a probe goes with is not looked up */
-void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]) {
-    most[0] = most[1] = 1;
-    for (int h = 0; h <= nhinge; h++) {
-        most[0] = fmax(most[0], factor[2 * h]);
-        most[1] = fmin(most[1], factor[2 * h + 1]);
-    }
-}
-
 /* v->shaken; warnings, and a reason where what does not meet may then meet */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
                             const fw_dynamics_motion_options *options,
@@ -502,6 +490,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
                      near = f[2 * nh + 1] * (g ? g[2 * nh + 1] : 1);
         if (near < 1) may_not_meet(v, i, near);
         FW_TRY(may_meet(arena, i, far, v));
+        if (v->motion[i]) FW_TRY(fw_verdict_may_touch(arena, i, v));
         FW_TRY(may_ring(arena, i, v));
         may_come_near(i, far, ways * (g ? g[2 * nh] : 1), v);
         most = largest_of(f, 2 * nh + 2);
@@ -527,7 +516,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
 fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
                                  const fw_verdict_shaken **kept) {
     const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1,
-                 rows = (size_t)v->nhinge + (size_t)v->mechanism->nbody;
+                 bodies = (size_t)v->nhinge + (size_t)v->mechanism->nbody;
     fw_verdict_shaken *to;
     *kept = NULL;
     if (!v->shaken) return FW_OK;
@@ -537,9 +526,17 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     for (size_t i = 0; i < scenes; i++) {
         fw_verdict_shaken *of = &to[i];
         of->other[0].probe = of->other[1].probe = NULL;
-        const size_t n = (size_t)of->n, loads = (size_t)of->nload;
+        const size_t n = (size_t)of->n, loads = (size_t)of->nload, reach = (size_t)of->nreach,
+                     rows = bodies + reach;
         KEEP(of->factor, 2 * h);
         KEEP(of->grown, 2 * h);
+        KEEP(of->each, rows);
+        KEEP(of->most, rows);
+        KEEP(of->reach, reach);
+        for (size_t k = 0; k < reach; k++) {
+            of->reach[k].element = NULL, of->reach[k].stop = NULL;
+            if (of->reach[k].id) FW_NEED(of->reach[k].id = fw_arena_strdup(arena, of->reach[k].id));
+        }
         if (n == 0) continue;
         KEEP(of->mode, n);
         KEEP(of->load, loads);

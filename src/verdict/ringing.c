@@ -235,10 +235,6 @@ static double bent_between(const fw_mechanism *m, const fw_mechanism_hinge *h, c
     return fw_verdict_bends_most(bend_of(h, turn, after.x - before.x, after.y - before.y));
 }
 
-static double moved_by(const double *u, int b, double unit_m) {
-    return hypot(u[3 * b], u[3 * b + 1]) + unit_m * fabs(u[3 * b + 2]);
-}
-
 /* largest modal speed over w of every mode: in the scene, and in the last period of its frequency; *start: at the start,
    with its sign */
 static void see_swings(const fw_mechanism *m, const fw_statics_modes *modes,
@@ -272,7 +268,8 @@ static void see_most(const fw_mechanism *m, const fw_dynamics_motion *motion, do
         for (int b = 0; b < m->nbody; b++) {
             const double u[3] = {to[3 * b] - from[3 * b], to[3 * b + 1] - from[3 * b + 1],
                                  to[3 * b + 2] - from[3 * b + 2]};
-            most[m->nhinge + b] = fmax(most[m->nhinge + b], moved_by(u, 0, unit_m));
+            most[m->nhinge + b] =
+                fmax(most[m->nhinge + b], hypot(u[0], u[1]) + unit_m * fabs(u[2]));
         }
     }
 }
@@ -284,22 +281,26 @@ static double largest_of(const double *x, int n) {
     return most;
 }
 
-/* of hinge or body i */
-static bent seen_by(const fw_mechanism *m, const fw_statics_modes *modes, const double *u, int i) {
+/* of hinge, body or what may be met i */
+static bent seen_by(const fw_mechanism *m, const fw_statics_modes *modes,
+                    const fw_verdict_shaken *s, const double *u, int i) {
+    const int met = i - m->nhinge - m->nbody;
     if (i < m->nhinge) return bent_by(m, &m->hinge[i], modes->q, u);
+    if (met >= 0) return (bent){.x = fw_verdict_reach_by(&s->reach[met], modes->q, u)};
     const double *of = u + 3 * (i - m->nhinge);
     return (bent){modes->unit_length_m * of[2], of[0], of[1]};
 }
 
 /* over what does it most; what hardly does beside the others is moved by them */
-static void put_bends(const fw_mechanism *m, const fw_statics_modes *modes, const double *u,
-                      double unit, const double *most, bent *to) {
+static void put_bends(const fw_mechanism *m, const fw_statics_modes *modes,
+                      const fw_verdict_shaken *s, const double *u, double unit, bent *to) {
     const double hardly = 1e-3;
     const int nh = m->nhinge;
-    const double bends = largest_of(most, nh), goes = largest_of(most + nh, m->nbody);
-    for (int i = 0; i < nh + m->nbody; i++) {
+    const double *most = s->most, bends = largest_of(most, nh),
+                 goes = largest_of(most + nh, m->nbody);
+    for (int i = 0; i < nh + m->nbody + s->nreach; i++) {
         if (!(most[i] > hardly * (i < nh ? bends : goes))) continue;
-        const bent of = seen_by(m, modes, u, i);
+        const bent of = seen_by(m, modes, s, u, i);
         const double by = unit / most[i];
         to[i] = (bent){by * of.turn, by * of.x, by * of.y};
     }
@@ -310,27 +311,33 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
                             const fw_dynamics_motion *motion, int most_modes,
                             fw_verdict_shaken *to) {
     const double hardly = 1e-3, rings = 0.01;
-    const int rows = m->nhinge + m->nbody;
     acting by = {0};
-    double *most = fw_arena_array(arena, double, (size_t)rows);
-    FW_NEED(most);
-    see_most(m, motion, modes->unit_length_m, most);
+    FW_TRY(fw_verdict_reach_find(arena, motion, modes->unit_length_m, to));
+    const int rows = m->nhinge + m->nbody + to->nreach;
+    FW_NEED(to->most = fw_arena_array(arena, double, (size_t)rows));
+    see_most(m, motion, modes->unit_length_m, to->most);
+    for (int i = rows - to->nreach, c = 0; i < rows; i++)
+        to->most[i] = to->reach[c++].goes_m;
     if (again) {
         FW_TRY(acting_of(arena, m, s, motion->loads, &by, &to->unknown));
         FW_NEED(to->way = fw_arena_array(arena, bent, (size_t)rows * (size_t)by.ways));
         to->ways = by.ways;
         for (int j = 0; j < by.ways; j++)
-            put_bends(m, modes, by.way + (size_t)j * 3 * (size_t)m->nbody, 1, most,
+            put_bends(m, modes, to, by.way + (size_t)j * 3 * (size_t)m->nbody, 1,
                       to->way + (size_t)j * (size_t)rows);
     }
     for (int k = 0; k < modes->count && k < most_modes; k++) {
         const fw_statics_mode *mode = &modes->mode[k];
         double swings[2], start, share = 0;
         if (!(mode->stiffness_per_s2 > 0) || !mode->shape) continue;
+        for (int c = 0; c < to->nreach; c++)
+            to->reach[c].gives_m_per_N +=
+                pow(fw_verdict_reach_by(&to->reach[c], modes->q, mode->shape), 2) /
+                (mode->modal_mass_kg_m2 * mode->stiffness_per_s2);
         see_swings(m, modes, motion, k, swings, &start);
         fw_verdict_shaken_mode *out = &to->mode[to->n];
         FW_NEED(out->bends = fw_arena_array(arena, bent, (size_t)rows));
-        put_bends(m, modes, mode->shape, swings[0], most, out->bends);
+        put_bends(m, modes, to, mode->shape, swings[0], out->bends);
         for (int i = 0; i < rows; i++)
             share = fmax(share, fw_verdict_bends_most(out->bends[i]));
         if (!(share > hardly)) continue;
@@ -359,7 +366,8 @@ typedef struct rings { /* of several modes at once */
     const fw_verdict_shaken *shaken;
     const fw_verdict_shaken_mode *mode[FW_QUANTITY_OSCILLATORS];
     int n, rows;
-    bool softer; /* what is of another stiffness: loads move it the more */
+    fw_verdict_softness softer;
+    double strained; /* of an answer, where what is stiffer goes less far and bears as much */
     double *size, *by, *less;
     fw_quantity_law_seen seen;
 } rings;
@@ -395,14 +403,14 @@ static void put_rows(rings *r) {
     }
 }
 
-/* A of every hinge and body with all frequencies `times` as high, each within its own error. Returns the steps, or -1 */
+/* A of every row with all frequencies `times` as high, each within its own error. Returns the steps, or -1 */
 static double answers_at(rings *r, double times, double *answer) {
     const fw_verdict_shaken *s = r->shaken;
     fw_quantity_law_oscillator o[FW_QUANTITY_OSCILLATORS];
     for (int k = 0; k < r->n; k++) {
         const fw_verdict_shaken_mode *mode = r->mode[k];
         const double at = fmin(fmax(times * mode->omega, mode->low), mode->high),
-                     soft = r->softer ? mode->omega * mode->omega / (at * at) : 1;
+                     soft = fw_verdict_soft_by(r->softer, mode->omega, at);
         double *size = r->size + k * s->nload;
         for (int j = 0; j < s->nload; j++)
             size[j] = mode->size[j] * (j < s->nload - s->ways ? soft : 1);
@@ -410,6 +418,7 @@ static double answers_at(rings *r, double times, double *answer) {
     }
     const double steps = fw_quantity_law_swings_of(s->load, s->nload, r->pieces, o, r->n, &r->seen);
     const double *most = r->seen.most;
+    r->strained = 1 / fmin(1, fw_verdict_soft_by(r->softer, 1, times));
     for (int i = 0; i < r->rows; i++)
         answer[i] = most[3 * i] + hypot(most[3 * i + 1], most[3 * i + 2]);
     return steps;
@@ -418,9 +427,7 @@ static double answers_at(rings *r, double times, double *answer) {
 /* what takes too long to follow is as large as its laws allow */
 static void as_allowed(const rings *r, double end_s, fw_verdict_answer *to) {
     const fw_verdict_shaken *s = r->shaken;
-    double *bound = r->seen.most;
-    for (int i = 0; i < r->rows; i++)
-        bound[i] = 0;
+    double *bound = memset(r->seen.most, 0, (size_t)r->rows * sizeof *bound);
     for (int k = 0; k < r->n; k++) {
         const fw_verdict_shaken_mode *mode = r->mode[k];
         const double most = fw_quantity_law_bound_of(s->load, mode->size, s->nload, end_s) +
@@ -430,7 +437,7 @@ static void as_allowed(const rings *r, double end_s, fw_verdict_answer *to) {
                 bound[i] += 2 * most * fw_verdict_bends_most(mode->bends[i]);
     }
     for (int i = 0; i < r->rows; i++)
-        to[i] = (fw_verdict_answer){1 + bound[i], 0};
+        to[i] = (fw_verdict_answer){1 + bound[i], 0, 1 + bound[i]};
 }
 
 /* to: more or less than as computed, 1 where it does as much */
@@ -447,7 +454,7 @@ static fw_status ring(fw_arena *arena, rings *r, double end_s, fw_verdict_answer
     }
     put_rows(r);
     for (int i = 0; i < r->rows; i++)
-        to[i] = (fw_verdict_answer){1, 1};
+        to[i] = (fw_verdict_answer){1, 1, 1};
     const double steps = answers_at(r, 1, as_computed),
                  n = fmin(2 + ceil(width * end_s / 0.5), fmax(fewest, most_steps / fmax(steps, 1)));
     if (steps < 0) as_allowed(r, end_s, to);
@@ -459,6 +466,7 @@ static fw_status ring(fw_arena *arena, rings *r, double end_s, fw_verdict_answer
         for (int i = 0; i < r->rows; i++) {
             to[i].up = fmax(to[i].up, 1 + now[i] - as_computed[i]);
             to[i].down = fmin(to[i].down, 1 + now[i] - as_computed[i]);
+            to[i].strained = fmax(to[i].strained, 1 + r->strained * now[i] - as_computed[i]);
         }
     }
     return FW_OK;
@@ -466,10 +474,10 @@ static fw_status ring(fw_arena *arena, rings *r, double end_s, fw_verdict_answer
 
 fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *pieces,
                                  double end_s, const fw_verdict_shaken *shaken, int mode, int rows,
-                                 bool softer, fw_verdict_answer *to) {
+                                 fw_verdict_softness softer, fw_verdict_answer *to) {
     rings r = {.pieces = pieces, .shaken = shaken, .rows = rows, .softer = softer};
     for (int i = 0; i < rows; i++)
-        to[i] = (fw_verdict_answer){1, 1};
+        to[i] = (fw_verdict_answer){1, 1, 1};
     for (int k = 0; k < shaken->n; k++)
         if ((mode == FW_NONE || mode == k) && shaken->mode[k].size)
             r.mode[r.n++] = &shaken->mode[k];
@@ -551,16 +559,6 @@ static void rings_of(const fw_mechanism *m, const fw_statics_modes *modes, int h
     }
 }
 
-static fw_status modes_at_end(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                              bool at_equilibrium, const fw_statics_modes **modes) {
-    const fw_statics_mode_options o = {.accuracy = 0.03, .at_equilibrium = at_equilibrium};
-    fw_diags own = fw_diags_new(arena);
-    *modes = NULL;
-    const fw_status status = fw_statics_small_motions(arena, m, s, &o, &own, modes);
-    if (status != FW_OK) *modes = NULL;
-    return status == FW_CANCELLED || status == FW_NOMEM ? status : FW_OK;
-}
-
 fw_status fw_verdict_rings_on(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                               const fw_dynamics_motion *x, fw_verdict_after **after) {
     const size_t nh = (size_t)m->nhinge;
@@ -575,8 +573,8 @@ fw_status fw_verdict_rings_on(fw_arena *arena, const fw_mechanism *m, const fw_d
         return FW_OK;
     FW_NEED(*after = fw_arena_array(arena, fw_verdict_after, nh));
     FW_NEED(most = fw_arena_array(arena, double, nh + (size_t)m->nbody));
-    FW_TRY(modes_at_end(arena, m, s, true, &modes));
-    if (!modes) FW_TRY(modes_at_end(arena, m, s, false, &unloaded));
+    FW_TRY(fw_verdict_modes_about(arena, m, s, true, 0.03, &modes));
+    if (!modes) FW_TRY(fw_verdict_modes_about(arena, m, s, false, 0.03, &unloaded));
     for (int k = 0; unloaded && k < unloaded->count; k++)
         if (unloaded->mode[k].omega_rad_per_s > 0)
             least = fmin(least, decrement_of(unloaded->mode[k].damping_ratio));

@@ -10,6 +10,7 @@
 #include "maths/functions.h"
 #include "mechanism/mechanism.h"
 #include "probe/probe.h"
+#include "statics/statics.h"
 
 /* ---- how bodies give between their hinges: an upper bound from their outlines, as beams ----
    Theory: docs/theory/verdict.md. */
@@ -513,4 +514,66 @@ fw_status fw_verdict_give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i
                                double high, const char *scene,
                                struct fw_verdict_variant_verdict *v);
 
+/* ---- arm_rims.c: what takes hold where it is met: a contact, a stop of a joint, a cable that becomes taut ---- */
+
+typedef struct fw_verdict_reach {
+    const char *id;
+    int pin; /* of a stop: the joint that it is of; else FW_NONE */
+    /* m; of a stop times the length of modes: what it leaves at the start, how much of that the motion takes at most, and how
+       far it goes either way */
+    double gap_m, closes_m, goes_m;
+    double stiff_N_per_m,
+        gives_m_per_N; /* where it is met; what the device gives there by its modes */
+    const fw_effects_force_element *element; /* of the motion; NULL where kept */
+    const fw_effects_stop *stop;
+    double per_m; /* of what the element says of itself */
+} fw_verdict_reach;
+struct fw_verdict_shaken;
+/* shaken->reach, from the samples of the motion and the cubic through them and their rates */
+fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *motion, double unit_m,
+                                struct fw_verdict_shaken *shaken);
+/* by how much of its gap a small displacement u (3 nbody) about q takes, m */
+double fw_verdict_reach_by(const fw_verdict_reach *reach, const double *q, const double *u);
+/* body_tree.c: what it may take of its gap at most where everything it does goes `up` times as far; its words */
+double fw_verdict_reach_takes(const fw_verdict_reach *reach, double up);
+const char *fw_verdict_reach_name(fw_arena *arena, const fw_mechanism *mechanism,
+                                  const fw_verdict_reach *reach);
+/* a reason (FW-D731) where what is not met as computed may be, with a mode within its error */
+fw_status fw_verdict_may_touch(fw_arena *arena, int scene, struct fw_verdict_variant_verdict *v);
+
+/* ---- ringing.c, resonance.c ---- */
+
+/* times as much as computed: up >= 1, down <= 1; up of what strains */
+typedef struct fw_verdict_answer {
+    double up, down, strained;
+} fw_verdict_answer;
+/* What another frequency says of how far loads move a device, by the square of w0/w. Of any stiffness: all of that, which the
+   softest of a range may be. Among the softest, where it is known how far it goes: what is higher goes less far. What bends
+   a hinge beyond its limit is a stress as often, which the modulus does not change: of hinges nothing is less */
+typedef enum fw_verdict_softness {
+    FW_VERDICT_AS_STIFF,
+    FW_VERDICT_OF_ANY,
+    FW_VERDICT_NO_SOFTER
+} fw_verdict_softness;
+static inline double fw_verdict_soft_by(fw_verdict_softness soft, double omega,
+                                        double at) { /* of ways */
+    const double by = omega * omega / (at * at), less = by < 1 ? by : 1;
+    return soft == FW_VERDICT_OF_ANY ? by : soft == FW_VERDICT_NO_SOFTER ? less : 1;
+}
+/* ringing.c: to->mode, of at most most_modes, without low and high, and what acts where something comes again */
+fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                            bool again, const fw_statics_modes *modes,
+                            const fw_dynamics_motion *motion, int most_modes,
+                            struct fw_verdict_shaken *to);
+/* to (rows = nhinge + nbody + nreach): what comes again does to all while a mode, or all (FW_NONE) by one share, lie elsewhere */
+fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *pieces,
+                                 double end_s, const struct fw_verdict_shaken *shaken, int mode,
+                                 int rows, fw_verdict_softness softer, fw_verdict_answer *to);
+/* does something of it come while a mode may still ring by what came before? pieces: only where it does */
+fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                                 bool *again, fw_quantity_law_pieces *pieces);
+/* body_solids.c: small motions; *modes NULL: there are none */
+fw_status fw_verdict_modes_about(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_device_scene *scene, bool at_equilibrium, double accuracy,
+                                 const fw_statics_modes **modes);
 #endif

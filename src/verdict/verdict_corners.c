@@ -334,7 +334,7 @@ static fw_status change_each(fw_verdict_search *s, apart *a, int worst) {
     double *ln = fw_arena_array(s->arena, double, (size_t)s->ncheck),
            *x = fw_arena_array(s->arena, double, n);
     const signed char **sign = fw_arena_array(s->arena, const signed char *, joints);
-    fw_verdict_fabricated_corner unused;
+    fw_verdict_fabricated_corner narrower;
     FW_NEED(ln && x && sign ? ln : NULL);
     memcpy(x, s->fabricated->corner[worst].x, n * sizeof *x);
     most_apart(s->v, x);
@@ -342,7 +342,8 @@ static fw_status change_each(fw_verdict_search *s, apart *a, int worst) {
     for (size_t j = 0; j < joints; j++) {
         if (!sign[j]) continue;
         s->sign = sign[j];
-        FW_TRY(fw_verdict_search_point(s, x, &unused, ln));
+        FW_TRY(fw_verdict_search_point(s, x, &narrower, ln));
+        fw_verdict_ends_apart(s, worst, &narrower);
         s->judged++;
         for (int r = 0; r < s->ncheck; r++) {
             const double was = s->ln[(size_t)worst * (size_t)s->ncheck + (size_t)r];
@@ -581,10 +582,10 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     if (!decided) fw_verdict_stators_made(&s, v);
     fw_verdict_search_govern(&s);
     v->fabricated = s.fabricated;
-    if (s.fabricated->decision == FW_ACCEPT) {
-        if (!quick) FW_TRY(fw_verdict_edge_room_made(&s));
-        return fw_verdict_between_corners(&s, v);
-    }
+    const bool accepted = s.fabricated->decision == FW_ACCEPT;
+    if (accepted && !quick) FW_TRY(fw_verdict_edge_room_made(&s));
+    if (accepted || (!quick && !decided)) FW_TRY(fw_verdict_between_corners(&s, v));
+    if (accepted) return FW_OK;
     if (quick) {
         v->decision = FW_INCONCLUSIVE;
         return FW_OK;

@@ -29,7 +29,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 15 }; /* of one scene at most, contacts apart */
+enum { FW_REASONS = 16 }; /* of one scene at most, contacts apart */
 /* of one flow at most */
 size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 
@@ -170,8 +170,7 @@ fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device
                                   int number, fw_verdict_decision decision, double keep,
                                   const char *text);
 
-/* what bends a hinge: its turn, and 3/2 of what its ends are displaced by over its length; or moves a body, its turn by a
-   length */
+/* what bends a hinge: its turn, and 3/2 of what its ends go over its length; or moves a body, its turn by a length */
 typedef struct fw_verdict_bends {
     double turn, x, y;
 } fw_verdict_bends;
@@ -180,7 +179,7 @@ double fw_verdict_bends_most(fw_verdict_bends b);
 typedef struct fw_verdict_shaken_mode {
     int number;                       /* from 0 */
     double omega, damping, low, high; /* rad/s; where it may lie */
-    /* (nhinge + nbody) what it does as computed of the most that a hinge is bent, a body is moved; 0: that hardly is */
+    /* (nhinge + nbody + nreach) what it does as computed of the most that each is bent, or goes; 0: that hardly is */
     fw_verdict_bends *bends;
     double late;  /* how far it still swings at the end, over how far it ever does */
     double start; /* modal speed at the start, over how far it swings, 1/s */
@@ -196,10 +195,13 @@ typedef struct fw_verdict_other {
         *probe; /* what probes of requirements read in it; NULL: there are none */
 } fw_verdict_other;
 struct fw_verdict_shaken {
-    fw_verdict_shaken_mode *mode; /* (n) */
-    int n;
+    fw_verdict_shaken_mode *mode;   /* (n) */
+    struct fw_verdict_reach *reach; /* (nreach) strain.h */
+    /* (nhinge + nbody + nreach) how far each goes at most; upwards factors on that, of hinges on strains */
+    double *most, *each;
+    int n, nreach;
     /* where something comes again: all that acts, of which the last `ways` have no force but hold hinges and bodies as
-       `way` says, per unit of the law (ways x (nhinge + nbody)) */
+       `way` says, per unit of the law (ways x (nhinge + nbody + nreach)) */
     fw_quantity_law_load *load;
     fw_verdict_bends *way;
     int nload, ways;
@@ -215,21 +217,6 @@ struct fw_verdict_shaken {
     double nearer_m, kept; /* of electrodes, in these; share of a gap as computed, 0: not asked */
     fw_verdict_other other[2]; /* softer, with all of the pull, and stiffer, with the least of it */
 };
-typedef struct fw_verdict_answer { /* times as much as computed: up >= 1, down <= 1 */
-    double up, down;
-} fw_verdict_answer;
-/* ringing.c: to->mode, of at most most_modes, without low and high, and what acts where something comes again */
-fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                            bool again, const struct fw_statics_modes *modes,
-                            const fw_dynamics_motion *motion, int most_modes,
-                            fw_verdict_shaken *to);
-/* to (rows = nhinge + nbody): what comes again does to all while a mode, or all (FW_NONE) by one share, lie elsewhere */
-fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *pieces,
-                                 double end_s, const fw_verdict_shaken *shaken, int mode, int rows,
-                                 bool softer, fw_verdict_answer *to);
-/* does something of it come while a mode may still ring by what came before? pieces: only where it does */
-fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                                 bool *again, fw_quantity_law_pieces *pieces);
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);
@@ -304,9 +291,13 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, cons
                             const fw_dynamics_motion_options *options,
                             const fw_verdict_required *required, bool brief, fw_diags *diags,
                             fw_verdict_variant_verdict *v);
-/* factors (2 x (nhinge + 1)) and `late` for modes that lie anywhere between their low and high, at other stiffnesses */
+/* factors (2 x (nhinge + 1)), each (as in shaken) and `late` for modes anywhere between their low and high; softer: a
+   fw_verdict_softness (strain.h) */
 fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *mechanism, int scene,
-                                   const fw_verdict_shaken *shaken, double *factor, double *late);
+                                   const fw_verdict_shaken *shaken, int softer, double *factor,
+                                   double *each, double *late);
+/* may what the clearance is of meet where everything goes up to `by` times as far? */
+bool fw_verdict_may_come(const fw_verdict_clearance *clearance, double by);
 /* a copy that lives as long as the arena; NULL where nothing was run */
 fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
                                  const fw_verdict_shaken **kept);
@@ -398,6 +389,8 @@ typedef struct fw_verdict_end {
     int sign;                            /* 0: z is the end */
     double slope[FW_FABRICATION_INPUTS]; /* dz/dx about the nominal */
     double error;                        /* largest difference from first order seen at a corner */
+    double apart
+        [2]; /* what hinges that differ may change of z, and of the end itself, all of them together */
 } fw_verdict_end;
 
 /* a point that was run before it is asked for: its own x (ninput) and sign, which outlive the search's next step */
@@ -484,6 +477,9 @@ void fw_verdict_ends_slopes(fw_verdict_search *s); /* of the points that were ru
 /* after a corner was run: what its bands are off first order */
 void fw_verdict_ends_compare(fw_verdict_search *s, int point);
 bool fw_verdict_ends_unknown(const fw_verdict_search *s); /* a requirement without a slope */
+/* one hinge alone is narrower than at a point that was run: what that changes adds up; and a point where all differ */
+void fw_verdict_ends_apart(fw_verdict_search *s, int point,
+                           const fw_verdict_fabricated_corner *narrower);
 /* the corner to be run next so that the bands hold at all of them; FW_NO_CORNER: none */
 unsigned fw_verdict_ends_next(const fw_verdict_search *s);
 /* s->fabricated->requirement */
@@ -502,8 +498,12 @@ const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
 /* has any clearance (by_nearest: any by its nearest pair) used so much that a corner may take the rest? */
 double fw_verdict_search_used_nearest(const fw_verdict_clearance *c);
 double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
-/* after all corners are accepted: may a device between them meet a resonance? Then s->fabricated and v are
-   undecided, with a reason (FW-D636) */
+/* requirement_corners.c: shaken of a point with its modes anywhere; may that be the most that any device does? */
+fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
+                              fw_verdict_shaken *to);
+bool fw_verdict_leads(const fw_verdict_search *s, int scene, int point);
+/* held_ranges.c: bands as made hold what a device between corners does that meets a resonance; where all corners are accepted
+   s->fabricated and v may then be undecided, with a reason (FW-D636, FW-D731) */
 fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v);
 bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest);
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);

@@ -973,6 +973,61 @@ class Resonance(unittest.TestCase):
         between, _ = self.judged(text.replace('name="width" value="12 um"', 'name="width" value="11.5 um"'))
         self.assertGreater(between["hinges"][0]["utilisation"], 1)
 
+    MODULUS = """<process xmlns="urn:flexwright:process:1" flow="copper-on-porous-silicon" id="ours" version="1" title="edges are known">
+<source id="bench" kind="measured" date="2026-11-01">our bench</source><q id="litho.edge" value="0" u="0" unit="um" status="measured" src="bench"/>
+%s</process>"""
+    THICKNESS = '<q id="made.cu" value="1" lo="1" hi="1" unit="1" status="measured" src="bench"/>'
+
+    def test_between_corners_what_is_met_and_the_lightest(self):
+        """Two pushes 18.3 ms apart: dies of 95 to 105 GPa and of 135 go farther than any corner (85, 115 and 145 GPa). Bands as made hold
+        them; a stop that only they reach is not left out for its force of nothing; and of dies with one frequency the thinnest goes farthest."""
+        push = '<force on="stage" fx="6 uN" law="half-sine" start="%s ms" rise="1.4 ms"/>'
+        text = self.PAIR.replace('<material ref="silicon-100" thickness="50 um" strength="2 GPa" youngs-modulus="150 GPa" poisson="0.25"/>',
+                                 '<material ref="copper-plated" thickness="12 um"/><limits safety-factor="2"/><flow ref="copper-on-porous-silicon"/>')
+        text = text.replace('width="6 um" gap="10 um"', 'width="10 um" fillet="4 um"').replace('plate-height="0.5 mm"', 'plate-height="1.0 mm"')
+        text = text.replace("55 ms", "24 ms").replace("300 um", "200 um")
+        text = text.replace('<scene name="s"', '<probe id="x" kind="displacement" on="stage" direction="0 deg"/>'
+                            '<require probe="x" measure="peak" max="45 um"/><scene name="s"') % (push % 0 + push % 18.3)
+        stop = text.replace("</scene>", '<contact id="stop" a="stage" a-x="0.35 mm" a-y="0 mm" a-face="0 deg" b="ground" b-x="1.289 mm" b-y="1.5 mm" '
+                            'side="outside" distance="4 um" undrawn="placed" stiffness="200 N/m"/></scene>').replace(
+                                '<require probe="x"', '<probe id="grip" kind="force" of="stop"/><require probe="grip" measure="peak" max="2 uN"/><require probe="x"')
+
+        def die(of, modulus, *more):
+            return self.judged(of, "--corners", "none", "--set", f"material/@youngs-modulus={modulus} GPa", *more)[0]
+
+        with tempfile.TemporaryDirectory() as place:
+            lab = pathlib.Path(place, "lab.xml")
+            lab.write_text(self.MODULUS % self.THICKNESS)
+            free, met = self.judged(text, "--lab", lab)[0], self.judged(stop, "--lab", lab)[0]
+            lab.write_text(self.MODULUS % "")
+            thin = self.judged(text, "--lab", lab)[0]
+        self.assertEqual(free["verdict"], "accept")
+        band = free["requirements"][0]["as_fabricated"]["all_corners_band"]
+        for modulus in (100, 135, 115):
+            now = die(text, modulus)
+            self.assertTrue(band[0] < now["requirements"][0]["value"] < band[1], (band, now["requirements"][0]["value"]))
+            for h, other in zip(free["hinges"], now["hinges"]):
+                self.assertLess(other["utilisation"], h["as_fabricated"]["most"])
+        farthest = die(text, 100)["requirements"][0]["value"]
+        self.assertLess(band[1], 1.1 * farthest)
+        self.assertTrue(all(c["verdict"] == "accept" for c in free["flows"][0]["as_fabricated"]["corners"]))
+        # a stop that dies of 85, 115 and 145 GPa do not reach
+        self.assertTrue(all(c["verdict"] == "accept" for c in met["flows"][0]["as_fabricated"]["corners"]))
+        self.assertEqual((met["verdict"], [r["code"] for r in met["reasons"]]), ("inconclusive", ["FW-D731"]))
+        self.assertEqual(met["requirements"][0]["as_fabricated"]["all_corners_band"], [0, None])
+        self.assertGreater(die(stop, 100)["requirements"][0]["value"], 20e-6)
+        # 45 um: by a tenth less of its thickness a die of 100 GPa goes a ninth farther
+        self.assertGreater(die(text, 100, "--set", "material/@thickness=10.8 um")["requirements"][0]["value"], 45e-6)
+        self.assertEqual((thin["verdict"], [r["code"] for r in thin["reasons"]]), ("inconclusive", ["FW-D636"]))
+
+    def test_next_to_nothing_meets_nothing(self):
+        """0.1 nN at 330 Hz: up to six times 1 nm is far from all that is 150 um away, however near to a resonance"""
+        text = """<device xmlns="urn:flexwright:device:1" name="bob"><material ref="copper-plated" thickness="12 um"/><limits safety-factor="2"/>
+<flow ref="copper-on-porous-silicon"/><flexure id="leaf" kind="leaf" length="400 um" width="10 um" fillet="4 um"/><mechanism>
+<body id="bob" x="0 mm" y="1 mm" plate-width="0.5 mm" plate-height="0.8 mm"/><revolute id="A" a="ground" b="bob" b-y="-1 mm" hinge="leaf" axis="0 deg"/>
+</mechanism><scene name="push" duration="30 ms"><force on="bob" fx="%s uN" law="sine" frequency="330 Hz"/></scene></device>"""
+        self.assertEqual(self.judged(text % 0.0001, "--corners", "auto")[0]["verdict"], "accept")
+
     def test_whatever_drives_it(self):
         """a driver that shakes what hangs on it, and a voltage: with the law moved by the error of the frequency, which is what another
         stiffness does, what hinges use and probes read stays within the bands. (Bodies that give only make it softer.)"""

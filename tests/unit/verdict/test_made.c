@@ -626,6 +626,48 @@ static void hinges_may_differ(void **state) {
     assert_true(decisions[FW_ACCEPT] > 0 && decisions[FW_INCONCLUSIVE] > 0);
 }
 
+/* so are bands of what is required: whichever hinges are narrower, no device that the flow makes is outside */
+static void a_requirement_holds_where_hinges_differ(void **state) {
+    (void)state;
+    set_up s;
+    char load[1600];
+    const int at_most = snprintf(load, sizeof load, "20 uN");
+    snprintf(load + at_most, sizeof load - (size_t)at_most, asked, "300 um");
+    begin(&s, load);
+    s.input[2] = (fw_verdict_fabrication_input){
+        .name = "edge from hinge to hinge", .q = known(0, "m"), .low = -0.2e-6, .high = 0.2e-6, .sigma = 0.1e-6, .local = 1};
+    fw_verdict v = judge(&s, FW_CORNERS_AUTO);
+    assert_int_equal(v.decision, FW_ACCEPT);
+    double low[5], high[5], alike[5][2];
+    for (int k = 0; k < 5; k++)
+        low[k] = alike[k][0] = HUGE_VAL, high[k] = alike[k][1] = -HUGE_VAL;
+    for (unsigned bits = 0; bits < 32; bits++) {
+        double x[3] = {0, 0, 0.2e-6};
+        for (int i = 0; i < 2; i++)
+            x[i] = bits >> i & 1u ? s.input[i].high : s.input[i].low;
+        const signed char sign[2] = {bits & 4 ? 1 : -1, bits & 8 ? 1 : -1}, same[2] = {0, 0};
+        fw_verdict_variant_verdict now = with_signs(&s, x, bits & 16 ? sign : same);
+        assert_int_equal(now.nrequirement, 5);
+        for (int k = 0; k < 5; k++) {
+            double *least = bits & 16 ? &low[k] : &alike[k][0], *most = bits & 16 ? &high[k] : &alike[k][1];
+            *least = fmin(*least, now.requirement[k].low), *most = fmax(*most, now.requirement[k].high);
+        }
+    }
+    int wider = 0;
+    for (int k = 0; k < 5; k++) {
+        int c;
+        const fw_verdict_requirement *made = fw_verdict_requirement_made(&v.variant[0], k, &c);
+        const double wide = high[k] - low[k];
+        wider += wide > 1.05 * (alike[k][1] - alike[k][0]);
+        assert_non_null(made);
+        assert_true(made->all_low <= low[k] + 1e-3 * wide);
+        assert_true(made->all_high >= high[k] - 1e-3 * wide);
+        if (low[k] > 0 && k != 3) assert_true(made->all_high - made->all_low < 2 * wide);
+    }
+    assert_true(wider > 2);
+    fw_arena_free(s.arena);
+}
+
 /* two inputs by which hinges differ add up to one of both */
 static void hinges_differ_by_all_that_is_stated(void **state) {
     (void)state;
@@ -707,6 +749,7 @@ int main(void) {
         cmocka_unit_test(no_corner_is_worse),
         cmocka_unit_test(each_hinge_has_its_own_corner),
         cmocka_unit_test(a_requirement_holds_at_every_corner),
+        cmocka_unit_test(a_requirement_holds_where_hinges_differ),
         cmocka_unit_test(sigma_is_first_order),
         cmocka_unit_test(what_nobody_knows_stays_open),
         cmocka_unit_test(what_must_be_held_is_enough),
