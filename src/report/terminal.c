@@ -282,7 +282,8 @@ static void out_of_plane(fw_text *out, const fw_verdict *v) {
         const fw_verdict_out_of_plane *o = v->variant[i].out_of_plane;
         const char *flow = v->variant[i].variant->flow;
         if (!o || (o->why && o->nscene == 0)) continue;
-        fw_text_printf(out, "\nout of the plane%s%s: ", flow ? ", " : "", flow ? flow : "");
+        fw_text_printf(out, "\nout of the plane%s%s, as drawn: ", flow ? ", " : "",
+                       flow ? flow : "");
         if (o->why || o->nmode == 0) {
             fw_text_printf(out, "not known: %s\n", o->why);
             continue;

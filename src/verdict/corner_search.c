@@ -226,6 +226,7 @@ static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdi
         FW_TRY(take_hinge(s, &now->hinge[k], &corner->hinge[k]));
     corner->decision = now->decision;
     corner->undecided = now->decision != FW_ACCEPT && refinement_may_decide(now);
+    corner->dries_N_per_m = fw_verdict_dries(now);
     FW_TRY(take_requirements(s, now, corner));
     FW_TRY(fw_verdict_shaken_keep(s->arena, now, &corner->shaken));
     FW_TRY(take_reason(s, now, corner));
@@ -370,7 +371,7 @@ fw_status fw_verdict_search_point(const fw_verdict_search *s, const double *x,
         s->told->done++;
         return FW_OK;
     }
-    *corner = (fw_verdict_fabricated_corner){0};
+    *corner = (fw_verdict_fabricated_corner){.dries_N_per_m = (double)NAN};
     for (int r = 0; r < s->ncheck; r++)
         ln[r] = (double)NAN;
     FW_NEED(kept = fw_arena_array(s->arena, double, n));

@@ -127,11 +127,9 @@ typedef struct fw_verdict_out_of_plane {
    (verdict_stiction.c). Numbers are shares: 1 is the limit, above it nothing touches, or what touches comes free. */
 typedef struct fw_verdict_pull {
     bool known;
-    double tension_N_per_m
-        [2]; /* of a liquid that wets (angle 0): the least that may pull it in, and the least that
-                                  surely does; HUGE_VAL: none does */
-    double number
-        [2]; /* elastocapillary, of the flow's own drying: low, high; HUGE_VAL: nothing pulls */
+    /* of a liquid that wets (angle 0): the least that may pull it in, and the least that surely does; HUGE_VAL: none does */
+    double tension_N_per_m[2];
+    double number[2]; /* elastocapillary, of the flow's own drying: low, high; HUGE_VAL: nothing pulls */
     const char *a, *b; /* what meets; b NULL: the carrier */
     /* lowered: at rest, by weight and stress, at most; stiffness: of a across the plane, NaN: beside */
     double gap_m, lowered_m, stiffness_N_per_m;
@@ -227,7 +225,8 @@ typedef struct fw_verdict_fabricated_corner {
     const fw_wiring_moved *stator;       /* (nstator) how near what moves comes to stators */
     int nstator;
     fw_verdict_decision decision;
-    bool undecided; /* it is not accepted, and closer numbers might decide that */
+    bool undecided;       /* it is not accepted, and closer numbers might decide that */
+    double dries_N_per_m; /* of a liquid that it bears as it dries; NaN: not judged here */
 } fw_verdict_fabricated_corner;
 
 typedef struct fw_verdict_fabricated_verdict {

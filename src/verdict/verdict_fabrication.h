@@ -94,4 +94,8 @@ typedef struct fw_verdict_by_value {
     double up, down;
 } fw_verdict_by_value;
 
+struct fw_verdict_variant_verdict;
+/* surface tension of a liquid that wets and that it surely bears as it dries, N/m; NaN: not judged */
+double fw_verdict_dries(const struct fw_verdict_variant_verdict *verdict);
+
 #endif

@@ -2,8 +2,10 @@
 /* The verdict on a device in all its flows: each judged as drawn, again more closely where that may
    decide, and then as the flows make it. */
 #include "base/constants.h"
+#include "verdict/verdict_fabrication.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 const char fw_verdict_not_searched[] = "no change that would be accepted was searched for";
@@ -426,23 +428,51 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- what a recipe is told ---- */
 
-/* of which liquids the device bears the meniscus */
-static const char *borne(fw_arena *arena, const fw_mechanism_drying *d, double tension) {
-    char most[32];
-    fw_number_text(most, sizeof most, 1e3 * tension, 3);
-    if (isinf(tension)) return "it may be dried from any liquid, from water too";
+/* surface tension of a liquid that wets and that it surely bears; NaN: not judged. Formula and test: verdict_stiction.c */
+double fw_verdict_dries(const fw_verdict_variant_verdict *v) {
+    const fw_verdict_stiction *s = v->stiction;
+    if (!s || s->why || (!s->below.known && !s->beside.known)) return (double)NAN;
+    return fmin(s->below.tension_N_per_m[0], s->beside.tension_N_per_m[0]);
+}
+
+/* the least of those that the flow makes, at the corners that were run; NaN: it was not judged at all of them, as where a
+   flow dries without a meniscus */
+static double dries_as_made(const fw_verdict_variant_verdict *v) {
+    double least = HUGE_VAL;
+    const int n = v->fabricated ? v->fabricated->ncorner : 0;
+    for (int i = 0; i < n; i++) {
+        if (isnan(v->fabricated->corner[i].dries_N_per_m)) return (double)NAN;
+        least = fmin(least, v->fabricated->corner[i].dries_N_per_m);
+    }
+    return n > 0 ? least : (double)NAN;
+}
+
+/* of which liquids the device bears the meniscus, as drawn, and where that was judged as made; HUGE_VAL: of any */
+static const char *borne(fw_arena *arena, const fw_mechanism_drying *d, double drawn, double made) {
+    char text[2][32], most[96];
+    const double tension = fmin(drawn, made);
+    fw_number_text(text[0], sizeof text[0], 1e3 * drawn, 3);
+    fw_number_text(text[1], sizeof text[1], 1e3 * made, 3);
+    if (isnan(made))
+        snprintf(most, sizeof most, "%s mN/m as drawn", text[0]);
+    else if (isinf(drawn))
+        snprintf(most, sizeof most, "%s mN/m as made", text[1]);
+    else
+        snprintf(most, sizeof most, "%s mN/m as made, %s as drawn", text[1], text[0]);
+    if (isinf(tension))
+        return isnan(made) ? "as drawn it may be dried from any liquid, from water too"
+                           : "it may be dried from any liquid, from water too";
     if (tension > d->water_N_per_m)
-        return fw_arena_printf(
-            arena, "it may be dried from any liquid, from water too (up to %s mN/m)", most);
+        return fw_arena_printf(arena, "it may be dried from any liquid, from water too (up to %s)",
+                               most);
     if (tension > d->alcohol_N_per_m)
         return fw_arena_printf(
             arena,
-            "it may be dried from isopropyl alcohol, and not from water (liquids "
-            "of up to %s mN/m)",
+            "it may be dried from isopropyl alcohol, and not from water (liquids of up to %s)",
             most);
     return fw_arena_printf(arena,
                            "it needs drying without a meniscus, at the critical point or by "
-                           "sublimation: it surely bears liquids of up to %s mN/m alone",
+                           "sublimation: it surely bears only liquids of up to %s",
                            most);
 }
 
@@ -463,7 +493,7 @@ fw_status fw_verdict_drying_words(fw_arena *arena, const fw_verdict_variant_verd
                                          s->why ? s->why : "nothing is drawn"));
         return FW_OK;
     }
-    FW_NEED(*words = borne(arena, d, p->tension_N_per_m[0]));
+    FW_NEED(*words = borne(arena, d, p->tension_N_per_m[0], dries_as_made(v)));
     if (p->a)
         FW_NEED(*words = fw_arena_printf(arena, "%s; the first to give way is %s, towards %s",
                                          *words, p->a, p->b ? p->b : "the carrier"));

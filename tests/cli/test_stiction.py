@@ -111,6 +111,19 @@ class Stiction(unittest.TestCase):
         self.assertEqual(whole["verdict"], "accept")
         self.assertIn("isopropyl alcohol, and not from water", stiff["needs"])
 
+    def test_what_is_told_is_of_the_softest_that_is_made(self):
+        """what a recipe is told of the liquids that a device bears was as drawn, also where softer ones are made; where corners are not
+        judged for it, it says that it is as drawn"""
+        whole, _ = self.check(lab="", thickness="80 um", width="20 um")
+        done = run("check", self.file, "--lab", self.lab, "--advice", "none", "--json")
+        made = json.loads(done.stdout)
+        bears = [float(x) for x in re.search(r"([\d.]+) mN/m as made, ([\d.]+) as drawn", made["stiction"][0]["needs"]).groups()]
+        self.assertAlmostEqual(bears[1], 1e3 * min(whole["stiction"][0][k]["bears_N_per_m"][0] for k in ("below", "beside")), delta=0.06)
+        self.assertLess(bears[0], 0.97 * bears[1])
+        self.assertGreater(bears[0], 0.4 * bears[1])
+        self.assertIn("mN/m as drawn", whole["stiction"][0]["needs"])
+        self.assertNotIn("as made", whole["stiction"][0]["needs"])
+
     def test_the_sheet_says_which_way_is_not_for_this_device(self):
         """whatever dries a device by another way is struck out on its sheet where the verdict with it says no, and only there"""
         for lab, more in (("", {}), (SLIPPERY, {}), ("", {"thickness": "80 um", "width": "20 um"})):
