@@ -33,7 +33,7 @@ fw_status fw_mask_notes(fw_arena *arena, const fw_mask *mask, const char ***line
 /* index of the documentation layer, or -1 */
 int fw_mask_notes_layer(const fw_mask_table *table);
 
-/* nets on the certificate; contacts on the order sheets, where something is driven (mask_wiring.c) */
+/* nets on the certificate; contacts on the order sheets, where something is driven (mask_merge.c) */
 void fw_mask_wiring_json(fw_json *json, const fw_mask *mask);
 void fw_mask_wiring_order_json(fw_json *json, const fw_mask *mask);
 fw_status fw_mask_wiring_order_text(const fw_mask *mask, fw_text *out);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bodies under all that acts on them at once: ways that go together, as beams and as solids, and how much farther a place goes.
-   Private to body_*.c and verdict_bending.c. */
+/* Bodies under all that acts on them at once: ways that go together, as beams and as solids, and how much farther a place goes;
+   and what rings on. Private to the room. */
 #ifndef FW_VERDICT_BODY_H
 #define FW_VERDICT_BODY_H
 #include "statics/statics.h"
@@ -91,4 +91,39 @@ fw_status fw_verdict_say_bent(fw_arena *arena, struct fw_verdict_variant_verdict
                               const char *scene, int number, const char *what, int body,
                               double by_m);
 
+/* ---- ringing.c, resonance.c ---- */
+
+/* times as much as computed: up >= 1, down <= 1; up of what strains */
+typedef struct fw_verdict_answer {
+    double up, down, strained;
+} fw_verdict_answer;
+/* What another frequency says of how far loads move a device, by the square of w0/w. Of any stiffness: all of that, which the
+   softest of a range may be. Among the softest, where it is known how far it goes: what is higher goes less far. What bends
+   a hinge beyond its limit is a stress as often, which the modulus does not change: of hinges nothing is less */
+typedef enum fw_verdict_softness {
+    FW_VERDICT_AS_STIFF,
+    FW_VERDICT_OF_ANY,
+    FW_VERDICT_NO_SOFTER
+} fw_verdict_softness;
+static inline double fw_verdict_soft_by(fw_verdict_softness soft, double omega,
+                                        double at) { /* of ways */
+    const double by = omega * omega / (at * at), less = by < 1 ? by : 1;
+    return soft == FW_VERDICT_OF_ANY ? by : soft == FW_VERDICT_NO_SOFTER ? less : 1;
+}
+/* ringing.c: to->mode, of at most most_modes, without low and high, and what acts where something comes again */
+fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                            bool again, const fw_statics_modes *modes,
+                            const fw_dynamics_motion *motion, int most_modes,
+                            struct fw_verdict_shaken *to);
+/* to (rows = nhinge + nbody + nreach): what comes again does to all while a mode, or all (FW_NONE) by one share, lie elsewhere */
+fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *pieces,
+                                 double end_s, const struct fw_verdict_shaken *shaken, int mode,
+                                 int rows, fw_verdict_softness softer, fw_verdict_answer *to);
+/* does something of it come while a mode may still ring by what came before? pieces: only where it does */
+fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                                 bool *again, fw_quantity_law_pieces *pieces);
+/* body_solids.c: small motions; *modes NULL: there are none */
+fw_status fw_verdict_modes_about(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_device_scene *scene, bool at_equilibrium, double accuracy,
+                                 const fw_statics_modes **modes);
 #endif

@@ -151,3 +151,42 @@ fw_status fw_verdict_say_bent(fw_arena *arena, fw_verdict_variant_verdict *v, co
         fw_number_text(text, sizeof text, 1e6 * by_m, 3));
     return fw_verdict_hangs_open(v, scene, number, what);
 }
+
+/* ---- what may be met (arm_rims.c) ---- */
+
+/* what it may take of its gap at most where everything it does goes `up` times as far */
+double fw_verdict_reach_takes(const fw_verdict_reach *r, double up) {
+    return r->closes_m + r->goes_m * (up - 1);
+}
+
+const char *fw_verdict_reach_name(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_verdict_reach *r) {
+    if (r->pin != FW_NONE)
+        return fw_arena_printf(arena, "a stop of joint %s", fw_text_name(m->pin[r->pin].id));
+    return r->id ? fw_arena_printf(arena, "%s%s", FW_NAMED("contact", r->id)) : "what is touched";
+}
+
+fw_status fw_verdict_may_touch(fw_arena *arena, int scene, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_verdict_shaken *s = &v->shaken[scene];
+    const double *up = s->each + m->nhinge + m->nbody;
+    char gap[32], comes[32], may[32];
+    for (int c = 0; c < s->nreach; c++) {
+        const fw_verdict_reach *r = &s->reach[c];
+        if (r->closes_m >= r->gap_m || !(fw_verdict_reach_takes(r, up[c]) >= r->gap_m)) continue;
+        const char *name = fw_verdict_reach_name(arena, m, r);
+        FW_NEED(name);
+        return fw_verdict_scene_reason(
+            v, &m->device->scene[scene], 731, FW_INCONCLUSIVE,
+            0.95 * r->gap_m / fw_verdict_reach_takes(r, up[c]),
+            fw_arena_printf(
+                arena,
+                "%s may be met: %s um are left to it, the motion takes %s of them as "
+                "computed, and up to %s where a mode lies within its error; what "
+                "hinges and contacts bear then is not known",
+                name, fw_number_text(gap, sizeof gap, 1e6 * r->gap_m, 3),
+                fw_number_text(comes, sizeof comes, 1e6 * r->closes_m, 3),
+                fw_number_text(may, sizeof may, 1e6 * fw_verdict_reach_takes(r, up[c]), 3)));
+    }
+    return FW_OK;
+}

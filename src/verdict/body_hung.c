@@ -293,11 +293,7 @@ static fw_status hang(fw_verdict_tree *t, const fw_mechanism *m, double mass_kg,
                       fw_verdict_hung *hung) {
     const fw_mechanism_below *below = &m->variant->below;
     const bool pulled = m->variant->drying.how != FW_DRIED_UNKNOWN && below->known && !below->open;
-    fw_geometry_box box = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (int i = 0; i < t->nline; i++) {
-        const fw_geometry_vec2 p = t->line[i].a;
-        box = fw_box_join(box, (fw_geometry_box){p.x, p.y, p.x, p.y});
-    }
+    const fw_geometry_box box = t->box;
     const double x = box.x1 - box.x0, y = box.y1 - box.y0, least_m = 1e-6;
     double cell = fmax(fmax(sqrt(x * y / TREE_CELLS), fmax(x, y) / 1000), least_m);
     const fw_mark mark = fw_arena_mark(t->arena);

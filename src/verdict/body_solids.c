@@ -257,15 +257,10 @@ fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout,
 
      c(f) <= c_h(f) + 2 U_b(f)
 
-   So C_h + B, B the form of 2 U_b for forces and couples in the middles of bodies, is at least what the device gives, and its
-   eigenvalues with the masses, each in its order, are at least 1/omega^2 (Weyl). A body that swings by itself between its hinges
-   is among them.
-
    In: the mechanism at rest, arms (body_arms.c), solids where they are known. Out: 2 U_b(f) of a place, m/N, with the way from there to the
-   body's middle; of a mode what 1/omega^2 grows by, s^2. Range: flexures with an axis, no joints beside them, all modes found. Error: a
-   bound; from the other side bodies are rigid. Bodies' masses lie in their middles: what hangs over is another bound
-   (FW-D640). Cost: one search for modes at rest; for a frequency (3 nbody)^2 energies. Source: S. Timoshenko, J. Goodier,
-   Theory of Elasticity, 3rd ed., art. 86; H. Weyl, Math. Ann. 71 (1912) 441. Test: test_effects.py
+   body's middle. Range: flexures with an axis, no joints beside them, all modes found. Error: a
+   bound; from the other side bodies are rigid. Of frequencies: body_swing.c. Cost: one search for modes at rest. Source: S. Timoshenko, J. Goodier,
+   Theory of Elasticity, 3rd ed., art. 86. Test: test_effects.py
    BodiesInSmallMotions */
 
 typedef struct small {
@@ -280,11 +275,6 @@ typedef struct small {
 } small;
 
 enum { MOST_BODIES = 40 };
-
-static double mass_of(const fw_mechanism *m, int coordinate) {
-    const fw_mechanism_mass *of = &m->body[coordinate / 3];
-    return coordinate % 3 == 2 ? of->inertia_kg_m2 : of->mass_kg;
-}
 
 static bool has_laws(const fw_mechanism *m) {
     for (int k = 0; k < m->nhinge; k++) {
@@ -467,58 +457,13 @@ static fw_status load_place(small *x, const fw_probe *p) {
     return FW_OK;
 }
 
-/* 2 U_b of a load on two coordinates, the second of them turned round or not; the less of both ways to find it */
-static double stored_by_two(small *x, int i, int j, double second, double *each) {
-    const int nbody = x->s.m->nbody;
-    double beams, found;
-    x->f[i] += 1, x->f[j] += second;
-    load_stores(x, &beams, &found);
-    x->f[i] = x->f[j] = 0;
-    for (int b = 0; b < nbody; b++)
-        each[b] += x->most.beam_J[b] * mass_of(x->s.m, i), x->most.beam_J[b] = 0;
-    return fmin(beams, found);
-}
-
-/* The largest 1/omega^2 of number `mode`, by A = M^1/2 (C_h + B) M^1/2: C_h of rigid bodies by their modes, and b_ij =
-   (U_b(e_i + e_j) - U_b(e_i - e_j))/2 */
-static fw_status slowest(small *x, int mode, double *most) {
-    const fw_mechanism *m = x->s.m;
-    const int n = 3 * m->nbody;
-    double *a = fw_arena_array(x->arena, double, (size_t)n *(size_t)n + 2 * (size_t)n), *value,
-           *each;
-    fw_maths_lapack_space space;
-    FW_NEED(a);
-    value = a + n * n, each = value + n;
-    FW_TRY(fw_maths_eigen_space(x->arena, n, &space));
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j <= i; j++) {
-            double c = 0;
-            for (int k = 0; k < x->modes->count; k++) {
-                const fw_statics_mode *of = &x->modes->mode[k];
-                c += of->shape[i] * of->shape[j] / (of->modal_mass_kg_m2 * of->stiffness_per_s2);
-            }
-            c += i == j
-                     ? 0.25 * stored_by_two(x, i, j, 1, each)
-                     : 0.25 * (stored_by_two(x, i, j, 1, each) - stored_by_two(x, i, j, -1, each));
-            a[i * n + j] = a[j * n + i] = c * sqrt(mass_of(m, i) * mass_of(m, j));
-        }
-    memcpy(x->most.beam_J, each, (size_t)m->nbody * sizeof *each);
-    *most = fw_maths_eigen(n, a, value, &space) && mode <= n ? value[n - mode] : HUGE_VAL;
-    return FW_OK;
-}
-
-/* What bodies add to the compliance of a place, with the way to the middle, or to 1/omega^2 of a mode */
-static fw_status small_gives(small *x, const fw_probe *p, int mode, double gives, double *most) {
+/* What bodies add to the compliance of a place, with the way to the middle */
+static fw_status small_gives(small *x, const fw_probe *p, double gives, double *most) {
     const size_t bodies = (size_t)x->s.m->nbody;
     double beams, found;
     memset(x->f, 0, 3 * bodies * sizeof *x->f);
     memset(x->most.beam_J, 0, 2 * bodies * sizeof *x->most.beam_J);
     x->at.nplace = 0;
-    if (p->kind->takes != FW_PROBE_TANGENT) {
-        FW_TRY(slowest(x, mode, most));
-        *most -= 1 / x->modes->mode[mode - 1].stiffness_per_s2;
-        return FW_OK;
-    }
     FW_TRY(load_place(x, p));
     load_stores(x, &beams, &found);
     *most = x->at.nplace > 0 ? found : fmin(beams, found) + gives;
@@ -540,6 +485,24 @@ static double left_of_series(double k, double k0, double c) {
     return fmax(0, 1 - (whole - 1 / (1 / whole + c)) / k);
 }
 
+/* to (count): what bodies add to 1/omega^2 of the first modes (body_swing.c), s2, with what directions of a crystal may be off by
+   and beams by their corners. *why NULL, or a clause: it is not known */
+fw_status fw_verdict_soft_swings(fw_arena *arena, const fw_verdict_soft *soft,
+                                 const fw_verdict_variant_verdict *v, int count, double *to,
+                                 const char **why) {
+    const double crystal = 0.15;
+    *why = "joints that are no flexures with an axis hold its bodies, or too many of them, so that "
+           "what "
+           "these do by their own mass is not known";
+    if (!soft->modes) return FW_OK;
+    FW_TRY(fw_verdict_slowest_swings(arena, v->mechanism, v->arm, count, to, why));
+    for (int k = 0; k < count; k++) {
+        const double rigid = k < soft->modes->count ? 1 / soft->modes->mode[k].stiffness_per_s2 : 0;
+        to[k] = (1 + crystal) * fmax(0, to[k] - rigid);
+    }
+    return FW_OK;
+}
+
 fw_status fw_verdict_soft_new(fw_arena *arena, const fw_effect_choice *with, double of_scenes,
                               const fw_verdict_variant_verdict *v, fw_verdict_soft *soft) {
     *soft = (fw_verdict_soft){.looked = true, .of_scenes = of_scenes};
@@ -547,7 +510,7 @@ fw_status fw_verdict_soft_new(fw_arena *arena, const fw_effect_choice *with, dou
     return modes_at_rest(arena, v->mechanism, with, &soft->modes);
 }
 
-fw_status fw_verdict_soft_leaves(fw_arena *arena, const fw_verdict_soft *soft, const fw_probe *p,
+fw_status fw_verdict_soft_leaves(fw_arena *arena, fw_verdict_soft *soft, const fw_probe *p,
                                  int mode, double value, bool closely,
                                  fw_verdict_variant_verdict *v, double *left) {
     const bool is_mode = p->kind->takes != FW_PROBE_TANGENT,
@@ -557,20 +520,57 @@ fw_status fw_verdict_soft_leaves(fw_arena *arena, const fw_verdict_soft *soft, c
     FW_TRY(fw_verdict_place_gives(arena, v->mechanism, v->arm, p->asked, &gives));
     const double soft_by_scenes = 1 + soft->of_scenes + gives * k;
     *left = 1 / (is_mode ? sqrt(soft_by_scenes) : soft_by_scenes);
+    soft->why = NULL;
+    if (is_mode && v->arm) {
+        double *adds = fw_arena_array(arena, double, (size_t)mode);
+        FW_NEED(adds);
+        FW_TRY(fw_verdict_soft_swings(arena, soft, v, mode, adds, &soft->why));
+        const double rest = mode <= (soft->modes ? soft->modes->count : 0)
+                                ? at_rest_is(p, soft->modes, mode)
+                                : (double)NAN;
+        if (!soft->why && rest > 0 && k > 0) *left = sqrt(left_of_series(k, rest, adds[mode - 1]));
+        return FW_OK;
+    }
     if (!soft->modes || (is_mode ? mode > soft->modes->count : p->point[0].body == FW_GROUND))
         return FW_OK;
     const double k0 = at_rest_is(p, soft->modes, mode);
     small x = {.modes = soft->modes};
     if (!(k0 > 0) || !(k > 0)) return FW_OK;
     FW_TRY(small_new(arena, v, &x));
-    FW_TRY(small_gives(&x, p, mode, gives, &most));
+    FW_TRY(small_gives(&x, p, gives, &most));
     if (closely) {
         FW_TRY(make_solids(&x, v));
         FW_TRY(small_new(arena, v, &x));
-        FW_TRY(small_gives(&x, p, mode, gives, &most));
+        FW_TRY(small_gives(&x, p, gives, &most));
     }
     *left = left_of_series(k, k0, most);
-    if (is_mode) *left = sqrt(*left);
+    return FW_OK;
+}
+
+/* *less: by how much, of either kind; the mode in the plane that lies next above one across it as rigid bodies have it may be the lower one */
+fw_status fw_verdict_soft_overtakes(fw_arena *arena, const fw_effect_choice *with,
+                                    const fw_statics_modes *modes,
+                                    const fw_verdict_variant_verdict *v,
+                                    const fw_verdict_requirement *r, double *less) {
+    fw_verdict_soft soft;
+    const char *why;
+    int k = 0;
+    const fw_device *d = v->mechanism->device;
+    *less = 0;
+    if (d->probe[d->requirement[r->asked].probe].plane != FW_PLANE_EITHER || r->why || !modes ||
+        !v->arm)
+        return FW_OK;
+    while (k < modes->count && modes->mode[k].f_Hz <= r->value)
+        k++;
+    double *adds = fw_arena_array(arena, double, (size_t)k + 1);
+    FW_NEED(adds);
+    FW_TRY(fw_verdict_soft_new(arena, with, 0, v, &soft));
+    FW_TRY(fw_verdict_soft_swings(arena, &soft, v, k + 1, adds, &why));
+    const bool rigid = k < modes->count;
+    const double off = rigid ? fmin(fw_statics_mode_error(&modes->mode[k]), 1) : 0,
+                 s2 = adds[k] + (rigid ? 1 / modes->mode[k].stiffness_per_s2 : 0),
+                 low = why || !(s2 > 0) ? r->low : (1 - off) / (FW_TURN * sqrt(s2));
+    *less = fmax(0, r->low - low);
     return FW_OK;
 }
 

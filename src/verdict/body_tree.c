@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SUBROWS = 16, MARGIN = 3 };
+enum { SUBROWS = 16, MARGIN = 3, SWING_CELLS = 50000, SWING_MOST = 1500000 };
 /* of a cell: nothing; what bears; at an edge, and as wide as it is filled; a gap between two that is too narrow for it */
 typedef enum tree_cell { EMPTY, BEARS, AT_EDGE, IN_GAP } tree_cell;
 
@@ -243,11 +243,15 @@ static void gather(fw_verdict_tree *t, const beside *b, int first, int *room) {
     }
 }
 
+static fw_geometry_vec2 place_of_cell(const fw_verdict_tree *t, int at) {
+    return (fw_geometry_vec2){t->box.x0 + (at % t->nx + 0.5) * t->cell,
+                              t->box.y0 + (at / t->nx + 0.5) * t->cell};
+}
+
 static void weigh(fw_verdict_tree *t, int at, int own, bool wide) {
     const double area = t->cell * t->cell * (double)t->full[at], all = t->at[own].area_m2 + area;
     fw_verdict_tree_part *p = &t->at[own];
-    const fw_geometry_vec2 here = {t->box.x0 + (at % t->nx + 0.5) * t->cell,
-                                   t->box.y0 + (at / t->nx + 0.5) * t->cell};
+    const fw_geometry_vec2 here = place_of_cell(t, at);
     p->mass_m2 += area, t->reached_m2 += area;
     if (!wide || !(area > 0)) return;
     p->at = vec_along(p->at, area / all, vec_sub(here, p->at));
@@ -287,9 +291,7 @@ static fw_status measure_parts(fw_verdict_tree *t) {
     }
     for (int i = 0; i < t->nlist; i++) {
         fw_verdict_tree_part *p = &t->at[t->part[t->list[i]]];
-        const fw_geometry_vec2 here = {t->box.x0 + (t->list[i] % t->nx + 0.5) * t->cell,
-                                       t->box.y0 + (t->list[i] / t->nx + 0.5) * t->cell};
-        p->far_m = fmax(p->far_m, vec_distance(here, p->at));
+        p->far_m = fmax(p->far_m, vec_distance(place_of_cell(t, t->list[i]), p->at));
     }
     for (int i = 0; i < t->n; i++) {
         fw_verdict_tree_part *p = &t->at[i];
@@ -428,6 +430,11 @@ fw_status fw_verdict_tree_new(fw_arena *arena, const fw_mechanism *m, const fw_l
     FW_TRY(fw_mechanism_body_lines(arena, layout, body, &line, &t->nline));
     t->line = line;
     if (t->nline == 0) return FW_OK;
+    t->box = (fw_geometry_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (int i = 0; i < t->nline; i++) {
+        const fw_geometry_vec2 p = line[i].a;
+        t->box = fw_box_join(t->box, (fw_geometry_box){p.x, p.y, p.x, p.y});
+    }
     FW_TRY(find_holes(m->device, t));
     FW_NEED(t->held = fw_arena_one(arena, held));
     FW_TRY(find_held(arena, m, layout, body, arm, t->held));
@@ -435,133 +442,156 @@ fw_status fw_verdict_tree_new(fw_arena *arena, const fw_mechanism *m, const fw_l
     return FW_OK;
 }
 
-/* ---- how far a shock that is over throws the device across the plane ----
-   Of a linear device that an acceleration a of what carries it shakes, the energy about that grows by dE/dt = -a 1.M u', at most
-   |a| (m 2E)^(1/2), m all that moves: so (2E)^(1/2) <= m^(1/2) integral of |a|, whatever its modes are, and a place that gives c
-   goes (2E c)^(1/2) at most. c adds up of the bodies as plates and of what hangs over them. In: plates, SI. Out: m; infinite:
-   the shock does not come to its end. Error: an upper bound; twice the slow answer and more where a shock is no shorter than
-   a period. Source: Cauchy and Schwarz. Test: test_out_of_plane.py, test_a_short_shock_throws_by_its_impulse */
-fw_status fw_verdict_thrown_across(fw_arena *arena, const fw_mechanism_plates *p,
-                                   const fw_verdict_hung *hung, const fw_device_scene *s,
-                                   double *far_m) {
-    const fw_mechanism *m = p->mechanism;
-    const size_t n = (size_t)p->n;
-    double speed = 0, mass_kg = 0, most = 0, *c;
-    for (int i = 0; i < s->nbase; i++)
-        if (s->base[i].az_m_per_s2 != 0)
-            speed += fabs(s->base[i].az_m_per_s2) *
-                     fw_quantity_law_impulse_s(s->base[i].law, s->duration_s);
-    *far_m = hung || !(speed > 0) ? speed : (double)INFINITY;
-    if (!(*far_m > 0) || !isfinite(*far_m)) return FW_OK;
-    FW_TRY(fw_mechanism_plates_across(arena, p, &c));
-    for (int b = 0; b < m->nbody; b++) {
-        fw_mechanism_line *line;
-        int nline;
-        mass_kg += p->mass[9 * b];
-        FW_TRY(fw_mechanism_body_lines(arena, m->layout, b, &line, &nline));
-        for (int i = 0; i < nline; i++) { /* what gives most is a corner: c is convex */
-            const double by[3] = {1, line[i].a.y - m->drawn[b].y_m, m->drawn[b].x_m - line[i].a.x};
-            double gives = hung[b].corner_m_per_N;
-            for (size_t k = 0; k < 9; k++)
-                gives +=
-                    by[k / 3] * c[(3 * (size_t)b + k / 3) * n + 3 * (size_t)b + k % 3] * by[k % 3];
-            most = fmax(most, gives);
+/* ---- a body as a tree from its middle: all of what it does as it swings (body_swing.c) ---- */
+
+/* three cells across, but for a tenth of what bears anything, and all hangs together */
+static bool is_resolved(const fw_verdict_tree *t) {
+    const double across = 3, little = 1e-3;
+    int narrow = 0, all = 0;
+    for (int i = 0; i < t->n; i++) {
+        if (t->at[i].before == FW_NONE || t->at[i].bears == 0) continue;
+        all++, narrow += t->at[i].wide_m < across * t->cell;
+    }
+    return t->reached_m2 >= (1 - little) * t->whole_m2 && narrow <= 1 + all / 10;
+}
+
+static fw_status grow_from_middle(fw_verdict_tree *t) {
+    const double least_m = 1e-6;
+    const fw_geometry_box box = t->box;
+    const double x = box.x1 - box.x0, y = box.y1 - box.y0;
+    double cell = fmax(fmax(sqrt(x * y / SWING_CELLS), fmax(x, y) / 1000), least_m);
+    const fw_mark mark = fw_arena_mark(t->arena);
+    for (;; cell /= 2) {
+        fw_arena_rewind(t->arena, mark);
+        FW_TRY(fw_verdict_tree_lay(t, box, cell));
+        FW_TRY(fw_verdict_tree_grow(t, true));
+        if (is_resolved(t) || cell < 2 * least_m || 4 * x * y / (cell * cell) > SWING_MOST)
+            return FW_OK;
+    }
+}
+
+/* the part that is nearest to a place; FW_NONE: none is near */
+static int part_at(const fw_verdict_tree *t, fw_geometry_vec2 p) {
+    enum { NEAR = 4 };
+    const int x = (int)((p.x - t->box.x0) / t->cell), y = (int)((p.y - t->box.y0) / t->cell);
+    double least = HUGE_VAL;
+    int best = FW_NONE;
+    for (int j = y - NEAR; j <= y + NEAR; j++)
+        for (int i = x - NEAR; i <= x + NEAR; i++) {
+            if (i < 0 || j < 0 || i >= t->nx || j >= t->ny) continue;
+            const int part = t->part[j * t->nx + i];
+            const double off = pow(i - x, 2) + pow(j - y, 2);
+            if (part != FW_NONE && t->kind[j * t->nx + i] == BEARS && off < least)
+                least = off, best = part;
+        }
+    return best;
+}
+
+/* What bears spreads within a body by a quarter of its way on either side, from both ends of it: in a corner, and behind a
+   narrow part, less is borne than is there. And what spreads around the middle, which is held there alone, is as long as it is. */
+static void narrow_parts(fw_verdict_tree *t) {
+    const double spreads = 0.5;
+    for (int i = 0; i < t->n; i++) {
+        fw_verdict_tree_part *p = &t->at[i];
+        if (p->before == FW_NONE || p->spreads) continue;
+        const fw_verdict_tree_part *b = &t->at[p->before];
+        const bool first = b->before == FW_NONE || b->spreads;
+        if (first)
+            p->long_m = vec_distance(p->at, t->at[0].at) + 0.5 * p->long_m;
+        else
+            p->wide_m = fmin(p->wide_m, b->wide_m + spreads * vec_distance(p->at, b->at));
+    }
+    for (int i = 0; i < t->n; i++)
+        t->f[i][0] = 0; /* the most that goes on behind it */
+    for (int i = t->n - 1; i >= 0; i--) {
+        fw_verdict_tree_part *p = &t->at[i];
+        if (t->f[i][0] > 0) p->wide_m = fmin(p->wide_m, t->f[i][0]);
+        if (p->before == FW_NONE) continue;
+        const double apart = vec_distance(p->at, t->at[p->before].at);
+        t->f[p->before][0] = fmax(t->f[p->before][0], p->wide_m + spreads * apart);
+    }
+}
+
+static void gives_by(const fw_verdict_tree *t, int part, double *turns, double *goes) {
+    const fw_verdict_tree_part *p = &t->at[part];
+    const double stiff = t->youngs_Pa * t->depth_m * p->wide_m;
+    *turns = 12 * (p->long_m + p->root_m[1]) / (stiff * p->wide_m * p->wide_m);
+    *goes = 3.2 * p->long_m / stiff;
+}
+
+/* from one part to another by what both hang on */
+static double way_around(const fw_verdict_tree *t, int a, int b) {
+    double far = 0;
+    while (a != b) {
+        int *later = a > b ? &a : &b; /* what stands before a part has a lower number */
+        if (t->at[*later].before == FW_NONE) return HUGE_VAL;
+        far += vec_distance(t->at[*later].at, t->at[t->at[*later].before].at);
+        *later = t->at[*later].before;
+    }
+    return far;
+}
+
+/* Where two parts touch that are far from each other along the tree they close a ring, which gives there as the narrower one
+   does: once within their widths. Of the rings those farthest out: what is left out makes nothing stiffer. */
+static fw_status add_loops(fw_arena *arena, const fw_verdict_tree *t, int first,
+                           fw_verdict_beams *to) {
+    enum { LOOPS = 24 };
+    const double around = 3;
+    const beside b = beside_of(t);
+    const size_t had = (size_t)to->nloop;
+    FW_NEED(to->loop = fw_arena_grow(arena, to->loop, had, had + LOOPS, sizeof *to->loop));
+    fw_verdict_loop *loop = to->loop + had;
+    int n = 0;
+    for (int k = t->nlist - 1; k >= 0 && n < LOOPS; k--) {
+        const int at = t->list[k], part = t->part[at];
+        for (int d = 0; d < 4 && n < LOOPS && t->kind[at] == BEARS; d++) {
+            const int other = t->part[at + b.to[d]];
+            if (other == part || other == FW_NONE || t->kind[at + b.to[d]] != BEARS) continue;
+            const fw_geometry_vec2 here = place_of_cell(t, at);
+            const double wide = t->at[part].wide_m + t->at[other].wide_m;
+            bool known = !(way_around(t, part, other) > around * wide);
+            for (int i = 0; i < n && !known; i++)
+                known = vec_distance(loop[i].at, here) < 2 * wide;
+            if (known) continue;
+            const int thin = t->at[part].wide_m < t->at[other].wide_m ? part : other;
+            loop[n] = (fw_verdict_loop){{first + part, first + other}, here, 0, 0};
+            gives_by(t, thin, &loop[n].turns, &loop[n].goes);
+            n++;
         }
     }
-    *far_m = speed * sqrt(mass_kg * most);
+    to->nloop += n;
     return FW_OK;
 }
 
-/* ---- what hangs over swings slower (body_hung.c): 1/omega^2 of the rigid bodies and of what hangs over add up at most (Weyl) ---- */
-
-static int slowest_hung(const fw_verdict_variant_verdict *v, double *s2) {
-    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
-    int body = FW_NONE;
-    *s2 = 0;
-    for (int i = 0; hung && i < v->mechanism->nbody; i++)
-        if (hung[i].in_plane_mode_s2 > *s2) *s2 = hung[i].in_plane_mode_s2, body = i;
-    return body;
-}
-
-double fw_verdict_hangs_lower(const fw_verdict_variant_verdict *v, double f_Hz) {
-    double s2;
-    slowest_hung(v, &s2);
-    return f_Hz > 0 ? f_Hz - f_Hz / sqrt(1 + s2 * pow(FW_TURN * f_Hz, 2)) : 0;
-}
-
-bool fw_verdict_hangs_alone(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
-    const fw_verdict_out_of_plane *o = v->out_of_plane;
-    double s2;
-    if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_INCONCLUSIVE || r->why) return false;
-    if (!(r->low < r->min) || r->high > r->max || slowest_hung(v, &s2) == FW_NONE) return false;
-    for (int k = 0; k < o->nmode; k++)
-        if (o->mode[k].f_Hz == r->value) return false; /* across the plane */
-    const double left = 1 - s2 * pow(FW_TURN * r->low, 2);
-    return !(left > 0) || r->low / sqrt(left) >= r->min;
-}
-
-fw_status fw_verdict_hangs_open(fw_verdict_variant_verdict *v, const char *scene, int number,
-                                const char *what) {
-    FW_NEED(what);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = FW_VERDICT_KEEP_HALF,
-                                                  .not_by_width = true,
-                                                  .text = what};
-    return FW_OK;
-}
-
-fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
-                               const fw_verdict_requirement *r, const char *text) {
-    double s2;
-    const int body = slowest_hung(v, &s2);
-    char own[32];
-    FW_NEED(text = fw_arena_printf(
-                arena,
-                "%s: %s%s, which is rigid in the value, may swing in the plane from %s Hz on where "
-                "it reaches beyond its hinges: make it wider or shorter",
-                text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
-                fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
-    return fw_verdict_hangs_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
-}
-
-/* ---- what may be met (arm_rims.c) ---- */
-
-/* what it may take of its gap at most where everything it does goes `up` times as far */
-double fw_verdict_reach_takes(const fw_verdict_reach *r, double up) {
-    return r->closes_m + r->goes_m * (up - 1);
-}
-
-const char *fw_verdict_reach_name(fw_arena *arena, const fw_mechanism *m,
-                                  const fw_verdict_reach *r) {
-    if (r->pin != FW_NONE)
-        return fw_arena_printf(arena, "a stop of joint %s", fw_text_name(m->pin[r->pin].id));
-    return r->id ? fw_arena_printf(arena, "%s%s", FW_NAMED("contact", r->id)) : "what is touched";
-}
-
-fw_status fw_verdict_may_touch(fw_arena *arena, int scene, fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_verdict_shaken *s = &v->shaken[scene];
-    const double *up = s->each + m->nhinge + m->nbody;
-    char gap[32], comes[32], may[32];
-    for (int c = 0; c < s->nreach; c++) {
-        const fw_verdict_reach *r = &s->reach[c];
-        if (r->closes_m >= r->gap_m || !(fw_verdict_reach_takes(r, up[c]) >= r->gap_m)) continue;
-        const char *name = fw_verdict_reach_name(arena, m, r);
-        FW_NEED(name);
-        return fw_verdict_scene_reason(
-            v, &m->device->scene[scene], 731, FW_INCONCLUSIVE,
-            0.95 * r->gap_m / fw_verdict_reach_takes(r, up[c]),
-            fw_arena_printf(
-                arena,
-                "%s may be met: %s um are left to it, the motion takes %s of them as "
-                "computed, and up to %s where a mode lies within its error; what "
-                "hinges and contacts bear then is not known",
-                name, fw_number_text(gap, sizeof gap, 1e6 * r->gap_m, 3),
-                fw_number_text(comes, sizeof comes, 1e6 * r->closes_m, 3),
-                fw_number_text(may, sizeof may, 1e6 * fw_verdict_reach_takes(r, up[c]), 3)));
+fw_status fw_verdict_tree_beams(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                                fw_verdict_tree *t, int body, fw_verdict_beams *to, bool *holds) {
+    const size_t first = (size_t)to->n;
+    fw_geometry_vec2 pin, root;
+    *t->held = (held){.middle = m->layout->body[body].centroid};
+    for (int k = 0; k < 2 * m->nhinge; k++)
+        if (arm && arm[k].nway > 0 && fw_mechanism_hinge_end(m, body, k, &pin, &root))
+            t->held->middle = arm[k].way[arm[k].nway - 1];
+    FW_TRY(grow_from_middle(t));
+    const double little = 0.01;
+    *holds = t->n > 0 && t->reached_m2 >= (1 - little) * t->whole_m2;
+    if (!*holds) return FW_OK;
+    FW_NEED(to->at = fw_arena_grow(arena, to->at, first, first + (size_t)t->n, sizeof *to->at));
+    narrow_parts(t);
+    for (int i = 0; i < t->n; i++) {
+        const fw_verdict_tree_part *p = &t->at[i];
+        fw_verdict_beam *b = &to->at[to->n++];
+        *b = (fw_verdict_beam){.body = body, .before = FW_NONE, .at = p->at, .along = p->along};
+        if (p->before == FW_NONE) continue;
+        b->before = (int)first + p->before;
+        gives_by(t, i, &b->turns, &b->goes);
+        b->pulls = vec_length(p->along) > 0 ? b->goes / 3.2 : b->goes;
     }
+    for (int k = 0; k < 2 * m->nhinge; k++) {
+        if (!fw_mechanism_hinge_end(m, body, k, &pin, &root)) continue;
+        const int part = part_at(t, root);
+        *holds = *holds && part != FW_NONE;
+        to->on[k] = (int)first + (part == FW_NONE ? 0 : part);
+    }
+    FW_TRY(add_loops(arena, t, (int)first, to));
     return FW_OK;
 }

@@ -219,6 +219,13 @@ static fw_status take_clearance(const fw_verdict_search *s, const fw_verdict_var
     return FW_OK;
 }
 
+/* surface tension of a liquid that wets and that it surely bears; NaN: not judged. Formula and test: verdict_stiction.c */
+double fw_verdict_dries(const fw_verdict_variant_verdict *v) {
+    const fw_verdict_stiction *s = v->stiction;
+    if (!s || s->why || (!s->below.known && !s->beside.known)) return (double)NAN;
+    return fmin(s->below.tension_N_per_m[0], s->beside.tension_N_per_m[0]);
+}
+
 /* copies what stays: the run's own arena is given back */
 static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
                       fw_verdict_fabricated_corner *corner, double *ln) {

@@ -2,6 +2,7 @@
 /* What would have to be known or held better so that everything a flow may make is accepted: the
    one input that does it alone, by how much; else the share of all ranges. And what dies between the corners of these ranges
    may do. Theory: docs/theory/as-fabricated.md. */
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <float.h>

@@ -22,6 +22,7 @@
 #include "geometry/segment.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>

@@ -15,6 +15,7 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "statics/statics.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>

@@ -121,7 +121,7 @@ typedef struct fw_verdict_tree {
     bool *hole;  /* (nline) lines of release holes */
     bool thrown; /* a scene shakes it across the plane */
     struct fw_verdict_held *held;
-    fw_geometry_box box;
+    fw_geometry_box box;                       /* of its lines; once cells are laid, of these */
     int nline, nx, ny, nlist, n, nhinge, near; /* near: steps to what is held, level_of */
     double cell, left;                         /* left: what release holes leave of a width */
     double whole_m2, reached_m2;
@@ -140,6 +140,37 @@ fw_status fw_verdict_tree_new(fw_arena *arena, const fw_mechanism *mechanism,
 fw_status fw_verdict_tree_lay(fw_verdict_tree *tree, fw_geometry_box box, double cell_m);
 /* its parts. whole_ways: ways of hinges hold it up to the middle, where they are one way, too */
 fw_status fw_verdict_tree_grow(fw_verdict_tree *tree, bool whole_ways);
+/* body_swing.c: bodies as trees of beams from their middles on, with their masses where they are. A beam bears what hangs on it,
+   about its middle, and gives by that; what it is a part of stands before it. A body that is not drawn is one mass. */
+typedef struct fw_verdict_beam {
+    int body, before;           /* before: FW_NONE, the body's middle */
+    fw_geometry_vec2 at, along; /* world, as drawn */
+    double turns, goes, pulls;  /* rad/(N m); m/N across it and along it */
+    double mass_kg, inertia_kg_m2;
+} fw_verdict_beam;
+typedef struct fw_verdict_loop { /* where material closes a ring of beams: between two of them */
+    int beam[2];
+    fw_geometry_vec2 at;
+    double turns, goes;
+} fw_verdict_loop;
+typedef struct fw_verdict_beams {
+    fw_verdict_beam *at;     /* (n) those of a body stand together */
+    double (*f)[3], (*u)[3]; /* (n) N, N, N m; m, m, rad against the body's middle */
+    fw_verdict_loop *loop;   /* (nloop) */
+    int n, nloop;
+    int *on,
+        *first; /* on: (2 nhinge) where hinge i/2 ends in the body on its side i % 2; FW_NONE. first: (nbody + 1) */
+    int lost; /* a body that no grid resolves; FW_NONE */
+} fw_verdict_beams;
+/* body_tree.c: those of one body, behind those that are there; *holds: they are all of it */
+fw_status fw_verdict_tree_beams(fw_arena *arena, const fw_mechanism *mechanism,
+                                const fw_verdict_arm *arm, fw_verdict_tree *tree, int body,
+                                fw_verdict_beams *beams, bool *holds);
+/* Of the first `count` modes in the plane at rest, with bodies as such beams, 1/omega^2 at most, the largest first; a clause: why
+   that is not known, or NULL */
+fw_status fw_verdict_slowest_swings(fw_arena *arena, const fw_mechanism *mechanism,
+                                    const fw_verdict_arm *arm, int count, double *s2,
+                                    const char **why);
 /* body_hung.c: what a body does beyond the ways between its hinges and its middle under its own weight, per acceleration: how
    far it goes across the plane and in it, m per m/s2; its slowest modes there, 1/omega^2; what it is strained by in the plane,
    as a bar without corners; the s = 2 gamma cos(theta) of a liquid below that it bears, over the gap there; and what its softest
@@ -170,9 +201,8 @@ fw_status fw_verdict_hung_of(fw_arena *arena, const struct fw_verdict_variant_ve
                              const fw_verdict_hung **hung);
 double fw_verdict_hung_pulled(const fw_verdict_hung *hung, double gap_m, double down_m,
                               double error, double bodies_N_per_m);
-/* body_loads.c: by how much what hangs over may lower a frequency in the plane; is that all that speaks against one? */
+/* body_loads.c: is what hangs over all that speaks against a frequency in the plane? */
 struct fw_verdict_requirement;
-double fw_verdict_hangs_lower(const struct fw_verdict_variant_verdict *verdict, double f_Hz);
 bool fw_verdict_hangs_alone(const struct fw_verdict_variant_verdict *verdict,
                             const struct fw_verdict_requirement *requirement);
 fw_status fw_verdict_hangs_say(fw_arena *arena, struct fw_verdict_variant_verdict *verdict,
@@ -387,6 +417,30 @@ fw_status fw_verdict_place_gives(fw_arena *arena, const fw_mechanism *mechanism,
 void fw_verdict_bending_record(fw_verdict_bending *bending, const fw_mechanism *mechanism,
                                const fw_dynamics_instant *now);
 
+/* body_solids.c: what bodies leave at least of a stiffness, of the inverse of a compliance, or of a frequency that is asked for.
+   closely: as solids, which stay in v; mode: its number in the plane */
+typedef struct fw_verdict_soft {
+    bool looked;
+    double of_scenes;              /* share that bodies give there, where no forces are known */
+    const fw_statics_modes *modes; /* at rest, flexures give; NULL: they are not all known */
+    const char *why;               /* a clause: what was asked for last has no lower end; NULL */
+} fw_verdict_soft;
+fw_status fw_verdict_soft_new(fw_arena *arena, const fw_effect_choice *with, double of_scenes,
+                              const struct fw_verdict_variant_verdict *v, fw_verdict_soft *soft);
+fw_status fw_verdict_soft_leaves(fw_arena *arena, fw_verdict_soft *soft, const fw_probe *probe,
+                                 int mode, double value, bool closely,
+                                 struct fw_verdict_variant_verdict *v, double *left);
+/* what bodies add at most to 1/omega^2 of the first modes in the plane, to (count); a clause: why that is not known, or NULL */
+fw_status fw_verdict_soft_swings(fw_arena *arena, const fw_verdict_soft *soft,
+                                 const struct fw_verdict_variant_verdict *v, int count, double *to,
+                                 const char **why);
+struct fw_verdict_requirement;
+fw_status fw_verdict_soft_overtakes(fw_arena *arena, const fw_effect_choice *with,
+                                    const fw_statics_modes *modes,
+                                    const struct fw_verdict_variant_verdict *v,
+                                    const struct fw_verdict_requirement *requirement,
+                                    double *less_Hz);
+
 /* ---- strain_monitor.c: the peak strain of every hinge, followed along the motion ---- */
 
 typedef struct fw_verdict_hinge_peak {
@@ -534,46 +588,10 @@ fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *motio
                                 struct fw_verdict_shaken *shaken);
 /* by how much of its gap a small displacement u (3 nbody) about q takes, m */
 double fw_verdict_reach_by(const fw_verdict_reach *reach, const double *q, const double *u);
-/* body_tree.c: what it may take of its gap at most where everything it does goes `up` times as far; its words */
+/* body_farther.c: what it may take of its gap at most where everything it does goes `up` times as far; its words */
 double fw_verdict_reach_takes(const fw_verdict_reach *reach, double up);
 const char *fw_verdict_reach_name(fw_arena *arena, const fw_mechanism *mechanism,
                                   const fw_verdict_reach *reach);
 /* a reason (FW-D731) where what is not met as computed may be, with a mode within its error */
 fw_status fw_verdict_may_touch(fw_arena *arena, int scene, struct fw_verdict_variant_verdict *v);
-
-/* ---- ringing.c, resonance.c ---- */
-
-/* times as much as computed: up >= 1, down <= 1; up of what strains */
-typedef struct fw_verdict_answer {
-    double up, down, strained;
-} fw_verdict_answer;
-/* What another frequency says of how far loads move a device, by the square of w0/w. Of any stiffness: all of that, which the
-   softest of a range may be. Among the softest, where it is known how far it goes: what is higher goes less far. What bends
-   a hinge beyond its limit is a stress as often, which the modulus does not change: of hinges nothing is less */
-typedef enum fw_verdict_softness {
-    FW_VERDICT_AS_STIFF,
-    FW_VERDICT_OF_ANY,
-    FW_VERDICT_NO_SOFTER
-} fw_verdict_softness;
-static inline double fw_verdict_soft_by(fw_verdict_softness soft, double omega,
-                                        double at) { /* of ways */
-    const double by = omega * omega / (at * at), less = by < 1 ? by : 1;
-    return soft == FW_VERDICT_OF_ANY ? by : soft == FW_VERDICT_NO_SOFTER ? less : 1;
-}
-/* ringing.c: to->mode, of at most most_modes, without low and high, and what acts where something comes again */
-fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                            bool again, const fw_statics_modes *modes,
-                            const fw_dynamics_motion *motion, int most_modes,
-                            struct fw_verdict_shaken *to);
-/* to (rows = nhinge + nbody + nreach): what comes again does to all while a mode, or all (FW_NONE) by one share, lie elsewhere */
-fw_status fw_verdict_rings_again(fw_arena *arena, const fw_quantity_law_pieces *pieces,
-                                 double end_s, const struct fw_verdict_shaken *shaken, int mode,
-                                 int rows, fw_verdict_softness softer, fw_verdict_answer *to);
-/* does something of it come while a mode may still ring by what came before? pieces: only where it does */
-fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                                 bool *again, fw_quantity_law_pieces *pieces);
-/* body_solids.c: small motions; *modes NULL: there are none */
-fw_status fw_verdict_modes_about(fw_arena *arena, const fw_mechanism *mechanism,
-                                 const fw_device_scene *scene, bool at_equilibrium, double accuracy,
-                                 const fw_statics_modes **modes);
 #endif

@@ -585,16 +585,4 @@ double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v);
 
 /* body_solids.c: u (3 nbody) by which a load f (3 nbody) displaces, by modes that are all there and stable */
 void fw_verdict_displaced(const fw_statics_modes *modes, const double *f, double *u);
-/* body_solids.c: what bodies leave at least of a stiffness, of the inverse of a compliance, or of a frequency that is asked for.
-   closely: as solids, which stay in v; mode: its number in the plane */
-typedef struct fw_verdict_soft {
-    bool looked;
-    double of_scenes;              /* share that bodies give there, where no forces are known */
-    const fw_statics_modes *modes; /* at rest, flexures give; NULL: they are not all known */
-} fw_verdict_soft;
-fw_status fw_verdict_soft_new(fw_arena *arena, const fw_effect_choice *with, double of_scenes,
-                              const fw_verdict_variant_verdict *v, fw_verdict_soft *soft);
-fw_status fw_verdict_soft_leaves(fw_arena *arena, const fw_verdict_soft *soft,
-                                 const fw_probe *probe, int mode, double value, bool closely,
-                                 fw_verdict_variant_verdict *v, double *left);
 #endif

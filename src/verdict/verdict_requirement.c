@@ -3,12 +3,11 @@
 
      x -+ (n + (l + s) |x - o|), of gaps with M for |x - o|
 
-   n: numbers (two runs, the search between instants, effects left out), l: what the next model of the hinges changes of this
-   probe at the motion's largest hinge angle, s: stiffness of a flexure against solids, o: its value as drawn, M: how far the
-   outlines of a gap have been moved against each other. Where l is not known, that of the largest strain, or what the
-   reference cases give, stands for both. A band within the bounds accepts, one wholly beyond a bound rejects. A settling
-   time has the ends that it has with a band b narrower and wider by n + (l + s) b. What hangs over a body widens bands
-   besides (body_hung.c). Theory: docs/theory/probes.md. Test: test_probe.py. */
+   n: numbers (two runs, the search between instants, effects left out), l: what the next model of the hinges changes of this probe at
+   the motion's largest hinge angle, s: stiffness of a flexure against solids, o: its value as drawn, M: how far the outlines of a gap
+   have been moved against each other. Where l is not known, that of the largest strain, or what the reference cases give, stands for
+   both. A band within the bounds accepts, one wholly beyond a bound rejects. A settling time has the ends that it has with a band b
+   narrower and wider by n + (l + s) b. Theory: docs/theory/probes.md. Test: test_probe.py. */
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -186,9 +185,8 @@ static double model_of(const fw_mechanism *m, const fw_dynamics_motion *motion, 
                                                                     : computed;
 }
 
-/* What the model is off by scales the departure from where it comes to rest, and where that is as large as the band it is off by
-   that part of it. Frequencies, and so all times, go with the root of a stiffness. What was out within the last period of
-   the slowest mode may be so again behind the end */
+/* What the model is off by scales the departure from where it comes to rest, and where that is as large as the band it is off by that part
+   of it. Frequencies, and so all times, go with the root of a stiffness. What was out within the last period of the slowest mode may be so again behind the end */
 static fw_status put_settling(const fw_verdict_variant_verdict *v, const fw_dynamics_motion *motion,
                               const fw_probe_monitor *monitor, const fw_probe_result *p, bool still,
                               fw_verdict_requirement *r) {
@@ -483,11 +481,14 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
         int mode = 0;
         if (r->measure || r->scene_index != scene) continue;
         const fw_probe *p = &probe[m->device->requirement[r->asked].probe];
-        double value = modes ? fw_probe_small(p, modes) : (double)NAN;
+        double value = modes ? fw_probe_small(p, modes) : (double)NAN, less = 0;
         if (p->asked->row == FW_PROBE_IS_frequency) {
-            if (put_across(v, p->asked, modes, &mode, r)) continue;
-            bool there = modes && mode >= 1 && mode <= modes->count;
-            value = there ? modes->mode[mode - 1].f_Hz : (double)NAN;
+            const bool across = put_across(v, p->asked, modes, &mode, r);
+            if (across) FW_TRY(fw_verdict_soft_overtakes(arena, &o.effects, modes, v, r, &less));
+            if (less > 0) fw_verdict_requirement_widen(less, 0, r);
+            if (across) continue;
+            value = modes && mode >= 1 && mode <= modes->count ? modes->mode[mode - 1].f_Hz
+                                                               : (double)NAN;
         }
         r->why = modes ? "there is no such mode, or nothing holds the point" : last_error(&own);
         if (!isfinite(value)) continue;
@@ -508,8 +509,7 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
             decide(r);
             if (r->decision != FW_INCONCLUSIVE || left > hardly_soft || v->corner || !v->arm) break;
         }
-        if (p->asked->row == FW_PROBE_IS_frequency)
-            fw_verdict_requirement_widen(fw_verdict_hangs_lower(v, r->low), 0, r);
+        if (soft.why) fw_verdict_requirement_widen(r->low, 0, r), r->open = soft.why;
         if (isinf(model) || others.lost)
             FW_NEED(r->open = fw_verdict_small_open(arena, m, modes, &others));
     }
@@ -553,7 +553,7 @@ void fw_verdict_requirement_shaken(const double factor[2], double late, fw_devic
     const bool final = measure == FW_MEASURE_FINAL;
     const double more = r->swing * (final ? late : factor[0] - 1),
                  less = r->swing * (final ? late : 1 - factor[1]);
-    if (!(more > 0) && !(less > 0)) return;
+    if (!(fmax(more, less) > 0)) return;
     if (measure == FW_MEASURE_SETTLING) {
         if (factor[0] - 1 < 0.02) return;
         r->low = 0, r->high = HUGE_VAL;

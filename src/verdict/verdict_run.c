@@ -428,13 +428,6 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- what a recipe is told ---- */
 
-/* surface tension of a liquid that wets and that it surely bears; NaN: not judged. Formula and test: verdict_stiction.c */
-double fw_verdict_dries(const fw_verdict_variant_verdict *v) {
-    const fw_verdict_stiction *s = v->stiction;
-    if (!s || s->why || (!s->below.known && !s->beside.known)) return (double)NAN;
-    return fmin(s->below.tension_N_per_m[0], s->beside.tension_N_per_m[0]);
-}
-
 /* the least of those that the flow makes, at the corners that were run; NaN: it was not judged at all of them, as where a
    flow dries without a meniscus */
 static double dries_as_made(const fw_verdict_variant_verdict *v) {
