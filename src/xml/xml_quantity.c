@@ -90,8 +90,8 @@ static void check_names(const fw_xml_element *e, fw_diags *diags) {
         known[k] = fw_xml_quantity_rows[k].name;
     for (int i = 0; i < e->nattribute; i++) {
         int found = 0;
-        for (int k = 0; k < FW_QUANTITY_ROWS; k++)
-            found |= strcmp(known[k], e->attribute[i].name) == 0;
+        for (int k = 0; k < FW_QUANTITY_ROWS && !found; k++)
+            found = strcmp(known[k], e->attribute[i].name) == 0;
         if (found) continue;
         const char *better = fw_did_you_mean(e->attribute[i].name, known, FW_QUANTITY_ROWS);
         fw_diag_error(
