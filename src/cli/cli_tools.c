@@ -357,7 +357,8 @@ static fw_status of_table(work *w, const fw_process_flow *flow, const char *file
         each[i] = &row[i];
     FW_TRY(fw_process_measurements_ask(flow, each, nrow, true, file, &w->diags));
     FW_TRY(fw_process_calibrate(w->arena, flow, row, nrow, &w->diags, found));
-    return fw_process_calibration_correlate(w->arena, flow, row, nrow, found);
+    FW_TRY(fw_process_calibration_correlate(w->arena, flow, row, nrow, found));
+    return fw_process_calibration_keep_spread(w->arena, flow, found);
 }
 
 /* a log is verified as far as it can be without its device: chain, head and entries, not the plan's hash */

@@ -32,6 +32,10 @@ typedef struct fw_process_calibrated {
     const char *note;               /* how, and what it is correlated with */
     double chi_square, probability; /* of the residuals; probability of a larger one */
     int rows, freedom;              /* freedom 0: nothing to test */
+    /* its readings do not say how wafers differ, and so much of the uncertainty is what the flow had for that, standard, SI;
+       0: it had nothing */
+    bool spread_taken;
+    double spread;
     const char *source, *date; /* which wafers, how many readings, when; NULL: those of the file */
     /* of a rate that its step corrects for a condition: between which values it was measured, where all of its readings say
        so; 0: not all do, or it is none. It is written as that at the reference value */
@@ -96,6 +100,13 @@ const fw_quantity *fw_process_step_corrects(const fw_process_step *step, fw_proc
                                             const char *rate);
 /* standard uncertainty of a number as it is written, in its own unit: uniform within one of its last digit */
 double fw_process_written_uncertainty(const char *number);
+/* does what follows from the row (with what it is of) take its wafer to have been etched sideways as the flow plans it now? */
+bool fw_process_coupon_follows_plan(const fw_process_measurement *row);
+/* of a change that is such an etch: how thick what it takes was put there, and is planned to be; NULL: it is none */
+const fw_quantity *fw_process_change_takes_edges(const fw_process_flow *flow,
+                                                 const fw_process_change *change);
+/* is the step about a layer that such an etch takes from every edge? */
+bool fw_process_step_makes_edges(const fw_process_flow *flow, const fw_process_step *step);
 /* how thick what masks the etch was put there, where the coupon says what was lost of it; NULL: it does not, or no such thing */
 const fw_quantity *fw_process_coupon_mask(const fw_process_flow *flow,
                                           const fw_process_measurement *row);
@@ -153,6 +164,10 @@ fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *fl
 fw_status fw_process_calibration_correlate(fw_arena *arena, const fw_process_flow *flow,
                                            const fw_process_measurement *measurement, int n,
                                            fw_process_calibration *calibration);
+/* coupon_fit.c: of a table, which has no wafers: how the next one differs stays what the flow has for it, and is added to every
+   result */
+fw_status fw_process_calibration_keep_spread(fw_arena *arena, const fw_process_flow *flow,
+                                             fw_process_calibration *calibration);
 /* the laboratory pack: <process flow="..."> with a <q status="measured"> for each */
 fw_status fw_process_calibration_pack(const fw_process_flow *flow,
                                       const fw_process_calibration *calibration,

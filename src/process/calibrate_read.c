@@ -382,6 +382,15 @@ static void put_conditions(const fw_process_flow *flow, const fw_process_calibra
         put_condition(flow, c, (fw_process_condition)k, out);
 }
 
+/* how wafers are taken to differ, as long as no reading of several says it */
+static void put_spread_of(const fw_quantity *q, double spread, fw_text *out) {
+    double value, s;
+    if (!in_unit(q, q->value, spread, &value, &s)) return;
+    fw_text_add(out, " spread=\"");
+    fw_text_number(out, s, 4);
+    fw_text_add(out, "\"");
+}
+
 static void put_test(fw_text *out, const fw_process_calibrated *c) {
     if (c->freedom == 0) {
         fw_text_add(out, "no residual to test");
@@ -490,6 +499,7 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         fw_text_add(out, "\" u=\"");
         fw_text_number(out, u, 4);
         fw_text_add(out, "\"");
+        if (c->spread_taken) put_spread_of(q, c->spread, out);
         attribute(out, "unit", q->unit);
         fw_text_add(out, " status=\"measured\"");
         attribute(out, "src",

@@ -204,7 +204,8 @@ static double rest_of(const wafer *w, int k) {
    does not average out. The last term is there because the plan is about the next wafer, not about the mean of these:
    b = variance (t(W - 1)/2)^2 - chance - rest, what really differs from wafer to wafer, widened for the few that there
    are, but at least (chance + rest) sqrt(2/(W - 1)), the standard uncertainty of such an estimate where nothing differs: a
-   scatter that cannot be seen is not taken to be absent. Then it is correlated as chance is. One wafer: b is not known.
+   scatter that cannot be seen is not taken to be absent. Then it is correlated as chance is. One wafer: b is not known, and
+   what the flow has for it is added (coupon_fit.c).
    Source: DerSimonian and Laird, Control. Clin. Trials 7 (1986) 177 (moments); JCGM 100:2008, G.3 and E.4.3 (deviation of
    a variance). Test: test_wafers.c, coverage. */
 static moments moments_of(const lot *l, const char *id, const wafer *without) {
@@ -282,8 +283,7 @@ static fw_status note_of(const lot *l, const moments *o, const char *id, const c
         put_spread(l, id, sqrt(o->between), o->mean, &text);
         fw_text_printf(&text, " (standard, %d degree%s of freedom); the next wafer is meant",
                        o->n - 1, o->n > 2 ? "s" : "");
-    } else
-        fw_text_add(&text, "; of one wafer: how the next one differs is not known");
+    }
     FW_TRY(fw_text_end(&text));
     *note = text.data;
     return FW_OK;
@@ -361,6 +361,7 @@ static fw_status combine(lot *l, fw_process_calibrated *c, const char *id, doubl
                              "not calibrated from them",
                              c->coupon, fw_number_text(text, sizeof text, c->probability, 2), id);
     FW_TRY(note_of(l, &o, id, c->note, &c->note));
+    if (o.n == 1) FW_TRY(fw_process_calibrated_spread(l->arena, l->flow, "of one wafer", c));
     return source_of(l, c);
 }
 
@@ -543,12 +544,13 @@ static void ask_condition(const fw_process_flow *flow, const fw_process_calibrat
 static void ask_too_exact(const fw_process_calibrated *c, const char *file, fw_diags *diags) {
     static const double least = 1e-5;
     char parts[32];
-    if (!(c->uncertainty < least * fabs(c->value))) return;
+    const double u = fw_process_calibrated_read_u(c);
+    if (!(u < least * fabs(c->value))) return;
     fw_diag_warning(
         diags, 682, (fw_place){.file = file},
         "%s of %s would be known to one part in %s: no instrument reads so exactly. Give "
         "what it may be off by as u, in the unit of the value",
-        c->id, c->coupon, fw_number_text(parts, sizeof parts, fabs(c->value) / c->uncertainty, 2));
+        c->id, c->coupon, fw_number_text(parts, sizeof parts, fabs(c->value) / u, 2));
 }
 
 /* d = |x - x_0| against 5 sqrt(u^2 + u_0^2): of a normal distribution one in two million. In and out: SI. Test:
@@ -565,7 +567,8 @@ void fw_process_calibration_ask(const fw_process_flow *flow,
         for (int k = 0; k < FW_CONDITIONS; k++)
             ask_condition(flow, c, (fw_process_condition)k, file, diags);
         if (!old || old->unknown || !(old->uncertainty > 0.0)) continue;
-        double far = fabs(c->value - old->value) / hypot(c->uncertainty, old->uncertainty);
+        double far =
+            fabs(c->value - old->value) / hypot(fw_process_calibrated_read_u(c), old->uncertainty);
         const fw_process_coupon *kind = fw_process_coupon_kind(c->coupon);
         if (!(far > 5.0)) continue;
         fw_diag_warning(diags, 643, (fw_place){.file = file},

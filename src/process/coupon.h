@@ -105,6 +105,12 @@ fw_status fw_process_coupon_covariance(fw_arena *arena, const fw_process_flow *f
 /* coupon_fit.c: one more, unless it is there */
 fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *calibration,
                                       const fw_process_found_with *with);
+/* coupon_fit.c: adds to a result of one wafer what the flow has for how the next one differs, and says so; `who` says so little:
+   "of one wafer" */
+fw_status fw_process_calibrated_spread(fw_arena *arena, const fw_process_flow *flow,
+                                       const char *who, fw_process_calibrated *c);
+/* what its readings alone are uncertain by */
+double fw_process_calibrated_read_u(const fw_process_calibrated *c);
 /* process_calibrate.c: the correlations of those ids that are correlated at all, into `calibration` */
 fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *of,
                                   const double *deviation, fw_process_calibration *calibration);

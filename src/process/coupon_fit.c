@@ -364,13 +364,17 @@ fw_process_coupon_lacking fw_process_coupon_lacks(const fw_process_flow *flow,
     return out;
 }
 
+const fw_quantity *fw_process_change_takes_edges(const fw_process_flow *flow,
+                                                 const fw_process_change *c) {
+    return c->isotropic && fw_process_where_is_of_device(flow, c->where) ? c->thickness : NULL;
+}
+
 double fw_process_coupon_loss(const fw_process_flow *flow, fw_process_coupon_work *w) {
     double loss = 0.0;
     for (int i = 0; i < flow->nstep; i++)
         for (int k = 0; k < flow->step[i].nchange; k++) {
             const fw_process_change *c = &flow->step[i].change[k];
-            if (!c->isotropic || !fw_process_where_is_of_device(flow, c->where) || !c->thickness)
-                continue;
+            if (!fw_process_change_takes_edges(flow, c)) continue;
             if (w) fw_process_coupon_note_read(w, c->thickness);
             if (w) fw_process_coupon_note_read(w, flow->step[i].overrun_from);
             if (!c->thickness->unknown) loss += c->thickness->value * (1.0 + flow->step[i].overrun);
@@ -456,71 +460,6 @@ fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *c
     return FW_OK;
 }
 
-/* how thick the material was when it was put there last, before the step */
-static const fw_quantity *put_there(const fw_process_flow *flow, int before, const char *material) {
-    for (int i = before - 1; i >= 0; i--)
-        for (int k = 0; k < flow->step[i].nchange; k++) {
-            const fw_process_change *c = &flow->step[i].change[k];
-            if (strcmp(c->kind, "add") == 0 && strcmp(c->material, material) == 0)
-                return c->thickness;
-        }
-    return NULL;
-}
-
-fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
-    for (int i = 0; i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        for (int k = 0; k < s->nchange; k++) {
-            const fw_process_change *c = &s->change[k];
-            if (!c->anisotropy || strcmp(c->kind, "remove") != 0 || !flow->material ||
-                strcmp(c->material, flow->material) != 0)
-                continue;
-            fw_process_etch e = {.rate = fw_process_step_argument(s, "rate"),
-                                 .lag = fw_process_step_argument(s, "probability"),
-                                 .anisotropy = c->anisotropy,
-                                 .over_etch = s->overrun_from};
-            for (int x = 0; x < s->nexposed && !e.selectivity; x++) {
-                e.selectivity = s->exposed[x].selectivity;
-                if (e.selectivity) e.mask = put_there(flow, i, s->exposed[x].material);
-            }
-            return e;
-        }
-    }
-    return (fw_process_etch){0};
-}
-
-/* what comes of the thickness that is planned, by the corner of the device layer; NULL: no quantity says it */
-static const char *made_thickness(const fw_process_flow *flow) {
-    for (int i = 0; i < flow->ncorner; i++)
-        if (flow->corner[i].of == FW_CORNER_THICKNESS && flow->corner[i].q)
-            return flow->corner[i].q->id;
-    return NULL;
-}
-
-fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const char *efficiency) {
-    fw_process_plating best = {0};
-    for (int i = 0; i < flow->nstep; i++) {
-        const fw_process_step *s = &flow->step[i];
-        const fw_quantity *eta = fw_process_step_argument(s, "efficiency");
-        if (!s->law || strcmp(s->law, fw_process_law_faraday.name) != 0 || !eta || !eta->id ||
-            !fw_process_step_is_op(s, "plate"))
-            continue;
-        fw_process_plating is = {.thickness = fw_process_step_argument(s, "thickness"),
-                                 .density = fw_process_step_argument(s, "density"),
-                                 .valence = fw_process_step_argument(s, "valence"),
-                                 .molar_mass = fw_process_step_argument(s, "molar_mass"),
-                                 .efficiency = eta};
-        for (int k = 0; k < s->nchange; k++)
-            if (strcmp(s->change[k].kind, "add") == 0) is.material = s->change[k].material;
-        const bool device =
-            is.material && flow->material && strcmp(is.material, flow->material) == 0;
-        if (device) is.made = made_thickness(flow);
-        if (strcmp(eta->id, efficiency) == 0) return is;
-        if (!best.efficiency || (device && !best.made)) best = is;
-    }
-    return best;
-}
-
 const char *fw_process_coupon_edge(const fw_process_flow *flow) {
     static const char etched[] = "made.al-edge";
     return has(flow, etched) ? etched : FW_PROCESS_PRINTED_EDGE;
@@ -547,4 +486,105 @@ void fw_process_coupon_mask_edge(fw_process_coupon_work *w, double *edge, double
         *edge += e;
         *uncertainty = hypot(*uncertainty, u);
     }
+}
+
+/* ---- how the next wafer differs, where no reading says it ---- */
+
+/* Of what lies on one side of 0 the spread is relative: a bath that etches twice as fast differs by twice as much. Of a share,
+   which may come out as 0 or 1, and of where an edge lies, it is not. */
+static bool spreads_in_proportion(fw_arena *arena, const fw_quantity *of) {
+    fw_diags quiet = fw_diags_new(arena);
+    fw_quantity below = *of, above = *of;
+    below.value = -1e-9, above.value = 1.0 + 1e-9;
+    below.unknown = above.unknown = false;
+    return !fw_process_quantity_in_range(&below, &quiet) &&
+           (!fw_quantity_dimension_equal(of->dimension, (fw_quantity_dimension){0}) ||
+            fw_process_quantity_in_range(&above, &quiet));
+}
+
+/* the range that a corner takes where nobody knows the quantity; NULL: none does */
+static const fw_quantity *assumed_of(const fw_process_flow *flow, const fw_quantity *q) {
+    for (int i = 0; i < flow->ncorner; i++)
+        if (flow->corner[i].q == q && flow->corner[i].assumed) return flow->corner[i].assumed;
+    return NULL;
+}
+
+/* s: the spread that the flow states for the quantity, else its standard uncertainty u; relative where it is in proportion,
+   s = u x/x_0; and with those of the corners that are within it once it is measured: s^2 = s_0^2 + sum s_k^2. No more than what
+   cannot be below 0 may be off by at all. u holds both where this laboratory lies and how its wafers differ, and the reading took the
+   first away. SI. Source: docs/theory/calibrate.md. Test: test_wafers.c, one_wafer_keeps_the_spread. */
+static double spread_of(fw_arena *arena, const fw_process_flow *flow,
+                        const fw_process_calibrated *c) {
+    const fw_quantity *q = fw_process_flow_quantity(flow, c->id),
+                      *of = q && q->unknown ? assumed_of(flow, q) : q;
+    fw_diags quiet = fw_diags_new(arena);
+    double s = 0.0;
+    if (of && !of->unknown) {
+        s = of->spread > 0.0 ? of->spread : of->uncertainty;
+        if (of->value > 0.0 && spreads_in_proportion(arena, q)) s *= c->value / of->value;
+    }
+    for (int i = 0; i < flow->ncorner; i++) {
+        const fw_process_corner *k = &flow->corner[i];
+        const fw_quantity *in = k->q && k->q->unknown ? k->assumed : k->q;
+        if (k->within != q || !q || !in || in->unknown || !fw_process_corner_counts(k)) continue;
+        s = hypot(s, in->spread > 0.0 ? in->spread : in->uncertainty);
+    }
+    if (!q) return 0.0;
+    fw_quantity below = *q;
+    below.value = -1e-9, below.unknown = false;
+    if (c->value > 0.0 && !fw_process_quantity_in_range(&below, &quiet))
+        s = fmin(s, sqrt(fmax(c->value * c->value - c->uncertainty * c->uncertainty, 0.0)));
+    return s;
+}
+
+double fw_process_calibrated_read_u(const fw_process_calibrated *c) {
+    return sqrt(fmax(c->uncertainty * c->uncertainty - c->spread * c->spread, 0.0));
+}
+
+fw_status fw_process_calibrated_spread(fw_arena *arena, const fw_process_flow *flow,
+                                       const char *who, fw_process_calibrated *c) {
+    const fw_quantity *q = fw_process_flow_quantity(flow, c->id);
+    fw_quantity_unit unit;
+    char text[32];
+    c->spread_taken = true;
+    c->spread = spread_of(arena, flow, c);
+    if (!(c->spread > 0.0) || !fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))
+        c->note =
+            fw_arena_printf(arena, "%s; %s: how the next one differs is not known", c->note, who);
+    else {
+        unit.offset = 0.0;
+        c->note = fw_arena_printf(
+            arena,
+            "%s; %s: how the next one differs is taken to be what the flow had for it, +- %s%s%s",
+            c->note, who,
+            fw_number_text(text, sizeof text, fw_quantity_unit_from_si(&unit, c->spread), 2),
+            strcmp(q->unit, "1") == 0 ? "" : " ", strcmp(q->unit, "1") == 0 ? "" : q->unit);
+    }
+    c->uncertainty = hypot(c->uncertainty, c->spread);
+    return c->note ? FW_OK : FW_NOMEM;
+}
+
+/* what is correlated with others is the part that was read: r_ij -> r_ij f_i f_j, f = u_read/u */
+fw_status fw_process_calibration_keep_spread(fw_arena *arena, const fw_process_flow *flow,
+                                             fw_process_calibration *calibration) {
+    const int n = calibration->njoint;
+    fw_process_calibrated *item =
+        fw_arena_array(arena, fw_process_calibrated, (size_t)calibration->count + 1);
+    double *f = fw_arena_array(arena, double, (size_t)n + 1),
+           *r = fw_arena_array(arena, double, (size_t)(n * n) + 1);
+    FW_NEED(item && f ? r : NULL);
+    for (int k = 0; k < n; k++)
+        f[k] = 1.0;
+    for (int i = 0; i < calibration->count; i++) {
+        item[i] = calibration->item[i];
+        FW_TRY(fw_process_calibrated_spread(arena, flow, "a table has no wafers", &item[i]));
+        for (int k = 0; k < n; k++)
+            if (strcmp(calibration->joint[k], item[i].id) == 0 && item[i].uncertainty > 0.0)
+                f[k] = fw_process_calibrated_read_u(&item[i]) / item[i].uncertainty;
+    }
+    for (int i = 0; i < n * n; i++)
+        r[i] = calibration->correlation[i] * (i % (n + 1) ? f[i / n] * f[i % n] : 1.0);
+    calibration->item = item;
+    if (n > 0) calibration->correlation = r;
+    return FW_OK;
 }

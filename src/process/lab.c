@@ -307,6 +307,42 @@ static const char *still_used(fw_arena *arena, const fw_process_flow *flow,
     return fw_text_end(&out) == FW_OK ? out.data : NULL;
 }
 
+/* was it read on one wafer, or in a table? A laboratory that states how its wafers differ says so itself */
+static bool is_of_one(const fw_quantity *q) {
+    return q->replaced && q->spread_taken && q->status == FW_MEASURED && q->place.file;
+}
+
+/* of one file: the values of it that the plan uses, which do not say how wafers differ. Test: test_wafers.c,
+   one_wafer_keeps_the_spread. */
+static fw_status ask_spread(fw_arena *arena, const fw_process_flow *flow, int first,
+                            fw_diags *diags) {
+    const char *file = flow->quantity[first]->place.file;
+    fw_text out = fw_text_new(arena);
+    int n = 0;
+    for (int i = 0; i < flow->nquantity; i++) {
+        const fw_quantity *q = flow->quantity[i];
+        fw_quantity_unit unit;
+        if (!is_of_one(q) || strcmp(q->place.file, file) != 0) continue;
+        if (i < first) return FW_OK; /* told with that one */
+        fw_text_printf(&out, "%s%s (", n++ ? ", " : "", q->id);
+        if (q->spread > 0.0 &&
+            fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL)) {
+            unit.offset = 0.0;
+            fw_text_add(&out, "taken to be +- ");
+            fw_text_number(&out, fw_quantity_unit_from_si(&unit, q->spread), 2);
+            if (strcmp(q->unit, "1") != 0) fw_text_printf(&out, " %s", q->unit);
+        } else
+            fw_text_add(&out, "not known, and taken to be nothing");
+        fw_text_add(&out, ")");
+    }
+    FW_TRY(fw_text_end(&out));
+    fw_diag_warning(diags, 734, flow->quantity[first]->place,
+                    "nobody has measured how wafers differ in %s: the readings are of one wafer or "
+                    "of a table. Calibrate from a log of several wafers",
+                    out.data);
+    return FW_OK;
+}
+
 /* d = |x - x_then|: a value that calibrate found follows from others of the flow, and holds with those. Test:
    test_calibrate.c, found_with_other_values. */
 fw_status fw_process_lab_ask(fw_arena *arena, const fw_process_flow *flow, fw_diags *diags) {
@@ -325,6 +361,9 @@ fw_status fw_process_lab_ask(fw_arena *arena, const fw_process_flow *flow, fw_di
                         "together. Calibrate again, with the packs of this plan named by --lab",
                         results, strchr(results, ',') ? "were" : "was", w->q->id, was, w->q->id, is,
                         w->q->source ? w->q->source : "the flow");
+    }
+    for (int i = 0; i < flow->nquantity; i++) {
+        if (is_of_one(flow->quantity[i])) FW_TRY(ask_spread(arena, flow, i, diags));
     }
     return diags->failed ? FW_NOMEM : FW_OK;
 }

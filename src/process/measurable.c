@@ -507,3 +507,23 @@ fw_status fw_process_coupon_stage_at(fw_arena *arena, const fw_process_flow *flo
             *there = true, *stage = list[i];
     return *there ? FW_OK : said(arena, flow, list, n, where);
 }
+
+/* the edge of an etched layer is what is left beyond that, and slots and lines of the ladder begin where that edge is */
+bool fw_process_coupon_follows_plan(const fw_process_measurement *row) {
+    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
+    if (!kind || !kind->stages) return false;
+    if (kind->stages == fw_process_stages_of_edges)
+        return !row->of || strcmp(row->of, FW_PROCESS_PRINTED_EDGE) != 0;
+    return kind->stages == fw_process_stages_of_etch;
+}
+
+/* puts it there, or takes it */
+bool fw_process_step_makes_edges(const fw_process_flow *flow, const fw_process_step *s) {
+    for (const fw_process_step *etch = flow->step; etch < flow->step + flow->nstep; etch++)
+        for (int k = 0; k < etch->nchange; k++) {
+            const fw_quantity *d = fw_process_change_takes_edges(flow, &etch->change[k]);
+            for (int i = 0; d && i < s->nchange; i++)
+                if (s->change[i].thickness == d) return true;
+        }
+    return false;
+}

@@ -2,6 +2,7 @@
 /* What stands in packs, flows and steps, by its name; also where a text names it. And the reasons of a judgement, which all
    that judge a flow add to. */
 #include "base/text.h"
+#include "process/coupon.h"
 #include "process/pack.h"
 #include <math.h>
 #include <stdarg.h>
@@ -509,4 +510,71 @@ bool fw_process_step_in_liquid(const fw_process_step *s) {
     for (size_t i = 0; i < sizeof may / sizeof *may; i++)
         if (fw_process_step_is_op(s, may[i])) return fw_process_step_liquid(s) != NULL;
     return false;
+}
+
+/* ---- the steps that coupons are of ---- */
+
+/* how thick the material was when it was put there last, before the step */
+static const fw_quantity *put_there(const fw_process_flow *flow, int before, const char *material) {
+    for (int i = before - 1; i >= 0; i--)
+        for (int k = 0; k < flow->step[i].nchange; k++) {
+            const fw_process_change *c = &flow->step[i].change[k];
+            if (strcmp(c->kind, "add") == 0 && strcmp(c->material, material) == 0)
+                return c->thickness;
+        }
+    return NULL;
+}
+
+fw_process_etch fw_process_flow_etch(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        for (int k = 0; k < s->nchange; k++) {
+            const fw_process_change *c = &s->change[k];
+            if (!c->anisotropy || strcmp(c->kind, "remove") != 0 || !flow->material ||
+                strcmp(c->material, flow->material) != 0)
+                continue;
+            fw_process_etch e = {.rate = fw_process_step_argument(s, "rate"),
+                                 .lag = fw_process_step_argument(s, "probability"),
+                                 .anisotropy = c->anisotropy,
+                                 .over_etch = s->overrun_from};
+            for (int x = 0; x < s->nexposed && !e.selectivity; x++) {
+                e.selectivity = s->exposed[x].selectivity;
+                if (e.selectivity) e.mask = put_there(flow, i, s->exposed[x].material);
+            }
+            return e;
+        }
+    }
+    return (fw_process_etch){0};
+}
+
+/* what comes of the thickness that is planned, by the corner of the device layer; NULL: no quantity says it */
+static const char *made_thickness(const fw_process_flow *flow) {
+    for (int i = 0; i < flow->ncorner; i++)
+        if (flow->corner[i].of == FW_CORNER_THICKNESS && flow->corner[i].q)
+            return flow->corner[i].q->id;
+    return NULL;
+}
+
+fw_process_plating fw_process_flow_plating(const fw_process_flow *flow, const char *efficiency) {
+    fw_process_plating best = {0};
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        const fw_quantity *eta = fw_process_step_argument(s, "efficiency");
+        if (!s->law || strcmp(s->law, "faraday") != 0 || !eta || !eta->id ||
+            !fw_process_step_is_op(s, "plate"))
+            continue;
+        fw_process_plating is = {.thickness = fw_process_step_argument(s, "thickness"),
+                                 .density = fw_process_step_argument(s, "density"),
+                                 .valence = fw_process_step_argument(s, "valence"),
+                                 .molar_mass = fw_process_step_argument(s, "molar_mass"),
+                                 .efficiency = eta};
+        for (int k = 0; k < s->nchange; k++)
+            if (strcmp(s->change[k].kind, "add") == 0) is.material = s->change[k].material;
+        const bool device =
+            is.material && flow->material && strcmp(is.material, flow->material) == 0;
+        if (device) is.made = made_thickness(flow);
+        if (strcmp(eta->id, efficiency) == 0) return is;
+        if (!best.efficiency || (device && !best.made)) best = is;
+    }
+    return best;
 }

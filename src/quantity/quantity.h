@@ -69,6 +69,8 @@ typedef struct fw_quantity {
     double uncertainty; /* standard, absolute, SI; >= 0 */
     bool interval;      /* the uncertainty was given as a range: low to high, SI */
     double low, high;
+    bool spread_taken;  /* some of the uncertainty is how wafers are taken to differ, not read: */
+    double spread;      /* so much, standard, SI; 0: nothing says it */
     double least, most; /* plausible range, SI; both 0: none was given */
     const char *range;  /* name of a plausible range of packs; NULL: that of its dimension */
     bool replaced;      /* by a laboratory: `place` is in its file */

@@ -543,3 +543,50 @@ fw_status fw_recipe_asrun_add_plan(fw_arena *arena, const fw_recipe_asrun *run,
     FW_NEED(*line = fw_arena_printf(arena, "%s%s%s\n", text, chain_word, chain));
     return FW_OK;
 }
+
+/* ---- was it planned as the flow plans it here? ----
+   What calibrate finds of edges is what is left beyond what the wet etch was planned to take. The line of the run says how long it
+   was planned; the law of its step, with the values that the flow has here, how long it would be now. */
+
+/* the last run of the step on the wafer by the time of e; NULL: none is in the log */
+static const fw_recipe_asrun_entry *
+run_by(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, const fw_process_step *step) {
+    const fw_recipe_asrun_entry *last = NULL;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        if (o->step == step && same_wafer(o, e) && o->start_s <= e->start_s &&
+            !fw_recipe_asrun_taken_back(run, o) && (!last || o->start_s >= last->start_s))
+            last = o;
+    return last;
+}
+
+fw_status fw_recipe_asrun_ask_plan(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, int n,
+                                   const fw_recipe_coupon *first, bool *otherwise,
+                                   fw_diags *diags) {
+    fw_text how = fw_text_new(arena);
+    *otherwise = false;
+    for (const fw_process_step *s = run->flow->step; n > 0 && e->step && s <= e->step; s++) {
+        bool takes = false;
+        for (int k = 0; k < s->nchange; k++)
+            takes = takes || fw_process_change_takes_edges(run->flow, &s->change[k]);
+        if (!takes || how.length > 0) continue;
+        const fw_recipe_asrun_entry *o = run_by(run, e, s);
+        if (!o) fw_text_printf(&how, "step %s is not in the log of its wafer", s->id);
+        for (; o && how.length == 0; o = fw_recipe_asrun_goes_on_from(run, o)) {
+            FW_TRY(fw_recipe_asrun_put_otherwise(arena, run, o, &how));
+            *otherwise = how.length > 0 && o->as_set->time.computable;
+        }
+    }
+    if (how.length == 0) return FW_OK;
+    FW_TRY(fw_text_end(&how));
+    fw_diag_warning(
+        diags, 735, first->row.place, "%d reading%s of %s at step %s%s%s %s: %s%s", n,
+        n > 1 ? "s" : "", first->row.coupon, e->step->id, e->wafer ? " of wafer " : "",
+        e->wafer ? e->wafer : "",
+        *otherwise ? (n > 1 ? "do not count" : "does not count") : (n > 1 ? "count" : "counts"),
+        how.data,
+        *otherwise ? ". Calibrate them with the laboratory packs that their plan had (--lab)"
+                   : ", so that what it was planned to take is taken to be what the flow "
+                     "plans here");
+    return diags->failed ? FW_NOMEM : FW_OK;
+}

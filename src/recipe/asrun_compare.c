@@ -29,7 +29,6 @@ static fw_status add(builder *b, const fw_recipe_asrun_entry *e, const char *wha
     return FW_OK;
 }
 
-/* "48 to 52", "at most 52" */
 static void put_unit(fw_text *out, const char *unit) {
     if (strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
 }

@@ -80,9 +80,8 @@ static const fw_process_accept *measure_named(const fw_process_step *step, const
 static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e,
                               const char *name, const char *value) {
     const fw_process_accept *a = measure_named(e->step, name);
-    /* without its plan, whose values may stand in the name of a measure, only coupons are wanted; of a former plan what has a
-       name in this one */
-    if (!r->bound && (!r->former || !a)) return FW_OK;
+    /* without its plan, whose values may stand in the name of a measure, and of a former one: what has a name in this flow */
+    if (!r->bound && !a) return FW_OK;
     if (!a) {
         const char *known[MOST_NAMES];
         int n = 0;
@@ -394,7 +393,13 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
         return read_planned(r, e, value);
     if (strncmp(name, "set ", 4) == 0) return read_setting(r, e, name + 4, value);
     if (strcmp(name, "coupon") == 0) return read_coupon(r, e, value);
-    return read_measure(r, e, name, value);
+    if (r->bound || r->former) return read_measure(r, e, name, value);
+    fw_diags quiet =
+        fw_diags_new(r->arena); /* it was looked at with its plan, where it was written */
+    fw_recipe_asrun_reader without = *r;
+    without.diags = &quiet;
+    const fw_status status = read_measure(&without, e, name, value);
+    return status == FW_INPUT ? FW_OK : status;
 }
 
 /* an entry of what became of a wafer is of that wafer, and of nothing else */
@@ -498,24 +503,33 @@ static bool same_run(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry
     return a->step == b->step && fw_text_same(a->wafer, b->wafer) && a->start_s == b->start_s;
 }
 
-/* the step as it was set in this run, of which earlier entries may be */
-static fw_status take_settings(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e) {
-    const fw_recipe_asrun *run = r->run;
-    int n = 0, most = e->nset;
-    if (!r->bound && e->as_set) return FW_OK; /* by its line */
-    e->as_set = e->step;
-    if (!r->bound || !e->step) return FW_OK;
+fw_status fw_recipe_asrun_as_set(fw_arena *arena, const fw_recipe_asrun *run,
+                                 const fw_recipe_asrun_entry *e, bool anew,
+                                 const fw_process_step **as_set) {
+    int n = 0, most = e->nset + (anew ? e->step->nargument : 0);
+    *as_set = e->step;
     for (int i = 0; i < run->nentry; i++)
         if (same_run(&run->entry[i], e)) most += run->entry[i].nset;
     if (most == 0) return FW_OK;
-    fw_process_set *set = fw_arena_array(r->arena, fw_process_set, (size_t)most);
+    fw_process_set *set = fw_arena_array(arena, fw_process_set, (size_t)most);
     FW_NEED(set);
+    for (int i = 0; anew && i < e->step->nargument; i++) {
+        const fw_quantity *q = e->step->argument[i].q;
+        if (!q->unknown) set[n++] = (fw_process_set){q, q->value, q->uncertainty};
+    }
     for (int i = 0; i <= run->nentry; i++) { /* the last one says how it was */
         const fw_recipe_asrun_entry *of = i < run->nentry ? &run->entry[i] : e;
         for (int k = 0; k < of->nset && (of == e || same_run(of, e)); k++)
             n += read_set(&of->set[k], &set[n]);
     }
-    return fw_process_step_as_set(r->arena, e->step, set, n, &e->as_set);
+    return fw_process_step_as_set(arena, e->step, set, n, as_set);
+}
+
+static fw_status take_settings(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e) {
+    if (!r->bound && e->as_set) return FW_OK; /* by its line */
+    e->as_set = e->step;
+    if (!r->bound || !e->step) return FW_OK;
+    return fw_recipe_asrun_as_set(r->arena, r->run, e, false, &e->as_set);
 }
 
 fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char *words, size_t n,

@@ -295,54 +295,11 @@ void fw_recipe_chart_svg(const fw_recipe_chart *c, fw_text *out) {
     fw_svg_end(out);
 }
 
-/* ---- what a coupon was etched at ---- */
+/* ---- the coupons of a log, as calibrate takes them ---- */
 
 static bool of_wafer(const fw_recipe_asrun_entry *a, const fw_recipe_asrun_entry *b) {
     return !a->wafer || !b->wafer || strcmp(a->wafer, b->wafer) == 0;
 }
-
-static void condition_of_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                             const char *rate, fw_process_condition which,
-                             fw_process_measurement *row) {
-    const fw_recipe_asrun_entry *of =
-        NULL; /* the run; what is read later of it has its start, too */
-    fw_quantity_unit unit;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[i];
-        if (o->step && fw_process_step_corrects(o->step, which, rate) && of_wafer(o, e) &&
-            !fw_recipe_asrun_taken_back(run, o) && o->start_s <= e->start_s &&
-            (!of || o->start_s > of->start_s))
-            of = o;
-    }
-    for (int i = 0; of && i < run->nentry && !(row->condition[which] > 0.0); i++) {
-        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
-        if (o->step != of->step || !of_wafer(o, of) || o->start_s != of->start_s) continue;
-        for (int k = 0; k < o->nset; k++) {
-            const fw_recipe_set *s = &o->set[k];
-            if (!s->q || isnan(s->value) ||
-                s->q != fw_process_step_corrects(o->step, which, rate) ||
-                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
-                continue;
-            row->condition[which] = fw_quantity_unit_to_si(&unit, s->value);
-            unit.offset = 0.0;
-            row->condition_uncertainty[which] =
-                s->q->unknown
-                    ? fw_quantity_unit_to_si(&unit, fw_process_written_uncertainty(s->text))
-                    : s->q->uncertainty;
-        }
-    }
-}
-
-/* the temperature and the open area of a rate that was read in this entry and does not say them: what was set of the run that it
-   is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else they stay not said */
-static void etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                      fw_process_measurement *row) {
-    const char *rate = fw_process_coupon_rate(run->flow, row);
-    for (int k = 0; rate && k < FW_CONDITIONS; k++)
-        condition_of_run(run, e, rate, (fw_process_condition)k, row);
-}
-
-/* ---- the coupons of a log, as calibrate takes them ---- */
 
 /* Is b, which comes later, in the place of a? It reads the same feature of the same drawn size again. A rate is read off
    several times of one wafer, which are readings of their own; where all readings of a coupon are of one run, another `at` is
@@ -428,19 +385,34 @@ static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
     return true;
 }
 
-/* Readings of a step that was not run as it is meant to be speak of that run. They count, since nobody else knows whether
-   what they tell depends on it. Times are not looked at: they are planned for a device, and this is of its log alone */
-static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun_entry *e, fw_diags *diags) {
+/* how it went otherwise than planned; of: "S14 (line 3)", "" of the entry itself */
+static void put_how(fw_text *out, const fw_recipe_asrun_entry *o, const char *of) {
+    const fw_recipe_measured *m = of[0] ? fw_recipe_asrun_not_accepted(o) : NULL;
+    for (int i = 0; i < o->nset; i++)
+        if (!fw_recipe_asrun_allowed(&o->set[i])) {
+            fw_text_printf(out, "; %s%s was ", of, o->set[i].name);
+            fw_recipe_put_value(out, o->set[i].value);
+            if (strcmp(o->set[i].q->unit, "1") != 0) fw_text_printf(out, " %s", o->set[i].q->unit);
+        }
+    if (m) fw_text_printf(out, "; %s%s was %s, which is not accepted", of, m->measure, m->value);
+    if (o->deviation) fw_text_printf(out, "; %swritten down: %s", of, o->deviation);
+}
+
+/* Readings of a step that was not run as it is meant to be, or of a wafer of which an earlier one was not, where what is found
+   takes that wafer to be as planned (`planned`), speak of that run. They count, since nobody else knows whether what they tell
+   depends on it. Times are looked at below */
+static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun *run,
+                                const fw_recipe_asrun_entry *e, bool planned, fw_diags *diags) {
     fw_text text = fw_text_new(arena);
     if (e->ncoupon == 0 || !e->step) return FW_OK;
-    for (int i = 0; i < e->nset; i++)
-        if (!fw_recipe_asrun_allowed(&e->set[i])) {
-            fw_text_printf(&text, "; %s was ", e->set[i].name);
-            fw_recipe_put_value(&text, e->set[i].value);
-            if (strcmp(e->set[i].q->unit, "1") != 0)
-                fw_text_printf(&text, " %s", e->set[i].q->unit);
-        }
-    if (e->deviation) fw_text_printf(&text, "; written down: %s", e->deviation);
+    put_how(&text, e, "");
+    for (int i = 0; planned && i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[i];
+        if (!fw_recipe_asrun_is_behind(run, o, e)) continue;
+        const char *of = fw_arena_printf(arena, "%s (line %d): ", o->step->id, o->line);
+        FW_NEED(of);
+        put_how(&text, o, of);
+    }
     if (text.length == 0) return FW_OK;
     FW_TRY(fw_text_end(&text));
     fw_diag_warning(diags, 652, (fw_place){0},
@@ -469,6 +441,16 @@ static const fw_recipe_asrun_entry *out_of_window(const fw_recipe_asrun *run,
         const char *judged = fw_recipe_asrun_in_time(run, e);
         if (strcmp(judged, "short") == 0 || strcmp(judged, "long") == 0) return e;
     }
+    return NULL;
+}
+
+/* the run by which the layer that the wet etch takes is not as planned; NULL: none is known */
+static const fw_recipe_asrun_entry *layer_not_accepted(const fw_recipe_asrun *run,
+                                                       const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
+        if (fw_recipe_asrun_is_behind(run, o, e) &&
+            fw_process_step_makes_edges(run->flow, o->step) && fw_recipe_asrun_not_accepted(o))
+            return o;
     return NULL;
 }
 
@@ -504,6 +486,37 @@ static bool is_of_bad_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
                           : (n > 1 ? "do not count" : "does not count"),
         why.data, counted->all_runs ? ", and --all-runs asks for all" : "; --all-runs counts all");
     return !counted->all_runs;
+}
+
+/* FW-D735, FW-D693; true: its readings that follow the plan do not count */
+static fw_status is_otherwise(fw_arena *arena, const fw_recipe_asrun *run,
+                              const fw_recipe_asrun_entry *e, const bool *follows,
+                              const fw_recipe_counted *counted, bool *otherwise, fw_diags *diags) {
+    const fw_recipe_coupon *first = NULL;
+    int n = 0;
+    *otherwise = false;
+    for (int k = 0; k < e->ncoupon; k++) {
+        fw_recipe_read_again again;
+        if (follows[k] && !read_again(run, (int)(e - run->entry), k, &again) && n++ == 0)
+            first = &e->coupon[k];
+    }
+    if (n == 0) return FW_OK;
+    FW_TRY(fw_recipe_asrun_ask_plan(arena, run, e, n, first, otherwise, diags));
+    const fw_recipe_asrun_entry *o = layer_not_accepted(run, e);
+    if (*otherwise || !o) return FW_OK;
+    *otherwise = !counted->all_runs;
+    fw_diag_warning(diags, 693, first->row.place,
+                    "%d reading%s of %s at step %s%s%s %s: %s of step %s (line %d) was not "
+                    "accepted, %s%s",
+                    n, n > 1 ? "s" : "", first->row.coupon, e->step->id,
+                    e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "",
+                    counted->all_runs ? (n > 1 ? "count" : "counts")
+                                      : (n > 1 ? "do not count" : "does not count"),
+                    fw_recipe_asrun_not_accepted(o)->measure, o->step->id, o->line,
+                    fw_recipe_asrun_not_accepted(o)->value,
+                    counted->all_runs ? ", and --all-runs asks for all"
+                                      : "; --all-runs counts all");
+    return diags->failed ? FW_NOMEM : FW_OK;
 }
 
 /* is the wafer in the list? */
@@ -543,14 +556,21 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
     for (int i = 0; i < run->nentry; i++) {
         const fw_recipe_asrun_entry *e = &run->entry[i];
         if (is_among(counted->without, e->wafer) || fw_recipe_asrun_taken_back(run, e)) continue;
-        FW_TRY(tell_otherwise(arena, e, diags));
         fw_process_measurement *row =
             fw_arena_array(arena, fw_process_measurement, (size_t)e->ncoupon + 1);
-        bool *there = fw_arena_array(arena, bool, (size_t)e->ncoupon + 1);
-        FW_NEED(row && there ? row : NULL);
+        bool *there = fw_arena_array(arena, bool, (size_t)e->ncoupon + 1),
+             *follows = fw_arena_array(arena, bool, (size_t)e->ncoupon + 1), any = false, otherwise;
+        FW_NEED(row && there ? follows : NULL);
         for (int k = 0; k < e->ncoupon; k++)
             FW_TRY(fw_recipe_asrun_stage(arena, run, e, &e->coupon[k], &row[k], &there[k], diags));
         const bool bad = is_of_bad_run(run, e, there, counted, diags);
+        for (int k = 0; k < e->ncoupon; k++) {
+            follows[k] =
+                there[k] && !(bad && isnan(row[k].at)) && fw_process_coupon_follows_plan(&row[k]);
+            any = any || follows[k];
+        }
+        FW_TRY(is_otherwise(arena, run, e, follows, counted, &otherwise, diags));
+        FW_TRY(tell_otherwise(arena, run, e, any && !otherwise, diags));
         for (int k = 0; k < e->ncoupon; k++) {
             const fw_recipe_coupon *c = &e->coupon[k];
             fw_recipe_read_again again;
@@ -559,13 +579,13 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
                 warn_again(&again, diags);
                 continue;
             }
-            if (!there[k] || (bad && isnan(c->row.at))) continue;
+            if (!there[k] || (bad && isnan(c->row.at)) || (otherwise && follows[k])) continue;
             fw_process_reading *r = &readings->item[readings->n++];
             *r = (fw_process_reading){.row = row[k],
                                       .wafer = e->wafer ? e->wafer : "",
                                       .step = e->step->id,
                                       .nsite = c->nsite};
-            etched_at(run, e, &r->row);
+            fw_recipe_asrun_etched_at(run, e, &r->row);
             FW_NEED(r->date = fw_arena_strndup(arena, e->end, 10));
             for (int s = 0; s < FW_RECIPE_SITES; s++) {
                 double off = c->site[s] - c->row.value;

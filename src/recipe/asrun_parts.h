@@ -62,6 +62,28 @@ fw_status fw_recipe_asrun_stage(fw_arena *arena, const fw_recipe_asrun *run,
                                 const fw_recipe_asrun_entry *e, const fw_recipe_coupon *c,
                                 fw_process_measurement *row, bool *there, fw_diags *diags);
 
+/* asrun_entry.c: the step of e as it was set in this run, of which earlier entries may be; anew: of a flow that was not computed,
+   as its law times it with the values that the flow has here */
+fw_status fw_recipe_asrun_as_set(fw_arena *arena, const fw_recipe_asrun *run,
+                                 const fw_recipe_asrun_entry *e, bool anew,
+                                 const fw_process_step **as_set);
+/* asrun_runs.c: is o the run of an earlier step, of the wafer and by the time of e, that stands in the end? And what of a run is
+   not accepted; NULL: nothing that the flow alone has limits for */
+bool fw_recipe_asrun_is_behind(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o,
+                               const fw_recipe_asrun_entry *e);
+const fw_recipe_measured *fw_recipe_asrun_not_accepted(const fw_recipe_asrun_entry *o);
+/* asrun_values.c: FW-D736 where what was measured or set of an entry that was just added is outside of what its step accepts */
+fw_status fw_recipe_asrun_ask_values(const fw_recipe_asrun_entry *e, fw_place place,
+                                     fw_diags *diags);
+/* asrun_time.c: "step S14 (line 2, ...) was planned with 25 min, and with the values that are used here it would be 18 min"; nothing
+   where it was planned as the flow plans it here */
+fw_status fw_recipe_asrun_put_otherwise(fw_arena *arena, const fw_recipe_asrun *run,
+                                        const fw_recipe_asrun_entry *o, fw_text *how);
+/* asrun.c: FW-D735; is there, behind the readings of e that follow the plan, a run that was planned otherwise than the flow plans
+   it here? `first`: of these n readings */
+fw_status fw_recipe_asrun_ask_plan(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, int n,
+                                   const fw_recipe_coupon *first, bool *otherwise, fw_diags *diags);
 /* asrun_compare.c, asrun_values.c: is it the last entry of its step and wafer, which counts? what is accepted of its step; a
    limit as it is written; does what was measured and set keep its limits? */
 bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
@@ -91,6 +113,9 @@ const fw_recipe_asrun_entry *fw_recipe_asrun_run_before(const fw_recipe_asrun *r
    away what it works on */
 const fw_recipe_asrun_entry *fw_recipe_asrun_goes_on_from(const fw_recipe_asrun *run,
                                                           const fw_recipe_asrun_entry *e);
+/* asrun_runs.c: what the run of a rate that was read in the entry was set to, into a row that does not say it */
+void fw_recipe_asrun_etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                               fw_process_measurement *row);
 /* asrun_runs.c: does e say that it stands in the place of o? did any entry say so of o? Then o never was */
 bool fw_recipe_asrun_replaces(const fw_recipe_asrun_entry *e, const fw_recipe_asrun_entry *o);
 bool fw_recipe_asrun_taken_back(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o);

@@ -534,3 +534,53 @@ fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_
     }
     return FW_OK;
 }
+
+bool fw_recipe_asrun_is_behind(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o,
+                               const fw_recipe_asrun_entry *e) {
+    return o != e && o->step && e->step && o->step < e->step && is_of(o, e->wafer) &&
+           o->start_s <= e->start_s && !fw_recipe_asrun_taken_back(run, o) &&
+           fw_recipe_asrun_is_last(run, o) && !fw_recipe_asrun_overtaken(run, o, e->wafer);
+}
+
+/* ---- what a coupon was etched at ---- */
+
+static void condition_of_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                             const char *rate, fw_process_condition which,
+                             fw_process_measurement *row) {
+    const fw_recipe_asrun_entry *of =
+        NULL; /* the run; what is read later of it has its start, too */
+    fw_quantity_unit unit;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[i];
+        if (o->step && fw_process_step_corrects(o->step, which, rate) && is_of(o, e->wafer) &&
+            !fw_recipe_asrun_taken_back(run, o) && o->start_s <= e->start_s &&
+            (!of || o->start_s > of->start_s))
+            of = o;
+    }
+    for (int i = 0; of && i < run->nentry && !(row->condition[which] > 0.0); i++) {
+        const fw_recipe_asrun_entry *o = &run->entry[run->nentry - 1 - i]; /* the last one counts */
+        if (o->step != of->step || !is_of(o, of->wafer) || o->start_s != of->start_s) continue;
+        for (int k = 0; k < o->nset; k++) {
+            const fw_recipe_set *s = &o->set[k];
+            if (!s->q || isnan(s->value) ||
+                s->q != fw_process_step_corrects(o->step, which, rate) ||
+                !fw_quantity_unit_parse(s->q->unit, strlen(s->q->unit), &unit, NULL, NULL))
+                continue;
+            row->condition[which] = fw_quantity_unit_to_si(&unit, s->value);
+            unit.offset = 0.0;
+            row->condition_uncertainty[which] =
+                s->q->unknown
+                    ? fw_quantity_unit_to_si(&unit, fw_process_written_uncertainty(s->text))
+                    : s->q->uncertainty;
+        }
+    }
+}
+
+/* the temperature and the open area of a rate that was read in this entry and does not say them: what was set of the run that it
+   is of, which is the last one of the wafer, by then, of a step whose law takes the rate; else they stay not said */
+void fw_recipe_asrun_etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                               fw_process_measurement *row) {
+    const char *rate = fw_process_coupon_rate(run->flow, row);
+    for (int k = 0; rate && k < FW_CONDITIONS; k++)
+        condition_of_run(run, e, rate, (fw_process_condition)k, row);
+}

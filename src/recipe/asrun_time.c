@@ -505,40 +505,6 @@ static fw_status ask_bath(fw_arena *arena, const fw_recipe_asrun *run,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* FW-D736 where what was measured or set is outside of what the step accepts */
-static fw_status ask_value(const fw_recipe_asrun_entry *e, const char *what, fw_text *value,
-                           fw_place place, fw_diags *diags) {
-    FW_TRY(fw_text_end(value));
-    fw_diag_warning(diags, 736, place,
-                    "step %s%s%s: %s = %s; do what the sheet says of that before the next step%s",
-                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", what,
-                    value->data, e->deviation ? "" : ", and write down why (deviation=...)");
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-static fw_status ask_values(const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
-    for (const fw_recipe_measured *m = e->measured; m < e->measured + e->nmeasured; m++) {
-        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
-        fw_text text = fw_text_new(diags->arena);
-        if (fw_recipe_asrun_accepted(a, m)) continue;
-        fw_text_printf(&text, "%s, accepted is ", m->value);
-        if (isnan(m->number))
-            fw_text_add(&text, "yes");
-        else
-            fw_recipe_put_span(&text, a->low, a->high);
-        if (!isnan(m->number) && strcmp(a->unit, "1") != 0) fw_text_printf(&text, " %s", a->unit);
-        FW_TRY(ask_value(e, m->measure, &text, place, diags));
-    }
-    for (const fw_recipe_set *s = e->set; s < e->set + e->nset; s++) {
-        fw_text text = fw_text_new(diags->arena);
-        if (fw_recipe_asrun_allowed(s)) continue;
-        fw_text_printf(&text, "%s, the step allows ", s->text);
-        fw_recipe_put_span(&text, s->low, s->high);
-        FW_TRY(ask_value(e, s->name, &text, place, diags));
-    }
-    return FW_OK;
-}
-
 fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
                                    const fw_recipe_asrun_entry *e, fw_place place,
                                    fw_diags *diags) {
@@ -546,7 +512,7 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     if (e->fate != FW_FATE_RUN || !e->step)
         return FW_OK; /* what became of a wafer is no step that was run */
     FW_TRY(ask_amount(arena, run, e, place, diags));
-    FW_TRY(ask_values(e, place, diags));
+    FW_TRY(fw_recipe_asrun_ask_values(e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_waits(run, e, place, diags));
     FW_TRY(ask_runs(arena, run, e, place, diags));
     FW_TRY(ask_as_set(arena, run, e, place, diags));
@@ -591,4 +557,37 @@ void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asr
                    FW_PLAIN_DIGITS);
     fw_json_truth(out, "longer_unless_finished", fw_recipe_asrun_is_late_as_set(run, e));
     fw_json_end(out);
+}
+
+/* ---- what it was planned with, and what it would be planned with here ---- */
+
+/* with over-etch and pauses; without handling, and what is finished at the bench */
+static double etch_s(const fw_process_step *s) {
+    return s->booked_s - (s->booked_stop_s - s->booked_stop_own_s) - s->finish_s;
+}
+
+/* as they are written, with six digits */
+static bool as_long(double a_s, double b_s, const fw_process_step *of) {
+    return fabs(a_s - b_s) <= 1e-4 * fmax(a_s, b_s) + 1e-5 * of->booked_stop_s;
+}
+
+fw_status fw_recipe_asrun_put_otherwise(fw_arena *arena, const fw_recipe_asrun *run,
+                                        const fw_recipe_asrun_entry *o, fw_text *how) {
+    const fw_process_step *now, *then = o->as_set;
+    FW_TRY(fw_recipe_asrun_as_set(arena, run, o, true, &now));
+    if (then->time.computable == now->time.computable &&
+        (!now->time.computable || (as_long(etch_s(then), etch_s(now), then) &&
+                                   as_long(then->time.nominal_s, now->time.nominal_s, then))))
+        return FW_OK;
+    fw_text_printf(how, "step %s (line %d, %s) was planned with ", o->step->id, o->line, o->start);
+    if (then->time.computable)
+        fw_schedule_put_duration(how, etch_s(then));
+    else
+        fw_text_add(how, "a time that its line does not say");
+    fw_text_add(how, ", and with the values that are used here it would be ");
+    if (now->time.computable)
+        fw_schedule_put_duration(how, etch_s(now));
+    else
+        fw_text_add(how, "none");
+    return FW_OK;
 }

@@ -559,32 +559,38 @@ fw_status fw_recipe_asrun_times(const fw_recipe_asrun_reader *r, fw_recipe_asrun
     return FW_OK;
 }
 
-/* ---- limits ---- */
+/* ---- what is not accepted, at once ---- */
 
-double fw_recipe_asrun_limit(const char *text, double absent) {
-    double value;
-    return text[0] && fw_number_parse(text, strlen(text), &value) ? value : absent;
+static fw_status ask_value(const fw_recipe_asrun_entry *e, const char *what, fw_text *value,
+                           fw_place place, fw_diags *diags) {
+    FW_TRY(fw_text_end(value));
+    fw_diag_warning(diags, 736, place,
+                    "step %s%s%s: %s = %s; do what the sheet says of that before the next step%s",
+                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", what,
+                    value->data, e->deviation ? "" : ", and write down why (deviation=...)");
+    return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-bool fw_recipe_asrun_inside(const char *low, const char *high, double value) {
-    return value >= fw_recipe_asrun_limit(low, -(double)INFINITY) &&
-           value <= fw_recipe_asrun_limit(high, (double)INFINITY);
-}
-
-bool fw_recipe_asrun_allowed(const fw_recipe_set *set) {
-    return isnan(set->value) || fw_recipe_asrun_inside(set->low, set->high, set->value);
-}
-
-const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
-    for (int i = 0; i < step->naccept; i++)
-        if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
-    return NULL;
-}
-
-bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
-    if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
-    for (int i = 0; i < FW_RECIPE_SITES; i++)
-        if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(a->low, a->high, m->site[i]))
-            return false;
-    return true;
+fw_status fw_recipe_asrun_ask_values(const fw_recipe_asrun_entry *e, fw_place place,
+                                     fw_diags *diags) {
+    for (const fw_recipe_measured *m = e->measured; m < e->measured + e->nmeasured; m++) {
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
+        fw_text text = fw_text_new(diags->arena);
+        if (fw_recipe_asrun_accepted(a, m)) continue;
+        fw_text_printf(&text, "%s, accepted is ", m->value);
+        if (isnan(m->number))
+            fw_text_add(&text, "yes");
+        else
+            fw_recipe_put_span(&text, a->low, a->high);
+        if (!isnan(m->number) && strcmp(a->unit, "1") != 0) fw_text_printf(&text, " %s", a->unit);
+        FW_TRY(ask_value(e, m->measure, &text, place, diags));
+    }
+    for (const fw_recipe_set *s = e->set; s < e->set + e->nset; s++) {
+        fw_text text = fw_text_new(diags->arena);
+        if (fw_recipe_asrun_allowed(s)) continue;
+        fw_text_printf(&text, "%s, the step allows ", s->text);
+        fw_recipe_put_span(&text, s->low, s->high);
+        FW_TRY(ask_value(e, s->name, &text, place, diags));
+    }
+    return FW_OK;
 }

@@ -493,6 +493,45 @@ bool fw_recipe_asrun_time_read(const char *s, double *time_s, double *ahead_s) {
     return ahead_read(s + (seconds ? 19 : 16), ahead_s);
 }
 
+/* ---- is it within its limits? ---- */
+
+double fw_recipe_asrun_limit(const char *text, double absent) {
+    double value;
+    return text[0] && fw_number_parse(text, strlen(text), &value) ? value : absent;
+}
+
+bool fw_recipe_asrun_inside(const char *low, const char *high, double value) {
+    return value >= fw_recipe_asrun_limit(low, -(double)INFINITY) &&
+           value <= fw_recipe_asrun_limit(high, (double)INFINITY);
+}
+
+bool fw_recipe_asrun_allowed(const fw_recipe_set *set) {
+    return isnan(set->value) || fw_recipe_asrun_inside(set->low, set->high, set->value);
+}
+
+const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, const char *measure) {
+    for (int i = 0; i < step->naccept; i++)
+        if (strcmp(step->accept[i].measure, measure) == 0) return &step->accept[i];
+    return NULL;
+}
+
+bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
+    if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
+    for (int i = 0; i < FW_RECIPE_SITES; i++)
+        if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(a->low, a->high, m->site[i]))
+            return false;
+    return true;
+}
+
+const fw_recipe_measured *fw_recipe_asrun_not_accepted(const fw_recipe_asrun_entry *o) {
+    for (int i = 0; i < o->nmeasured; i++)
+        if (!fw_recipe_asrun_accepted(fw_recipe_asrun_accept(o->step, o->measured[i].measure),
+                                      &o->measured[i]))
+            return &o->measured[i];
+    return NULL;
+}
+
+/* "48 to 52", "at most 52" */
 void fw_recipe_put_span(fw_text *out, const char *low, const char *high) {
     const char *between = low[0] && high[0] ? " to " : low[0] ? " or more" : "at most ";
     fw_text_printf(out, "%s%s%s", low, between, high);

@@ -15,6 +15,9 @@ const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS] = {
     {"value", DECIMAL, .sentence = "In the unit; needed unless it is unknown."},
     {"u", SIZE, .sentence = "Standard uncertainty, in the unit; 0: exact."},
     {"urel", SIZE, .sentence = "Or the relative one."},
+    {"spread", SIZE,
+     .sentence = "Of the uncertainty, how wafers are taken to differ, standard, in the unit, where "
+                 "it was not read on several of them; 0: nothing says it."},
     {"lo", DECIMAL, .sentence = "Or the lowest it can be, with hi."},
     {"hi", DECIMAL, .sentence = "The highest."},
     {"unit", .required = true, .sentence = "1 for a pure number."},
@@ -87,15 +90,16 @@ static void check_names(const fw_xml_element *e, fw_diags *diags) {
         known[k] = fw_xml_quantity_rows[k].name;
     for (int i = 0; i < e->nattribute; i++) {
         int found = 0;
-        for (int k = 0; k < FW_QUANTITY_ROWS; k++)
-            found |= strcmp(known[k], e->attribute[i].name) == 0;
+        for (int k = 0; k < FW_QUANTITY_ROWS && !found; k++)
+            found = strcmp(known[k], e->attribute[i].name) == 0;
         if (found) continue;
         const char *better = fw_did_you_mean(e->attribute[i].name, known, FW_QUANTITY_ROWS);
-        fw_diag_error(diags, 42, e->attribute[i].name_place, "<q> has no attribute '%s'%s%s%s",
-                      e->attribute[i].name, better ? "; did you mean '" : "", better ? better : "",
-                      better ? "'?"
-                             : "; known are id value u urel lo hi unit status u-status src note "
-                               "unknown least most range");
+        fw_diag_error(
+            diags, 42, e->attribute[i].name_place, "<q> has no attribute '%s'%s%s%s",
+            e->attribute[i].name, better ? "; did you mean '" : "", better ? better : "",
+            better ? "'?"
+                   : "; known are id value u urel spread lo hi unit status u-status src note "
+                     "unknown least most range");
     }
 }
 
@@ -239,6 +243,24 @@ static void read_uncertainty(const fw_xml_element *e, fw_diags *diags, double wr
     }
 }
 
+/* the part of the uncertainty by which wafers are taken to differ */
+static void read_spread(const fw_xml_element *e, fw_diags *diags, const fw_quantity_unit *unit,
+                        fw_quantity *q) {
+    static const double rounding = 1e-3; /* both are written with four digits */
+    double spread;
+    if (!number(e, "spread", diags, &spread)) return;
+    fw_quantity_unit scale = *unit;
+    scale.offset = 0.0;
+    q->spread_taken = true;
+    q->spread = fw_quantity_unit_to_si(&scale, spread);
+    if (!(q->spread >= 0.0) || q->spread > q->uncertainty * (1.0 + rounding)) {
+        q->spread = 0.0;
+        fw_diag_error(diags, 71, value_place(e, "spread"),
+                      "spread is a part of the standard uncertainty: no less than 0, and no more "
+                      "than that");
+    }
+}
+
 static void read_value(const fw_xml_element *e, fw_diags *diags, const fw_quantity_unit *unit,
                        fw_quantity *q) {
     const fw_xml_attribute *unknown = fw_xml_attribute_of(e, "unknown");
@@ -268,6 +290,7 @@ static void read_value(const fw_xml_element *e, fw_diags *diags, const fw_quanti
         return;
     }
     read_uncertainty(e, diags, written, unit, q);
+    read_spread(e, diags, unit, q);
 }
 
 bool fw_xml_quantity_check_range(const fw_quantity *q, const fw_quantity *range, fw_diags *diags) {

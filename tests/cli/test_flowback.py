@@ -390,6 +390,79 @@ class Flowback(unittest.TestCase):
         self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", self.here / "again.xml"))
         self.assertEqual(lab.read_bytes(), (self.here / "again.xml").read_bytes())
 
+    LINES = ("; coupon=cd-lines, line, drawn=6 um, value={0:.2f} {1:.2f} {2:.2f} um, u=0.03 um; "
+             "coupon=cd-lines, space, drawn=6 um, value={3:.2f} {4:.2f} {5:.2f} um, u=0.03 um")
+
+    def etched(self, wafer, taken, minutes, more="", before=""):
+        """lines whose edges lost so much, um, of a wafer that was etched so long"""
+        lines = [6 - 2 * taken + off for off in (0, 0.02, -0.02)] + [6 + 2 * taken + off for off in (0, -0.01, 0.02)]
+        return (f"{before}S14; start=2026-11-03T0{wafer}:00; end=2026-11-03T0{wafer}:{minutes}; by=AB; wafer={wafer}; second=CD{more}\n"
+                f"S15; start=2026-11-03T1{wafer}:00; end=2026-11-03T1{wafer}:07; by=AB; wafer={wafer}" + self.LINES.format(*lines) + "\n")
+
+    def value_of(self, pack, identity):
+        return next(q for q in tree.parse(pack).getroot().iter(SPACE + "q") if q.get("id") == identity)
+
+    def test_a_reading_is_of_the_plan_of_its_wafer(self):
+        """edges are what is left beyond what was planned then: with other values of now they would be false by the difference"""
+        over, entries, lab = self.here / "over.xml", self.here / "day.txt", self.here / "lab.xml"
+        over.write_text(f'<process xmlns="{SPACE[1:-1]}" id="t" version="1" title="t" flow="{SILICON}"><source id="lab" kind="measured">x'
+                        '</source><q id="al.overetch" value="0.5" u="0" unit="1" status="measured" src="lab"/></process>')
+        entries.write_text("".join(self.etched(w, 1.5, 27) for w in (1, 2, 3)))
+        self.expect(self.command("--lab", over, "--lot", "M", "--wafers", "4", "--entries", entries))
+        self.expect(self.command("--entry", "plan; start=2026-11-04T08:00; by=AB; note=over-etch back to 10 %"))
+        none = self.expect(run("calibrate", self.log, "--flow", SILICON, "--all-runs", "-o", lab), 3).stderr
+        self.assertEqual(none.count("[FW-D735]"), 3, none)
+        self.assertIn("step S14 (line 2, 2026-11-03T01:00) was planned with 25 min, and with the values that are used here it would be "
+                      "18 min 20 s", none)
+        self.assertFalse(lab.exists())
+        # the wafer of the plan of now counts alone, and those of the former one with its packs
+        entries.write_text(self.etched(4, 1.1, 20))
+        self.expect(self.command("--entries", entries))
+        one = self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", lab)).stderr
+        self.assertEqual(one.count("[FW-D735]"), 3, one)
+        self.assertLess(abs(float(self.value_of(lab, "made.al-edge").get("value"))), 0.02)
+        self.assertGreater(float(self.value_of(lab, "made.al-edge").get("spread")), 0.1)
+        then = self.expect(run("calibrate", self.log, "--flow", SILICON, "--lab", over, "-o", lab)).stderr
+        self.assertEqual(re.findall(r"of wafer (\d) do not count", then), ["4"])
+        self.assertLess(abs(float(self.value_of(lab, "made.al-edge").get("value"))), 0.02)
+        self.assertIsNone(self.value_of(lab, "made.al-edge").get("spread"))
+
+    def test_one_wafer_says_nothing_of_the_next(self):
+        """by its log or by a table; what check says of such a pack, and that the band keeps what the flow had"""
+        entries, lab = self.here / "day.txt", self.here / "lab.xml"
+        entries.write_text(self.etched(1, 1.1, 20))
+        self.expect(self.command("--wafers", "1", "--entries", entries))
+        (self.here / "lot.csv").write_text("coupon,feature,drawn_um,measured,u,unit,at,u_at,at_unit\ncd-lines,line,6,3.80,0.03,um,,,\n"
+                                           "cd-lines,space,6,8.19,0.03,um,,,\n")
+        for source, who in ((self.log, "of one wafer"), (self.here / "lot.csv", "a table has no wafers")):
+            said = self.expect(run("calibrate", source, "--flow", SILICON, "-o", lab)).stdout
+            self.assertIn(f"{who}: how the next one differs is taken to be what the flow had for it, +- 0.14 um", said)
+            self.assertGreater(float(self.value_of(lab, "made.al-edge").get("u")), 0.14)
+            told = self.expect(run("check", self.stage, "--flow", SILICON, "--lab", lab, "--advice", "none", "--accuracy", "3e-2")).stderr
+            self.assertIn("nobody has measured how wafers differ in made.al-edge (taken to be +- 0.14 um)", told)
+
+    def test_what_went_otherwise_before_a_reading(self):
+        """the layer that was not accepted, a deviation of an earlier step, and an etch that is not in the log"""
+        entries = self.here / "day.txt"
+        thin = "S03; start=2026-11-02T08:20; end=2026-11-02T08:50; by=AB; wafer=1; step height on the witness chip=0.6 0.6 0.6 0.61 0.6 um\n"
+        for number, (words, says, status) in enumerate((
+                (self.etched(1, 1.1, 20, before=thin), "step height on the witness chip of step S03 (line 2) was not accepted, 0.6 0.6 0.6 "
+                                                       "0.61 0.6 um; --all-runs counts all [FW-D693]", 3),
+                (self.etched(1, 1.1, 20, more="; deviation=acid of yesterday"), "S14 (line 2): written down: acid of yesterday; it counts "
+                                                                                "like any other", 0),
+                (self.etched(1, 1.1, 20).split("\n")[1], "count: step S14 is not in the log of its wafer", 0),
+                (self.etched(1, 1.1, 20), None, 0))):
+            self.log = self.here / f"{number}.log"
+            entries.write_text(words)
+            self.expect(self.command("--wafers", "1", "--entries", entries))
+            said = self.expect(run("calibrate", self.log, "--flow", SILICON, "-o", self.here / "lab.xml"), status).stderr
+            if says:
+                self.assertIn(says, said)
+            else:
+                self.assertEqual(re.findall(r"FW-D(?:652|693|735)", said), [])
+            if status:
+                self.expect(run("calibrate", self.log, "--flow", SILICON, "--all-runs", "-o", self.here / "lab.xml"))
+
     def test_refused(self):
         self.expect(self.etch(1, "--lot", "L7", "--wafers", "2"))
         whole = self.log.read_text()
@@ -448,8 +521,12 @@ cd-lines,space,10,12.05,0.2,um,,,
 undercut-ladder,width,16,13.10,0.08,um,50.5,0.3,um
 undercut-ladder,width,20,17.06,0.08,um,50.5,0.3,um
 """)
-        lab, alone = self.here / "lab.xml", self.here / "alone.xml"
-        self.expect(run("calibrate", self.here / "lot.csv", "--flow", SILICON, "-o", lab))
+        lab, alone, own = self.here / "lab.xml", self.here / "alone.xml", self.here / "own.xml"
+        # how wafers differ a table does not say, and what is taken for that is of each value alone: of a laboratory that knows it, little
+        stated = '<q id="{}" value="{}" u="{}" spread="{}" unit="{}" status="assumed" src="lab"/>'
+        own.write_text(f"""<process xmlns="{SPACE[1:-1]}" id="own" version="1" title="own" flow="{SILICON}"><source id="lab" kind="measured">x</source>
+{stated.format("made.al-edge", 0, 0.1, 0.01, "um")}{stated.format("litho.edge", 0, 0.001, 0.001, "um")}{stated.format("rie.A", 0.99, 0.003, 0.0002, 1)}</process>""")
+        self.expect(run("calibrate", self.here / "lot.csv", "--flow", SILICON, "--lab", own, "-o", lab))
         text = lab.read_text()
         start, end = text.index("  <correlation"), text.index("</correlation>") + len("</correlation>\n")
         alone.write_text(text[:start] + text[end:])

@@ -37,7 +37,9 @@ def schedule(g):
 def calibrate(g):
     e_line, e_space = (g["line"] - g["drawn"]) / 2, (g["drawn"] - g["space"]) / 2
     mean, u = (e_line + e_space) / 2, g["u"] / 2
-    return {"e_line": e_line, "e_space": e_space, "edge": mean + g["planned"], "u_edge": u / sqrt(2),
+    u_read, spread = u / sqrt(2), sqrt(g["u_flow"] ** 2 + g["printed"] ** 2 / 3)
+    return {"e_line": e_line, "e_space": e_space, "edge": mean + g["planned"], "u_read": u_read, "spread": spread,
+            "u_edge": sqrt(u_read**2 + spread**2),
             "chi2": sum(((e - mean) / u) ** 2 for e in (e_line, e_space))}
 
 

@@ -277,10 +277,99 @@ static void edges_about_nothing(void **state) {
     assert_null(strstr(c.item[0].note, "correlation"));
 }
 
+static const fw_process_calibrated *found(const fw_process_calibration *c, const char *id) {
+    for (int i = 0; i < c->count; i++)
+        if (strcmp(c->item[i].id, id) == 0) return &c->item[i];
+    fail_msg("no %s", id);
+    return NULL;
+}
+
+/* the pack of a calibration, in a flow: what is asked after its values */
+static int spreads_told(const fw_process_calibration *c, const char **message) {
+    fw_text pack = fw_text_new(arena);
+    fw_diags said = fw_diags_new(arena);
+    int told = 0;
+    assert_int_equal(fw_process_calibration_pack(silicon, c, "lot.log", "0123456789abcdef", &pack), FW_OK);
+    fw_process_flow *after = read_pack(arena, SILICON, NULL, NULL, &diags);
+    assert_int_equal(fw_process_lab_apply(arena, "lab.xml", pack.data, pack.length, after, &said), FW_OK);
+    assert_int_equal(fw_process_lab_ask(arena, after, &said), FW_OK);
+    for (size_t i = 0; i < said.count; i++)
+        if (said.item[i].number == 734) told++, *message = said.item[i].message;
+    for (int i = 0; i < c->count; i++) {
+        const fw_quantity *q = fw_process_flow_quantity(after, c->item[i].id);
+        assert_true(q->spread_taken == c->item[i].spread_taken);
+        assert_relative(q->uncertainty, c->item[i].uncertainty, 1e-3);
+        if (q->spread_taken) assert_near(q->spread, c->item[i].spread, 1e-3 * q->uncertainty);
+    }
+    return told;
+}
+
+/* One wafer does not say how the next one differs, and a table has no wafers: the flow's own uncertainty stays as that, a rate's in
+   proportion, an edge's with that of the printed edge that is within it. Where wafers differ by what the flow says, the next one is
+   met. Three wafers say it themselves. */
+static void one_wafer_keeps_the_spread(void **state) {
+    (void)state;
+    const double rel = fw_process_flow_quantity(silicon, "pan.R")->uncertainty /
+                       fw_process_flow_quantity(silicon, "pan.R")->value;
+    fw_process_calibration c, table;
+    const char *message = "";
+    lot_of(1, 5e-10, 0.0, 0.01e-6, 0.0);
+    assert_int_equal(fw_process_calibrate_wafers(arena, silicon, &readings, &diags, &c), FW_OK);
+    const fw_process_calibrated *R = found(&c, "pan.R");
+    assert_true(R->spread_taken);
+    assert_relative(R->spread, rel * R->value, 1e-9); /* of half the rate, half of it */
+    assert_true(R->uncertainty > R->spread && R->uncertainty < 1.2 * R->spread);
+    assert_non_null(strstr(R->note, "of one wafer: how the next one differs is taken to be what the flow had for it"));
+    assert_int_equal(spreads_told(&c, &message), 1);
+    assert_non_null(strstr(message, "how wafers differ in pan.R (taken to be +- 0."));
+    lot_of(3, 5e-10, 0.0, 0.01e-6, 0.0);
+    assert_int_equal(fw_process_calibrate_wafers(arena, silicon, &readings, &diags, &c), FW_OK);
+    assert_false(found(&c, "pan.R")->spread_taken);
+    assert_true(found(&c, "pan.R")->uncertainty < 0.5 * rel * 5e-10);
+    assert_int_equal(spreads_told(&c, &message), 0);
+    /* edges, of a wafer and of a table */
+    const double edge = hypot(fw_process_flow_quantity(silicon, "made.al-edge")->uncertainty,
+                              fw_process_flow_quantity(silicon, "litho.edge")->uncertainty);
+    readings = (fw_process_readings){.item = item, .file = "lot.log", .sha256 = "0123456789abcdef"};
+    fw_process_reading *r = put("cd-lines", "line", "1", 7.8e-6, 0.02e-6, SITES, 0.01e-6);
+    r->row.drawn_m = 10e-6;
+    assert_int_equal(fw_process_calibrate_wafers(arena, silicon, &readings, &diags, &c), FW_OK);
+    assert_near(found(&c, "made.al-edge")->spread, edge, 1e-12);
+    assert_true(found(&c, "made.al-edge")->uncertainty > edge);
+    assert_int_equal(fw_process_calibrate(arena, silicon, &r->row, 1, &diags, &table), FW_OK);
+    const double read = table.item[0].uncertainty;
+    assert_int_equal(fw_process_calibration_correlate(arena, silicon, &r->row, 1, &table), FW_OK);
+    assert_int_equal(fw_process_calibration_keep_spread(arena, silicon, &table), FW_OK);
+    assert_near(table.item[0].spread, edge, 1e-12);
+    assert_near(table.item[0].uncertainty, hypot(read, edge), 1e-12);
+    assert_non_null(strstr(table.item[0].note, "a table has no wafers"));
+    assert_int_equal(spreads_told(&table, &message), 1);
+    /* a mistaken row is told by what was read, however wide the spread is */
+    fw_diags said = fw_diags_new(arena);
+    r->row.value = 11e-6;
+    assert_int_equal(fw_process_calibrate_wafers(arena, silicon, &readings, &diags, &c), FW_OK);
+    fw_process_calibration_ask(silicon, &c, "lot.log", &said);
+    assert_true(said.count > 0);
+    assert_int_equal(said.item[0].number, 643);
+}
+
+/* ... and the next wafer lies within two of them as often, as long as no more than half of what the flow has (in squares) is from
+   wafer to wafer */
+static void the_next_after_one(void **state) {
+    (void)state;
+    const double rel = fw_process_flow_quantity(silicon, "pan.R")->uncertainty /
+                       fw_process_flow_quantity(silicon, "pan.R")->value;
+    const double share = covered(1, rel / sqrt(2.0), 0.02e-6, 0.0);
+    print_message("one wafer, scatter %g: %.3f\n", rel / sqrt(2.0), share);
+    if (!(share >= 0.935 - (test_cases(0, 1) ? 0.02 : 0.0))) fail_msg("%.4f", share);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coverage), cmocka_unit_test(slots),
                                        cmocka_unit_test(copies_count_once), cmocka_unit_test(one_that_is_odd),
         cmocka_unit_test(edges_about_nothing),
-                                       cmocka_unit_test(refused)};
+                                       cmocka_unit_test(refused),
+                                       cmocka_unit_test(one_wafer_keeps_the_spread),
+                                       cmocka_unit_test(the_next_after_one)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
