@@ -2,7 +2,7 @@
 /* Devices that are told and not judged (fitted="0.01" of a sweep).
 
    With fitted="0.01" most devices are told and not judged. Of those that are judged first, response surfaces
-   (chance/surface.h) are made: of the responses, and of what decisions follow from, the ends of the band of every hinge and
+   (chance/joint.h) are made: of the responses, and of what decisions follow from, the ends of the band of every hinge and
    requirement, for each look at them (verdict.h), since a closer look moves all of them at once. A surface is taken to be off
    by at most `margin` times the worst that it misses one of its own devices by with that left out. A look accepts where all upper
    ends, and what they may be off by, are below 1, and rejects where a lower end less that is above 1; between, both may be, and the device
