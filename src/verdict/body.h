@@ -126,4 +126,9 @@ fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const f
 fw_status fw_verdict_modes_about(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_device_scene *scene, bool at_equilibrium, double accuracy,
                                  const fw_statics_modes **modes);
+/* factors (2 x (nhinge + 1)), each (as in shaken) and `late` for modes anywhere between their low and high */
+fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                                   const struct fw_verdict_shaken *shaken,
+                                   fw_verdict_softness softer, double *factor, double *each,
+                                   double *late);
 #endif

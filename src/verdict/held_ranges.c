@@ -316,7 +316,7 @@ static fw_status amid_hinges(fw_verdict_search *s, int point, double harder, ami
 }
 
 static bool bears_blows(const fw_device *d, const fw_verdict_requirement *r) {
-    const int row = d->probe[d->requirement[r->asked].probe].row;
+    const fw_device_probe_row row = d->probe[d->requirement[r->asked].probe].row;
     return row == FW_PROBE_IS_force || row == FW_PROBE_IS_torque || row == FW_PROBE_IS_power;
 }
 

@@ -372,8 +372,8 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
 }
 
 fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *m, int scene,
-                                   const fw_verdict_shaken *shaken, int softer, double *factor,
-                                   double *each, double *late) {
+                                   const fw_verdict_shaken *shaken, fw_verdict_softness softer,
+                                   double *factor, double *each, double *late) {
     shakings by;
     FW_TRY(find_laws(arena, m, &m->device->scene[scene], &by));
     for (int h = 0; h <= m->nhinge; h++)

@@ -291,11 +291,6 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, cons
                             const fw_dynamics_motion_options *options,
                             const fw_verdict_required *required, bool brief, fw_diags *diags,
                             fw_verdict_variant_verdict *v);
-/* factors (2 x (nhinge + 1)), each (as in shaken) and `late` for modes anywhere between their low and high; softer: a
-   fw_verdict_softness (strain.h) */
-fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *mechanism, int scene,
-                                   const fw_verdict_shaken *shaken, int softer, double *factor,
-                                   double *each, double *late);
 /* may what the clearance is of meet where everything goes up to `by` times as far? */
 bool fw_verdict_may_come(const fw_verdict_clearance *clearance, double by);
 /* a copy that lives as long as the arena; NULL where nothing was run */
