@@ -224,9 +224,15 @@ fw_status fw_schedule_loads(fw_arena *arena, const fw_schedule *plan, const fw_p
     int *count;
     *loads = NULL;
     if (!plan || !plan->feasible) return FW_OK;
-    FW_NEED(*loads = count = fw_arena_array(arena, int, (size_t)flow->nstep));
+    int *of, at = 0; /* the step of every task: both stand in the order of the flow */
+    FW_NEED(*loads = count = fw_arena_array(arena, int, (size_t)flow->nstep + 1));
+    FW_NEED(of = fw_arena_array(arena, int, (size_t)plan->shop->ntask));
+    for (int i = 0; i < plan->shop->ntask; i++) {
+        while (at < flow->nstep && strcmp(flow->step[at].id, plan->shop->task[i].id) != 0)
+            at++;
+        of[i] = at;
+    }
     for (int i = 0; i < plan->nrun; i++)
-        for (int k = 0; k < flow->nstep; k++)
-            count[k] += fw_text_same(flow->step[k].id, plan->shop->task[plan->run[i].task].id);
+        count[of[plan->run[i].task]]++;
     return FW_OK;
 }
