@@ -866,14 +866,17 @@ class Probe(unittest.TestCase):
                 "parasitic": (p["across"], 0, p["across"])}[measure]
             self.near(r["value"], value, 1e-12)
             # jaws that take hold of the bead again are moved with flexures stiffer and softer (decision 188): the two ends differ by that
-            self.near(r["band"][1] - value, value - r["band"][0], 2e-3)
+            if abs(goes) > 1e-6 or measure == "parasitic":
+                self.near(r["band"][1] - value, value - r["band"][0], 2e-3)
             off = r["band"][1] - value - error
             if measure == "parasitic":  # its own error is not printed
                 self.assertTrue(0 < off < 0.05 * value)
             elif abs(goes) > 1e-6:
                 shares[probe].append(off / abs(goes))
             else:
-                self.assertLess(abs(off), 0.12e-6)  # 0.05 um of blows that come again, wherever it stands, and what hangs over bends by 0.07
+                # 0.05 um of blows that come again, wherever it stands, what hangs over bends by 0.07, and what all that acts at some
+                # instant moves a body farther (decision 216) counts where it is least, too
+                self.assertLess(max(off, value - r["band"][0] - error), 0.32e-6)
         for probe, found in shares.items():
             self.assertGreater(len(found), 1)
             self.assertGreater(min(found), 1e-3)
