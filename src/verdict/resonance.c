@@ -359,12 +359,12 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
     fw_verdict_shaken *to = &v->shaken[scene];
     shakings by;
     FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, &by, to));
-    double hangs_s2 =
-        0; /* 1/omega^2 of rigid bodies and of what hangs over add up at most (Weyl) */
+    double hangs_s2 = 0; /* 1/omega^2 of rigid bodies, flexures and what hangs over add up (Weyl) */
+    const double weigh = to->n > 0 ? fw_verdict_flexures_weigh(m) : 0;
     for (int i = 0; v->out_of_plane && v->out_of_plane->hung && i < m->nbody; i++)
         hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_mode_s2);
     for (int k = 0; k < to->n; k++)
-        to->mode[k].low /= sqrt(1 + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
+        to->mode[k].low /= sqrt(1 + weigh + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
     FW_NEED(to->each = fw_arena_array(arena, double,
                                       (size_t)m->nhinge + (size_t)m->nbody + (size_t)to->nreach));
     FW_TRY(add_answers(arena, m, &by, to, FW_VERDICT_AS_STIFF, to->factor, to->each, &to->late));
