@@ -139,33 +139,35 @@ static void add_flexures(const fw_mechanism *m, fw_verdict_beams *b) {
     }
 }
 
-/* By what share flexures' own mass makes 1/omega^2 of any mode of rigid bodies greater, at most: half of each goes with either of
-   its bodies, which moves it as (v + w x r), so that it has at most sum (m_f/2) (1 + r^2/k^2) of the body's m for every motion,
-   k its radius of gyration, and all the bodies together at most the largest share (Rayleigh). Test: test_effects.py Resonance */
-double fw_verdict_flexures_weigh(const fw_mechanism *m) {
+/* What flexures' own mass has of what a mode of rigid bodies moves, shape (3 nbody) at their centres: half of each goes with either
+   of its bodies, as far as that end goes. By twice that 1/omega^2 of the mode grows at most: to the first order by once
+   (Rayleigh), and the rest of it is for how the shape changes. Range: shares of some percent. Test: test_effects.py Resonance */
+double fw_verdict_flexures_weigh(const fw_mechanism *m, const double *shape) {
     const double kg_per_m2 = m->variant->material.density.value * m->variant->thickness_m;
-    double most = 0;
-    for (int body = 0; body < m->nbody && m->layout; body++) {
-        const double mass_kg = m->body[body].mass_kg, inertia_kg_m2 = m->body[body].inertia_kg_m2;
-        double share = 0;
-        for (int k = 0; k < m->nhinge; k++) {
-            const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
-            const double long_m = m->hinge[k].input.length_m;
-            double m2 = 0;
-            if (pin->body_a != body && pin->body_b != body) continue;
-            for (int i = 0; i < m->layout->npiece; i++)
-                if (m->layout->piece[i].role == FW_ROLE_FLEXURE &&
-                    m->layout->piece[i].joint == m->hinge[k].pin)
-                    m2 += fabs(fw_geometry_contour_area(&m->layout->piece[i].contour));
+    double own = 0, added = 0;
+    for (int b = 0; b < m->nbody; b++)
+        own += m->body[b].mass_kg *
+                   (shape[3 * b] * shape[3 * b] + shape[3 * b + 1] * shape[3 * b + 1]) +
+               m->body[b].inertia_kg_m2 * shape[3 * b + 2] * shape[3 * b + 2];
+    for (int k = 0; k < m->nhinge && m->layout; k++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
+        const double half_m = 0.5 * m->hinge[k].input.length_m;
+        double m2 = 0;
+        for (int i = 0; i < m->layout->npiece; i++)
+            if (m->layout->piece[i].role == FW_ROLE_FLEXURE &&
+                m->layout->piece[i].joint == m->hinge[k].pin)
+                m2 += fabs(fw_geometry_contour_area(&m->layout->piece[i].contour));
+        for (int side = 0; side < 2; side++) {
+            const int body = side ? pin->body_b : pin->body_a;
+            if (body == FW_GROUND) continue;
             const fw_geometry_vec2 r =
-                vec_sub(fw_mechanism_pin_place(m, pin, pin->body_b == body), middle_of(m, body));
-            const double far_m = sqrt(vec_dot(r, r)) + 0.5 * long_m;
-            share += 0.5 * kg_per_m2 * m2 *
-                     (1 / mass_kg + (far_m * far_m + long_m * long_m / 16) / inertia_kg_m2);
+                vec_sub(fw_mechanism_pin_place(m, pin, side), middle_of(m, body));
+            const double *u = shape + 3 * body, turn = u[2],
+                         goes = hypot(u[0] - turn * r.y, u[1] + turn * r.x) + fabs(turn) * half_m;
+            added += 0.5 * kg_per_m2 * m2 * (goes * goes + 0.25 * half_m * half_m * turn * turn);
         }
-        if (share < 1) most = fmax(most, share); /* what is a joint of flexures alone is no body */
     }
-    return most;
+    return own > 0 ? added / own : 0;
 }
 
 /* what bears nothing but its own inertia turns as a whole */

@@ -236,7 +236,8 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     FW_TRY(fw_verdict_swings(arena, m, s, by->again, modes, motion, MODES_SHAKEN, to));
     for (int k = 0; k < to->n; k++) {
         const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
-        to->mode[k].low = to->mode[k].omega * (1 - off - 0.5 * bodies);
+        const double weigh = fw_verdict_flexures_weigh(m, modes->mode[to->mode[k].number].shape);
+        to->mode[k].low = to->mode[k].omega * (1 - off - 0.5 * bodies) / sqrt(1 + 2 * weigh);
         to->mode[k].high = to->mode[k].omega * (1 + off);
     }
     if (rest) hold_both(rest, bodies, to);
@@ -359,12 +360,11 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
     fw_verdict_shaken *to = &v->shaken[scene];
     shakings by;
     FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, &by, to));
-    double hangs_s2 = 0; /* 1/omega^2 of rigid bodies, flexures and what hangs over add up (Weyl) */
-    const double weigh = to->n > 0 ? fw_verdict_flexures_weigh(m) : 0;
+    double hangs_s2 = 0; /* 1/omega^2 of rigid bodies and of what hangs over add up (Weyl) */
     for (int i = 0; v->out_of_plane && v->out_of_plane->hung && i < m->nbody; i++)
         hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_mode_s2);
     for (int k = 0; k < to->n; k++)
-        to->mode[k].low /= sqrt(1 + weigh + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
+        to->mode[k].low /= sqrt(1 + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
     FW_NEED(to->each = fw_arena_array(arena, double,
                                       (size_t)m->nhinge + (size_t)m->nbody + (size_t)to->nreach));
     FW_TRY(add_answers(arena, m, &by, to, FW_VERDICT_AS_STIFF, to->factor, to->each, &to->late));
