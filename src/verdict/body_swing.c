@@ -21,6 +21,7 @@
 #include "maths/dense.h"
 #include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <float.h>
@@ -110,25 +111,29 @@ static void add_stated(const fw_mechanism *m, int body, fw_verdict_beam *b, int 
     b->inertia_kg_m2 += fmax(0, m->body[body].inertia_kg_m2 - own);
 }
 
+/* as it is drawn */
+static double flexure_kg(const fw_mechanism *m, int hinge) {
+    double m2 = 0;
+    for (int i = 0; i < m->layout->npiece; i++)
+        if (m->layout->piece[i].role == FW_ROLE_FLEXURE &&
+            m->layout->piece[i].joint == m->hinge[hinge].pin)
+            m2 += fabs(fw_geometry_contour_area(&m->layout->piece[i].contour));
+    return m->variant->material.density.value * m->variant->thickness_m * m2;
+}
+
 /* A flexure's own mass goes with its ends: half of it with either, and as much inertia as the cubic of a bar has. */
 static void add_flexures(const fw_mechanism *m, fw_verdict_beams *b) {
-    const double kg_per_m2 = m->variant->material.density.value * m->variant->thickness_m;
     for (int k = 0; k < m->nhinge && m->layout; k++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
         fw_geometry_vec2 at[2] = {fw_mechanism_pin_place(m, pin, 0),
                                   fw_mechanism_pin_place(m, pin, 1)},
                          on;
-        double m2 = 0;
-        for (int i = 0; i < m->layout->npiece; i++)
-            if (m->layout->piece[i].role == FW_ROLE_FLEXURE &&
-                m->layout->piece[i].joint == m->hinge[k].pin)
-                m2 += fabs(fw_geometry_contour_area(&m->layout->piece[i].contour));
         for (int side = 0; side < 2; side++) {
             const int body = side ? pin->body_b : pin->body_a;
             if (body != FW_GROUND)
                 (void)fw_mechanism_hinge_end(m, body, 2 * k + side, &on, &at[side]);
         }
-        const double long_m = m->hinge[k].input.length_m, kg = kg_per_m2 * m2;
+        const double long_m = m->hinge[k].input.length_m, kg = flexure_kg(m, k);
         for (int side = 0; side < 2; side++) {
             if (b->on[2 * k + side] == FW_NONE || !(kg > 0)) continue;
             fw_verdict_beam *to = &b->at[b->on[2 * k + side]];
@@ -137,37 +142,6 @@ static void add_flexures(const fw_mechanism *m, fw_verdict_beams *b) {
             to->inertia_kg_m2 += kg * (0.5 * vec_dot(r, r) + long_m * long_m / 32);
         }
     }
-}
-
-/* What flexures' own mass has of what a mode of rigid bodies moves, shape (3 nbody) at their centres: half of each goes with either
-   of its bodies, as far as that end goes. By twice that 1/omega^2 of the mode grows at most: to the first order by once
-   (Rayleigh), and the rest of it is for how the shape changes. Range: shares of some percent. Test: test_effects.py Resonance */
-double fw_verdict_flexures_weigh(const fw_mechanism *m, const double *shape) {
-    const double kg_per_m2 = m->variant->material.density.value * m->variant->thickness_m;
-    double own = 0, added = 0;
-    for (int b = 0; b < m->nbody; b++)
-        own += m->body[b].mass_kg *
-                   (shape[3 * b] * shape[3 * b] + shape[3 * b + 1] * shape[3 * b + 1]) +
-               m->body[b].inertia_kg_m2 * shape[3 * b + 2] * shape[3 * b + 2];
-    for (int k = 0; k < m->nhinge && m->layout; k++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
-        const double half_m = 0.5 * m->hinge[k].input.length_m;
-        double m2 = 0;
-        for (int i = 0; i < m->layout->npiece; i++)
-            if (m->layout->piece[i].role == FW_ROLE_FLEXURE &&
-                m->layout->piece[i].joint == m->hinge[k].pin)
-                m2 += fabs(fw_geometry_contour_area(&m->layout->piece[i].contour));
-        for (int side = 0; side < 2; side++) {
-            const int body = side ? pin->body_b : pin->body_a;
-            if (body == FW_GROUND) continue;
-            const fw_geometry_vec2 r =
-                vec_sub(fw_mechanism_pin_place(m, pin, side), middle_of(m, body));
-            const double *u = shape + 3 * body, turn = u[2],
-                         goes = hypot(u[0] - turn * r.y, u[1] + turn * r.x) + fabs(turn) * half_m;
-            added += 0.5 * kg_per_m2 * m2 * (goes * goes + 0.25 * half_m * half_m * turn * turn);
-        }
-    }
-    return own > 0 ? added / own : 0;
 }
 
 /* what bears nothing but its own inertia turns as a whole */

@@ -236,8 +236,7 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     FW_TRY(fw_verdict_swings(arena, m, s, by->again, modes, motion, MODES_SHAKEN, to));
     for (int k = 0; k < to->n; k++) {
         const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
-        const double weigh = fw_verdict_flexures_weigh(m, modes->mode[to->mode[k].number].shape);
-        to->mode[k].low = to->mode[k].omega * (1 - off - 0.5 * bodies) / sqrt(1 + 2 * weigh);
+        to->mode[k].low = to->mode[k].omega * (1 - off - 0.5 * bodies);
         to->mode[k].high = to->mode[k].omega * (1 + off);
     }
     if (rest) hold_both(rest, bodies, to);

@@ -186,7 +186,6 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
 fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_verdict_arm *arm, fw_verdict_hung **hung); /* (nbody) */
 fw_status fw_verdict_hung_says(fw_arena *arena, const fw_mechanism *mechanism, bool *says);
-double fw_verdict_flexures_weigh(const fw_mechanism *m, const double *shape); /* body_swing.c */
 /* how far a shock across the plane, once over, throws anything of it at most; infinite: that bounds nothing */
 struct fw_mechanism_plates;
 fw_status fw_verdict_thrown_across(fw_arena *arena, const struct fw_mechanism_plates *plates,
