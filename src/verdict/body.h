@@ -91,6 +91,15 @@ fw_status fw_verdict_say_bent(fw_arena *arena, struct fw_verdict_variant_verdict
                               const char *scene, int number, const char *what, int body,
                               double by_m);
 
+/* a.M b of motions (3 nbody) of the bodies' centres */
+static inline double fw_verdict_mass_form(const fw_mechanism *m, const double *a, const double *b) {
+    double sum = 0;
+    for (int i = 0; i < 3 * m->nbody; i += 3)
+        sum += m->body[i / 3].mass_kg * (a[i] * b[i] + a[i + 1] * b[i + 1]) +
+               m->body[i / 3].inertia_kg_m2 * a[i + 2] * b[i + 2];
+    return sum;
+}
+
 /* ---- ringing.c, resonance.c ---- */
 
 /* times as much as computed: up >= 1, down <= 1; up of what strains */

@@ -6,6 +6,7 @@
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -264,15 +265,6 @@ static bool is_first(const fw_verdict_bending *b, int place) {
    an upper bound, of rings that fall no slower than the motion: at the end of a scene E is that of its last tenth. Test:
    test_effects.py, SlenderArms */
 
-/* v.M v */
-static double twice_J(const fw_mechanism *m, const double *v) {
-    double sum = 0;
-    for (int i = 0; i < m->nbody; i++)
-        sum += m->body[i].mass_kg * (v[3 * i] * v[3 * i] + v[3 * i + 1] * v[3 * i + 1]) +
-               m->body[i].inertia_kg_m2 * v[3 * i + 2] * v[3 * i + 2];
-    return sum;
-}
-
 static double stiffness_of(const fw_verdict_place *at) {
     return at->spring ? at->spring->stiffness_N_per_m : at->element ? at->element->size_N_per_m : 0;
 }
@@ -336,7 +328,7 @@ static void record_blows(const fw_mechanism *m, fw_verdict_bending *b,
         !find_speeds(m, b, now, &grows))
         return;
     const bool late = now->t_s >= b->late_s;
-    const double moves_J = twice_J(m, v);
+    const double moves_J = fw_verdict_mass_form(m, v, v);
     b->moves_J = fmax(b->moves_J, moves_J);
     if (late) b->late_J = fmax(b->late_J, moves_J);
     for (int i = 0; i < b->nplace; i++) {
@@ -351,7 +343,7 @@ static void record_blows(const fw_mechanism *m, fw_verdict_bending *b,
         if (!blow->touched && hypot(acts[0], acts[1]) > 0)
             blow->touched = true, blow->touched_s = now->t_s;
         if (blow->touched || !grows) continue;
-        blow->swung = fmax(blow->swung, sqrt(twice_J(m, grows)));
+        blow->swung = fmax(blow->swung, sqrt(fw_verdict_mass_form(m, grows, grows)));
         blow->shaken = fmax(blow->shaken, fast(at, now->q, grows));
     }
 }

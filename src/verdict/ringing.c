@@ -166,12 +166,7 @@ static int loads_on(const fw_mechanism *m, const fw_device_scene *s, const actin
     const int laws = laws_of(m, s, load + n);
     for (int i = 0; shape && i < laws; i++) {
         const double *way = by->way + (size_t)i * 3 * (size_t)m->nbody;
-        double sum = 0;
-        for (int b = 0; b < m->nbody; b++)
-            sum += m->body[b].mass_kg *
-                       (shape[3 * b] * way[3 * b] + shape[3 * b + 1] * way[3 * b + 1]) +
-                   m->body[b].inertia_kg_m2 * shape[3 * b + 2] * way[3 * b + 2];
-        load[n + i].size = sum * square / unit;
+        load[n + i].size = fw_verdict_mass_form(m, shape, way) * square / unit;
     }
     return n + laws;
 }
@@ -245,12 +240,7 @@ static void see_swings(const fw_mechanism *m, const fw_statics_modes *modes,
     swings[0] = swings[1] = *start = 0;
     for (int r = 0; r < motion->nsample; r++) {
         const double *v = motion->v + (size_t)r * 3 * (size_t)m->nbody;
-        double speed = 0;
-        for (int b = 0; b < m->nbody; b++) {
-            const double *u = mode->shape + 3 * b, *of = v + 3 * b;
-            speed += m->body[b].mass_kg * (u[0] * of[0] + u[1] * of[1]) +
-                     m->body[b].inertia_kg_m2 * u[2] * of[2];
-        }
+        const double speed = fw_verdict_mass_form(m, mode->shape, v);
         const double now = fabs(speed) / (mode->modal_mass_kg_m2 * w);
         if (r == 0) *start = speed / mode->modal_mass_kg_m2;
         swings[0] = fmax(swings[0], now);
