@@ -91,6 +91,89 @@ fw_status fw_mechanism_body_lines(fw_arena *arena, const fw_layout *layout, int 
     return FW_OK;
 }
 
+/* ---- how much of every cell is material: along rows exactly, across by subrows ---- */
+
+typedef struct filled {
+    const fw_mechanism_cells *of;
+    const fw_mechanism_line *line;
+    const bool *left_out;
+    int nline;
+} filled;
+
+typedef struct crossed {
+    double x; /* in cells */
+    int piece;
+} crossed;
+
+static int by_piece(const void *a, const void *b) {
+    const crossed *p = a, *q = b;
+    return p->piece != q->piece ? (p->piece > q->piece) - (p->piece < q->piece)
+                                : fw_order_doubles(p->x, q->x);
+}
+
+/* where lines cross the middles of subrows: n[k] of row k on, to x; x NULL: they are counted */
+static void cross_subrows(const filled *t, int *n, crossed *x) {
+    const int rows = t->of->ny * FW_MECHANISM_SUBROWS;
+    const double fine = t->of->cell_m / FW_MECHANISM_SUBROWS;
+    for (int i = 0; i < t->nline; i++) {
+        const fw_geometry_vec2 a = t->line[i].a, b = t->line[i].b;
+        const int first = (int)((fmin(a.y, b.y) - t->of->box.y0) / fine),
+                  last = (int)((fmax(a.y, b.y) - t->of->box.y0) / fine) + 1;
+        for (int k = first > 0 ? first - 1 : 0; !t->left_out[i] && k <= last && k < rows; k++) {
+            const double y = t->of->box.y0 + (k + 0.5) * fine;
+            if ((a.y <= y) == (b.y <= y)) continue;
+            if (x) {
+                const double at = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
+                x[n[k]] = (crossed){(at - t->of->box.x0) / t->of->cell_m, t->line[i].piece};
+            }
+            n[k]++;
+        }
+    }
+}
+
+/* To row (n), which has what its subrows fill of the cells at the ends of their intervals: more (n), by how many subrows each cell
+   is filled whole more than the one before it. Out: the share of each that is filled. */
+static void sum_row(float *row, const float *more, int n) {
+    float whole = 0;
+    for (int i = 0; i < n; i++) {
+        whole += more[i];
+        row[i] = fminf((row[i] + whole) / FW_MECHANISM_SUBROWS, 1);
+    }
+}
+
+fw_status fw_mechanism_fill_cells(fw_arena *arena, const fw_mechanism_line *line,
+                                  const bool *left_out, int nline, const fw_mechanism_cells *of,
+                                  float *full) {
+    const filled *t = &(filled){of, line, left_out, nline};
+    const int rows = of->ny * FW_MECHANISM_SUBROWS;
+    int *n = fw_arena_array(arena, int, (size_t)rows), all = 0;
+    FW_NEED(n);
+    cross_subrows(t, n, NULL);
+    for (int k = 0; k < rows; k++)
+        all += n[k], n[k] = all - n[k];
+    crossed *x = fw_arena_raw(arena, ((size_t)all + 1) * sizeof *x);
+    float *more = fw_arena_raw(arena, (size_t)of->nx * sizeof *more);
+    FW_NEED(x);
+    FW_NEED(more);
+    cross_subrows(t, n, x); /* n[k]: where the next row begins */
+    for (int k = 0; k < rows; k++) {
+        const int first = k > 0 ? n[k - 1] : 0;
+        float *row = full + (size_t)(k / FW_MECHANISM_SUBROWS) * (size_t)of->nx;
+        if (k % FW_MECHANISM_SUBROWS == 0) memset(more, 0, (size_t)of->nx * sizeof *more);
+        if (n[k] - first > 2) qsort(x + first, (size_t)(n[k] - first), sizeof *x, by_piece);
+        for (int i = first; i + 1 < n[k]; i += 2) {
+            const double from = fmin(x[i].x, x[i + 1].x), to = fmax(x[i].x, x[i + 1].x);
+            const int a = (int)from, b = (int)to;
+            row[a] += (float)(fmin(to, a + 1) - from);
+            if (b == a) continue;
+            row[b] += (float)(to - b);
+            more[a + 1]++, more[b]--;
+        }
+        if (k % FW_MECHANISM_SUBROWS == FW_MECHANISM_SUBROWS - 1) sum_row(row, more, of->nx);
+    }
+    return FW_OK;
+}
+
 /* ---- cells ---- */
 
 static void mark_between(bool *row, int n, const double *x, int crossings) {

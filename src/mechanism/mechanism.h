@@ -254,6 +254,16 @@ bool fw_mechanism_is_of(const fw_layout_piece *piece, int body);
 /* the chords of all of them: (n) */
 fw_status fw_mechanism_body_lines(fw_arena *arena, const fw_layout *layout, int body,
                                   fw_mechanism_line **line, int *n);
+/* full (ny nx): the share of each square cell that is material, none of the lines left out counted; outlines lie within the box */
+enum { FW_MECHANISM_SUBROWS = 16 }; /* of a row of cells: heights at which outlines are crossed */
+typedef struct fw_mechanism_cells {
+    fw_geometry_box box;
+    double cell_m;
+    int nx, ny;
+} fw_mechanism_cells;
+fw_status fw_mechanism_fill_cells(fw_arena *arena, const fw_mechanism_line *line,
+                                  const bool *left_out, int nline, const fw_mechanism_cells *cells,
+                                  float *full);
 /* ---- body_solid.c: what a body gives under all that acts on it together ---- */
 
 /* of a hinge; of what else acts pin and root are one place. nearest: in place of its root it acts on what is full of

@@ -20,7 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SUBROWS = 16, MARGIN = 3, SWING_CELLS = 50000, SWING_MOST = 1500000 };
+enum { MARGIN = 3, SWING_CELLS = 50000, SWING_MOST = 1500000 };
 /* of a cell: nothing; what bears; at an edge, and as wide as it is filled; a gap between two that is too narrow for it */
 typedef enum tree_cell { EMPTY, BEARS, AT_EDGE, IN_GAP } tree_cell;
 
@@ -50,78 +50,6 @@ static fw_status find_holes(const fw_device *d, fw_verdict_tree *t) {
     return FW_OK;
 }
 
-typedef struct crossed {
-    double x; /* in cells */
-    int piece;
-} crossed;
-
-static int by_piece(const void *a, const void *b) {
-    const crossed *p = a, *q = b;
-    return p->piece != q->piece ? (p->piece > q->piece) - (p->piece < q->piece)
-                                : fw_order_doubles(p->x, q->x);
-}
-
-/* where lines cross the middles of subrows: n[k] of row k on, to x; x NULL: they are counted */
-static void cross_subrows(const fw_verdict_tree *t, int *n, crossed *x) {
-    const int rows = t->ny * SUBROWS;
-    const double fine = t->cell / SUBROWS;
-    for (int i = 0; i < t->nline; i++) {
-        const fw_geometry_vec2 a = t->line[i].a, b = t->line[i].b;
-        const int first = (int)((fmin(a.y, b.y) - t->box.y0) / fine),
-                  last = (int)((fmax(a.y, b.y) - t->box.y0) / fine) + 1;
-        for (int k = first > 0 ? first - 1 : 0; !t->hole[i] && k <= last && k < rows; k++) {
-            const double y = t->box.y0 + (k + 0.5) * fine;
-            if ((a.y <= y) == (b.y <= y)) continue;
-            if (x) {
-                const double at = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-                x[n[k]] = (crossed){(at - t->box.x0) / t->cell, t->line[i].piece};
-            }
-            n[k]++;
-        }
-    }
-}
-
-/* To row (n), which has what its subrows fill of the cells at the ends of their intervals: more (n), by how many subrows each cell
-   is filled whole more than the one before it. Out: the share of each that is filled. */
-static void sum_row(float *row, const float *more, int n) {
-    float whole = 0;
-    for (int i = 0; i < n; i++) {
-        whole += more[i];
-        row[i] = fminf((row[i] + whole) / SUBROWS, 1);
-    }
-}
-
-/* how much of every cell is material: along rows exactly, across by subrows */
-static fw_status fill_cells(fw_verdict_tree *t) {
-    const int rows = t->ny * SUBROWS;
-    int *n = fw_arena_array(t->arena, int, (size_t)rows), all = 0;
-    FW_NEED(n);
-    cross_subrows(t, n, NULL);
-    for (int k = 0; k < rows; k++)
-        all += n[k], n[k] = all - n[k];
-    crossed *x = fw_arena_raw(t->arena, ((size_t)all + 1) * sizeof *x);
-    float *more = fw_arena_raw(t->arena, (size_t)t->nx * sizeof *more);
-    FW_NEED(x);
-    FW_NEED(more);
-    cross_subrows(t, n, x); /* n[k]: where the next row begins */
-    for (int k = 0; k < rows; k++) {
-        const int first = k > 0 ? n[k - 1] : 0;
-        float *row = t->full + (size_t)(k / SUBROWS) * (size_t)t->nx;
-        if (k % SUBROWS == 0) memset(more, 0, (size_t)t->nx * sizeof *more);
-        if (n[k] - first > 2) qsort(x + first, (size_t)(n[k] - first), sizeof *x, by_piece);
-        for (int i = first; i + 1 < n[k]; i += 2) {
-            const double from = fmin(x[i].x, x[i + 1].x), to = fmax(x[i].x, x[i + 1].x);
-            const int a = (int)from, b = (int)to;
-            row[a] += (float)(fmin(to, a + 1) - from);
-            if (b == a) continue;
-            row[b] += (float)(to - b);
-            more[a + 1]++, more[b]--;
-        }
-        if (k % SUBROWS == SUBROWS - 1) sum_row(row, more, t->nx);
-    }
-    return FW_OK;
-}
-
 /* it is fuller on either side */
 static bool parts_two(const float *full, int step) {
     const float more = full[0] + 0.1F;
@@ -141,7 +69,8 @@ fw_status fw_verdict_tree_lay(fw_verdict_tree *t, fw_geometry_box box, double ce
     FW_NEED(t->came = fw_arena_raw(t->arena, n * sizeof *t->came));
     FW_NEED(t->part = fw_arena_raw(t->arena, n * sizeof *t->part));
     FW_NEED(t->list = fw_arena_raw(t->arena, n * sizeof *t->list));
-    FW_TRY(fill_cells(t));
+    const fw_mechanism_cells cells = {t->box, cell, t->nx, t->ny};
+    FW_TRY(fw_mechanism_fill_cells(t->arena, t->line, t->hole, t->nline, &cells, t->full));
     for (int j = 0; j < t->ny; j++)
         for (int i = 0; i < t->nx; i++) {
             const int at = j * t->nx + i;
@@ -304,7 +233,8 @@ static fw_status measure_parts(fw_verdict_tree *t) {
                      count = (before > 0.5 * step) + (after > 0.5 * step),
                      sum = (before > 0.5 * step ? before : 0) + (after > 0.5 * step ? after : 0);
         p->long_m = count > 0 ? fmin(fmax(sum / count, step), most) : most;
-        p->wide_m = fmax(t->left * (p->area_m2 / p->long_m - t->cell / SUBROWS), 1e-3 * t->cell);
+        p->wide_m = fmax(t->left * (p->area_m2 / p->long_m - t->cell / FW_MECHANISM_SUBROWS),
+                         1e-3 * t->cell);
         if ((held || b->spreads) && p->wide_m - b->wide_m >= p->long_m) {
             p->spreads = true, p->long_m = 0;
             continue;
@@ -487,19 +417,44 @@ static int part_at(const fw_verdict_tree *t, fw_geometry_vec2 p) {
     return best;
 }
 
+/* nothing hangs on it but the end of the flexure's strip, which is no wider */
+static bool is_an_end(fw_verdict_tree *t, int part) {
+    t->f[part][0] = 1; /* of those behind it: it hangs on this part */
+    for (int i = part + 1; i < t->n; i++) {
+        t->f[i][0] = t->at[i].before >= part ? t->f[t->at[i].before][0] : 0;
+        if (t->f[i][0] > 0 && t->at[i].wide_m > t->at[part].wide_m) return false;
+    }
+    return true;
+}
+
+/* What spreads from a flexure's root by half a right angle or more is in what the root gives, as in measure_parts. */
+static void spread_from_root(fw_verdict_tree *t, int part) {
+    for (bool only = is_an_end(t, part); only; only = t->at[part].bears == 1) {
+        fw_verdict_tree_part *p = &t->at[part];
+        if (p->before == FW_NONE || !(p->long_m > 0) ||
+            t->at[p->before].wide_m - p->wide_m < p->long_m)
+            return;
+        part = p->before;
+        p->long_m = p->root_m[0] = p->root_m[1] = 0;
+    }
+}
+
 /* What bears spreads within a body by a quarter of its way on either side, from both ends of it: in a corner, and behind a
    narrow part, less is borne than is there. And what spreads around the middle, which is held there alone, is as long as it is. */
 static void narrow_parts(fw_verdict_tree *t) {
     const double spreads = 0.5;
     for (int i = 0; i < t->n; i++) {
         fw_verdict_tree_part *p = &t->at[i];
-        if (p->before == FW_NONE || p->spreads) continue;
+        if (p->before == FW_NONE || !(p->long_m > 0)) continue;
         const fw_verdict_tree_part *b = &t->at[p->before];
         const bool first = b->before == FW_NONE || b->spreads;
         if (first)
             p->long_m = vec_distance(p->at, t->at[0].at) + 0.5 * p->long_m;
         else
             p->wide_m = fmin(p->wide_m, b->wide_m + spreads * vec_distance(p->at, b->at));
+        if (!first && b->bears > 1) /* the front runs into a branch before it parts there */
+            p->long_m =
+                fmax(p->long_m, vec_distance(p->at, b->at) - 0.5 * b->wide_m + 0.5 * p->long_m);
     }
     for (int i = 0; i < t->n; i++)
         t->f[i][0] = 0; /* the most that goes on behind it */
@@ -508,7 +463,8 @@ static void narrow_parts(fw_verdict_tree *t) {
         if (t->f[i][0] > 0) p->wide_m = fmin(p->wide_m, t->f[i][0]);
         if (p->before == FW_NONE) continue;
         const double apart = vec_distance(p->at, t->at[p->before].at);
-        t->f[p->before][0] = fmax(t->f[p->before][0], p->wide_m + spreads * apart);
+        const double behind = p->long_m > 0 ? p->wide_m + spreads * apart : HUGE_VAL;
+        t->f[p->before][0] = fmax(t->f[p->before][0], behind);
     }
 }
 
@@ -576,6 +532,13 @@ fw_status fw_verdict_tree_beams(fw_arena *arena, const fw_mechanism *m, const fw
     *holds = t->n > 0 && t->reached_m2 >= (1 - little) * t->whole_m2;
     if (!*holds) return FW_OK;
     FW_NEED(to->at = fw_arena_grow(arena, to->at, first, first + (size_t)t->n, sizeof *to->at));
+    for (int k = 0; k < 2 * m->nhinge; k++) {
+        if (!fw_mechanism_hinge_end(m, body, k, &pin, &root)) continue;
+        const int part = part_at(t, root);
+        *holds = *holds && part != FW_NONE;
+        to->on[k] = (int)first + (part == FW_NONE ? 0 : part);
+        if (part != FW_NONE) spread_from_root(t, part);
+    }
     narrow_parts(t);
     for (int i = 0; i < t->n; i++) {
         const fw_verdict_tree_part *p = &t->at[i];
@@ -585,12 +548,6 @@ fw_status fw_verdict_tree_beams(fw_arena *arena, const fw_mechanism *m, const fw
         b->before = (int)first + p->before;
         gives_by(t, i, &b->turns, &b->goes);
         b->pulls = vec_length(p->along) > 0 ? b->goes / 3.2 : b->goes;
-    }
-    for (int k = 0; k < 2 * m->nhinge; k++) {
-        if (!fw_mechanism_hinge_end(m, body, k, &pin, &root)) continue;
-        const int part = part_at(t, root);
-        *holds = *holds && part != FW_NONE;
-        to->on[k] = (int)first + (part == FW_NONE ? 0 : part);
     }
     FW_TRY(add_loops(arena, t, (int)first, to));
     return FW_OK;

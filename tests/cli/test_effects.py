@@ -597,106 +597,13 @@ class BodiesInSmallMotions(unittest.TestCase):
         self.assertEqual(found["frequency-1"]["verdict"], "inconclusive")
 
 
-class Frame:
-    """Plane frame of bars with their own mass along them: Euler's beams of consistent mass, its slowest modes by inverse iteration of a few
-    shapes. Nothing of it is the program's."""
-    E, RHO, DEEP, PARTS = 160e9, 2329.0, 50e-6, 6
-
-    def __init__(self):
-        self.at, self.held, self.k, self.m = [], set(), {}, {}
-
-    def node(self, x, y):
-        for i, p in enumerate(self.at):
-            if math.dist(p, (x, y)) < 1e-9:
-                return i
-        self.at.append((x, y))
-        return len(self.at) - 1
-
-    def bar(self, a, b, width, heavy=True):
-        n = self.PARTS
-        ends = [self.node(*(a[k] + (b[k] - a[k]) * i / n for k in (0, 1))) for i in range(n + 1)]
-        long = math.dist(a, b) / n
-        c, s = ((b[k] - a[k]) / n / long for k in (0, 1))
-        ei, ea, mass = self.E * self.DEEP * width**3 / 12, self.E * self.DEEP * width, self.RHO * self.DEEP * width * long * heavy
-        bend = ((12, 6 * long, -12, 6 * long), (6 * long, 4 * long**2, -6 * long, 2 * long**2), (-12, -6 * long, 12, -6 * long), (6 * long, 2 * long**2, -6 * long, 4 * long**2))
-        move = ((156, 22 * long, 54, -13 * long), (22 * long, 4 * long**2, 13 * long, -3 * long**2), (54, 13 * long, 156, -22 * long), (-13 * long, -3 * long**2, -22 * long, 4 * long**2))
-        turn = [[0.0] * 6 for _ in range(6)]  # along, across and turn of either end by x, y and turn
-        for e in (0, 3):
-            turn[e][e], turn[e][e + 1], turn[e + 1][e], turn[e + 1][e + 1], turn[e + 2][e + 2] = c, s, -s, c, 1
-        for to, pull, across, by in ((self.k, (ea / long, -ea / long), bend, ei / long**3), (self.m, (mass / 3, mass / 6), move, mass / 420)):
-            own = [[0.0] * 6 for _ in range(6)]
-            own[0][0] = own[3][3] = pull[0]
-            own[0][3] = own[3][0] = pull[1]
-            for i, p in enumerate((1, 2, 4, 5)):
-                for j, q in enumerate((1, 2, 4, 5)):
-                    own[p][q] = across[i][j] * by
-            part = [[sum(turn[p][i] * own[p][q] * turn[q][j] for p in range(6) for q in range(6) if turn[p][i] and turn[q][j]) for j in range(6)] for i in range(6)]
-            for u, v in zip(ends, ends[1:]):
-                row = [3 * u, 3 * u + 1, 3 * u + 2, 3 * v, 3 * v + 1, 3 * v + 2]
-                for i in range(6):
-                    for j in range(6):
-                        to[row[i], row[j]] = to.get((row[i], row[j]), 0) + part[i][j]
-
-    def modes(self, count):
-        free = [i for i in range(3 * len(self.at)) if i // 3 not in self.held]
-        number = {i: n for n, i in enumerate(free)}
-        n = len(free)
-        low = [[0.0] * n for _ in range(n)]
-        for (i, j), value in self.k.items():
-            if i in number and j in number:
-                low[number[i]][number[j]] = value
-        mass = [(number[i], number[j], v) for (i, j), v in self.m.items() if v and i in number and j in number]
-        for j in range(n):  # L D L^T in place
-            for i in range(j + 1, n):
-                if low[i][j]:
-                    by, row, of = low[i][j] / low[j][j], low[i], low[j]
-                    for q in range(i, n):
-                        if of[q]:
-                            low[i][q] -= by * of[q]
-                            low[q][i] = row[q]
-
-        def weigh(x):
-            y = [0.0] * n
-            for i, j, v in mass:
-                y[i] += v * x[j]
-            return y
-
-        def solve(f):
-            x = f[:]
-            for j in range(n):
-                x[j] /= low[j][j]
-                for i in range(j + 1, n):
-                    if low[j][i]:
-                        x[i] -= low[j][i] * x[j]
-            for j in reversed(range(n)):
-                x[j] -= sum(low[j][i] * x[i] for i in range(j + 1, n) if low[j][i]) / low[j][j]
-            return x
-
-        shapes, found = [], []
-        for mode in range(count):
-            x, was = [math.sin(1 + 7.3 * (mode + 1) * i) for i in range(n)], 0
-            for _ in range(60):
-                y = weigh(x)
-                for z, weighed in shapes:
-                    by = sum(a * b for a, b in zip(z, y))
-                    y = [a - by * b for a, b in zip(y, weighed)]
-                x = solve(y)
-                weighed = weigh(x)
-                size = math.sqrt(sum(a * b for a, b in zip(x, weighed)))
-                x = [a / size for a in x]
-                if abs(size - was) < 1e-6 * size:
-                    break
-                was = size
-            shapes.append((x, weigh(x)))
-            found.append(1 / math.sqrt(size) / (2 * math.pi))
-        return found
-
-
 class BodiesThatSwing(unittest.TestCase):
     """Bodies of bars whose own mass swings on them: rings whose sides move apart, legs between hinges, stems, hooks, at random. Their first two modes in
-    the plane, as frames that know nothing of the program, lie in the bands, which begin not far below."""
+    the plane, as plane solids have them, lie in the bands, which begin not far below."""
     FOOT = 60
-    NECK = {"portal": 38, "ring": 114, "ring on four": 114}  # um: between a foot and the block of 160 um at its leaf's root, as the layout draws them; else 85
+    # Hz, two modes of each device in turn: plane solids of the drawn outlines, quadratic triangles of 5 to 14 um, held 24 um behind the roots on the ground
+    SOLIDS = ((14463, 46001), (15706, 61114), (18919, 69692), (20065, 93895), (17773, 79764), (16372, 32237),
+              (12461, 40728), (14303, 82962), (20090, 81327), (20569, 57973), (16496, 59208), (17212, 28395))
     ASKED = '<require frequency="1" plane="in" min="1 Hz"/><require frequency="2" plane="in" min="1 Hz"/>'
 
     def drawn(self, bars, leaves, asked=ASKED):
@@ -708,24 +615,6 @@ class BodiesThatSwing(unittest.TestCase):
         return f'''<device xmlns="urn:flexwright:device:1" name="bars"><material ref="silicon-100" thickness="50 um" youngs-modulus="160 GPa"/><flow ref="silicon-on-glass"/>
 <flexure id="leaf" kind="leaf" length="300 um" width="8 um" fillet="4 um"/><mechanism><body id="c" x="0 mm" y="0 mm">{plates}</body>{pins}</mechanism>{asked}
 <scene name="push" duration="30 ms"><force on="c" fx="10 uN" law="ramp" rise="20 ms"/><material-damping loss-factor="0.1"/></scene><die tethers="no"/></device>'''
-
-    def frame(self, kind, bars, leaves):
-        f = Frame()
-        ends = [q for o in bars for q in (o[:2], o[2:4])] + [(x, y) for x, y, _ in leaves]
-        for a, b, c, d, w in bars + [(x, y + p * way, x, y + q * way, w) for x, y, way in leaves for p, q, w in ((0, 0.1, self.FOOT), (0.1, 0.19, self.NECK.get(kind, 85)), (0.19, 0.25, 160))]:
-            cuts = {0.0, 1.0}
-            for p in ends:
-                t = ((p[0] - a) * (c - a) + (p[1] - b) * (d - b)) / ((c - a)**2 + (d - b)**2)
-                if 1e-9 < t < 1 - 1e-9 and math.hypot(a + t * (c - a) - p[0], b + t * (d - b) - p[1]) < 1e-6:
-                    cuts.add(round(t, 12))
-            cuts = sorted(cuts)
-            for s, t in zip(cuts, cuts[1:]):
-                f.bar(*((1e-3 * (a + r * (c - a)), 1e-3 * (b + r * (d - b))) for r in (s, t)), 1e-6 * w)
-        for x, y, way in leaves:
-            end = (1e-3 * x, 1e-3 * (y + 0.55 * way))
-            f.bar((1e-3 * x, 1e-3 * (y + 0.25 * way)), end, 8e-6)
-            f.held.add(f.node(*end))
-        return f.modes(2)
 
     def at_random(self, kind, draw):
         w = [round(draw.uniform(30, 80)) for _ in range(4)]
@@ -748,15 +637,15 @@ class BodiesThatSwing(unittest.TestCase):
 
     def test_first_two_modes_of_bars(self):
         draw = random.Random(217)
-        for kind in ("portal", "ring", "ring on four", "stem", "tee", "hook") * 2:
+        for kind, solid in zip(("portal", "ring", "ring on four", "stem", "tee", "hook") * 2, self.SOLIDS):
             found = None
             while not found:  # of some rings no base of a leaf reaches the frame
                 bars, leaves = self.at_random(kind, draw)
                 done = run("check", "-", "--corners", "none", "--advice", "none", "--json", input=self.drawn(bars, leaves))
                 found = json.loads(done.stdout).get("requirements")
-            for true, row in zip(self.frame(kind, bars, leaves), found):
+            for mode, (true, row) in enumerate(zip(solid, found)):
                 low, high = row["band"]
-                self.assertTrue(true / 1.25 < low < true < high, (kind, bars, leaves, true, row))
+                self.assertTrue(true / (1.2 if mode else 1.06) < low < true < high, (kind, bars, leaves, true, row))
 
     def test_what_a_ring_and_legs_do_is_not_accepted(self):
         """solids have the first mode of this ring at 12.03 kHz, and the second of these legs at 46.3 kHz; with bodies' masses in their middles the

@@ -50,7 +50,7 @@ class Equilibria(unittest.TestCase):
 
     def test_far_from_pull_in_bands_are_narrow(self):
         low, high = said_of(CLAMP % (self.ASKED, SLOWLY), "volts=10 V")["requirements"][0]["band"]
-        self.assertLess(high - low, 0.03 * high)  # a percent of it is what bodies and flexures do by their own mass (decision 217)
+        self.assertLess(high - low, 0.02 * high)
 
     def test_without_a_softer_equilibrium_it_is_undecided(self):
         said = said_of(CLAMP % (self.ASKED.replace("580 Hz", "10 Hz"), SLOWLY), "volts=41.2 V")

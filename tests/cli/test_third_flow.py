@@ -191,7 +191,7 @@ class OrderedPlate(unittest.TestCase):
       <parameter name="w" value="10 um"/><material ref="silicon-100" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/>
       <die tethers="no"/><order/><flexure id="leaf" kind="leaf" length="400 um" width="w"/>
       <mechanism><body id="bar" x="0 mm" y="0.75 mm" width="120 um"/><revolute id="A" a="ground" b="bar" b-y="-0.75 mm" hinge="leaf"/></mechanism>
-      <require frequency="1" plane="in" min="3.9 kHz"/>
+      <require frequency="1" plane="in" min="4 kHz"/>
       <scene name="nudge" duration="1 ms"><torque on="bar" value="1e-4 mN mm"/></scene>
     </device>"""
 
