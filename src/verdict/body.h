@@ -140,4 +140,61 @@ fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *mechanis
                                    const struct fw_verdict_shaken *shaken,
                                    fw_verdict_softness softer, double *factor, double *each,
                                    double *late);
+
+/* body_swing.c: the first modes in the plane at rest with bodies as beams from their middles on, as they are computed (5e) */
+typedef struct fw_verdict_swung {
+    fw_verdict_beams beams;
+    int n;
+    double *s2;       /* (n) 1/omega^2, the largest first */
+    double *flexures; /* (n) share of the strain energy that flexures store */
+    double (*goes)
+        [3]; /* (n x beams.n) of beams, by a mode of mass 1: (m, m, rad)/sqrt(kg), axes as drawn */
+    double (*opens)[3]; /* (n x nhinge) of flexures at their pins */
+} fw_verdict_swung;
+/* swung (n = 0: *why, or no mode was found); why: as fw_verdict_slowest_swings has it */
+fw_status fw_verdict_swung_modes(fw_arena *arena, const fw_mechanism *mechanism,
+                                 const fw_verdict_arm *arm, int count, fw_verdict_swung *swung,
+                                 const char **why);
+/* ringing.c: how far one unit of each driver that moves, then of heats, then the stress of layers, hold every body from where it
+   rests (n x 3 nbody), and their laws (n); unknown: what holds it nowhere that was found, or NULL */
+typedef struct fw_verdict_held_ways {
+    const double *way;
+    fw_quantity_law_load *load;
+    int n;
+    const char *unknown;
+} fw_verdict_held_ways;
+fw_status fw_verdict_ways_held(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_device_scene *scene, fw_verdict_held_ways *held);
+
+/* body_shaken.c: of a device, for all of its scenes */
+typedef struct fw_verdict_own {
+    bool looked[2]; /* for modes, and for w */
+    fw_verdict_swung *w;
+    const fw_statics_modes *modes; /* of rigid bodies, at rest */
+    const char *why;               /* its modes are not known */
+} fw_verdict_own;
+/* What bodies do by modes of their own in a scene, beside what the motion has */
+typedef struct fw_verdict_swinging {
+    const fw_verdict_swung *w;
+    double *far,
+        *fast; /* (w->n) amplitudes of modes, m sqrt(kg) and that over s; 0: rigid bodies have it */
+    double *way_m;  /* (nbody) how far any place of a body goes */
+    double share;   /* of what bends, or moves, most in the motion */
+    double slow_Hz; /* from where on these modes lie */
+} fw_verdict_swinging;
+/* Adds it to factors of hinges, to `each` of v->shaken[scene], whose ways are known, and puts it there (`own`) */
+fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, fw_verdict_own *own,
+                                  struct fw_verdict_variant_verdict *v);
+/* *may: they may by more than a hundredth of what the motion has; gives: share that bodies give in it */
+fw_status fw_verdict_may_swing(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
+                               int scene, double gives, fw_verdict_own *own, bool *may);
+/* own->modes */
+fw_status fw_verdict_own_modes(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
+                               fw_verdict_own *own);
+/* mode k at a place of a body as drawn: (m, m, rad)/sqrt(kg) */
+void fw_verdict_swung_there(const fw_verdict_swung *swung, int k, int body, fw_geometry_vec2 at,
+                            double u[3]);
+/* body_farther.c: ways to what may be met and electrodes have it; a warning (FW-D741) */
+fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diags *diags,
+                                 struct fw_verdict_variant_verdict *v);
 #endif

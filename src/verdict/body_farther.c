@@ -18,6 +18,7 @@
    Elasticity, 3rd ed., art. 86); Cauchy and Schwarz. Theory: docs/theory/verdict.md. Test: test_effects.py BodiesOfBars */
 #include "base/constants.h"
 #include "geometry/segment.h"
+#include "quantity/law_kind.h"
 #include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -189,4 +190,132 @@ fw_status fw_verdict_may_touch(fw_arena *arena, int scene, fw_verdict_variant_ve
                 fw_number_text(may, sizeof may, 1e6 * fw_verdict_reach_takes(r, up[c]), 3)));
     }
     return FW_OK;
+}
+
+/* ---- what bodies do by modes of their own, in what is judged (body_shaken.c) ---- */
+
+/* how far a place goes along (nx, ny), either way, of all modes; {0, 0}: wherever to. speed: m/s */
+static double goes_by_own(const fw_verdict_variant_verdict *v, const fw_verdict_swinging *own,
+                          int body, double x_m, double y_m, fw_geometry_vec2 n, bool speed) {
+    double sum = 0, u[3];
+    if (body == FW_GROUND) return 0;
+    const fw_geometry_vec2 at = fw_mechanism_local_place(v->mechanism, body, x_m, y_m);
+    for (int k = 0; k < own->w->n; k++) {
+        fw_verdict_swung_there(own->w, k, body, at, u);
+        sum += (speed ? own->fast[k] : own->far[k]) *
+               (n.x == 0 && n.y == 0 ? hypot(u[0], u[1]) : fabs(u[0] * n.x + u[1] * n.y));
+    }
+    return sum;
+}
+
+static double turns_by_own(const fw_verdict_swinging *own, int body) {
+    const fw_verdict_beams *b = &own->w->beams;
+    double sum = 0;
+    for (int k = 0; k < own->w->n && body != FW_GROUND; k++) {
+        double most = 0;
+        for (int i = b->first[body]; i < b->first[body + 1]; i++)
+            most = fmax(most, fabs(own->w->goes[(size_t)k * (size_t)b->n + (size_t)i][2]));
+        sum += own->far[k] * most;
+    }
+    return sum;
+}
+
+/* of a probe, in its unit; NaN: it has no such way, and goes with what moves most. aside: across its direction */
+static double probed_by_own(const fw_verdict_variant_verdict *v, const fw_verdict_swinging *own,
+                            const fw_device_probe *p, bool aside) {
+    const fw_geometry_vec2 any = {0}, n = aside || isnan(p->direction_rad)
+                                              ? any
+                                              : (fw_geometry_vec2){cos(p->direction_rad),
+                                                                   sin(p->direction_rad)};
+    switch (p->row) {
+    case FW_PROBE_IS_displacement:
+        return goes_by_own(v, own, p->body, p->x_m, p->y_m, n, false);
+    case FW_PROBE_IS_velocity:
+        return goes_by_own(v, own, p->body, p->x_m, p->y_m, n, true);
+    case FW_PROBE_IS_distance:
+    case FW_PROBE_IS_opening:
+        return goes_by_own(v, own, p->body, p->x_m, p->y_m, any, false) +
+               goes_by_own(v, own, p->body_b, p->bx_m, p->by_m, any, false);
+    case FW_PROBE_IS_gap:
+        return (p->body == FW_GROUND ? 0 : own->way_m[p->body]) +
+               (p->body_b == FW_GROUND ? 0 : own->way_m[p->body_b]);
+    case FW_PROBE_IS_angle:
+        return turns_by_own(own, p->body) + turns_by_own(own, p->body_b);
+    case FW_PROBE_IS_force:
+    case FW_PROBE_IS_torque:
+    case FW_PROBE_IS_power:
+    case FW_PROBE_IS_capacitance:
+        return (double)NAN;
+    case FW_PROBE_IS_stiffness:
+    case FW_PROBE_IS_compliance:
+    case FW_PROBE_IS_frequency:
+    case FW_PROBE_KINDS:
+        return 0;
+    }
+    return 0;
+}
+
+void fw_verdict_swings_required(const fw_verdict_variant_verdict *v, fw_verdict_requirement *r) {
+    const fw_device *d = v->mechanism->device;
+    const fw_device_requirement *asked = &d->requirement[r->asked];
+    const fw_verdict_swinging *own = v->shaken[r->scene_index].own;
+    const double little = 0.25; /* of a band that it settles within */
+    const bool settles = asked->measure == FW_MEASURE_SETTLING;
+    if (!own) return;
+    double more =
+        probed_by_own(v, own, &d->probe[asked->probe], asked->measure == FW_MEASURE_PARASITIC);
+    if (settles && (isnan(more) ? own->share > 0 : more > little * asked->band)) {
+        r->open = "bodies swing by modes of their own, beside what rigid bodies do";
+        r->low = 0, r->high = HUGE_VAL;
+    }
+    if (settles) return;
+    if (isnan(more)) more = own->share * r->swing;
+    if (asked->measure == FW_MEASURE_PEAK_TO_PEAK) more *= 2;
+    r->low -= more, r->high += more;
+    if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
+}
+
+/* the farthest body, and the next one: what may meet comes by both */
+static double nearer_by_own(const fw_mechanism *m, const fw_verdict_swinging *own, int *body) {
+    double far = 0, other = 0;
+    *body = 0;
+    for (int b = 0; b < m->nbody; b++)
+        if (own->way_m[b] > far)
+            other = far, far = own->way_m[b], *body = b;
+        else
+            other = fmax(other, own->way_m[b]);
+    return far + other;
+}
+
+fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diags *diags,
+                                 fw_verdict_variant_verdict *v) {
+    const double told = 0.1;
+    const fw_mechanism *m = v->mechanism;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const fw_verdict_swinging *own = v->shaken[scene].own;
+    char f[32], up[32];
+    int body;
+    if (!own) return FW_OK;
+    const double by = nearer_by_own(m, own, &body);
+    for (int k = 0; k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index != scene || c->decision != FW_ACCEPT || c->low_m - by > c->required_m)
+            continue;
+        c->decision = FW_INCONCLUSIVE;
+        FW_TRY(fw_verdict_say_bent(arena, v, s->name, 638,
+                                   c->required_m > 0
+                                       ? "what is asked for between parts is only just kept"
+                                       : "parts only just do not meet",
+                                   body, by));
+    }
+    for (int k = 0; k < v->nstator; k++)
+        if (v->stator[k].index == scene) v->stator[k].low_m -= own->way_m[body];
+    if (brief || !(own->share > told)) return FW_OK;
+    fw_diag_warning(diags, 741, s->place,
+                    "in %s%s bodies swing by modes of their own, from %s Hz on, beside what "
+                    "rigid bodies do: of what bends and moves most up to %s times as much, which "
+                    "the bands hold; make bodies stiffer, or what drives them slower",
+                    FW_NAMED("scene", s->name), fw_number_text(f, sizeof f, own->slow_Hz, 3),
+                    fw_number_text(up, sizeof up, own->share, 2));
+    return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -247,25 +247,32 @@ static bool is_driven(const fw_mechanism *m, int pin) {
     return false;
 }
 
-/* what it gives by itself, to (3 x 3) at its place in F + D */
-static void add_own(swings *x, int link) {
-    const fw_mechanism *m = x->m;
-    const int rows = 3 * x->nlink;
+/* (3 x 3) what a flexure gives by itself: world axes at its pin, m, m, rad */
+static void flexure_gives(const fw_mechanism *m, int hinge, double to[9]) {
     const double hardly = 1e-6;
-    double *to = x->a + 3 * link * rows + 3 * link;
-    if (link >= m->nhinge) {
-        const fw_verdict_loop *l = &x->b.loop[link - m->nhinge];
-        to[0] += l->goes, to[rows + 1] += l->goes, to[2 * rows + 2] += l->turns;
-        return;
-    }
-    const fw_mechanism_hinge *h = &m->hinge[link];
+    const fw_mechanism_hinge *h = &m->hinge[hinge];
     fw_flexure_hinge_at at;
     fw_flexure_hinge_law_at(&h->law, 0, &at);
     const double c = cos(h->axis_rad), s = sin(h->axis_rad), along = 1 / at.kx_N_per_m.value,
                  across = 1 / at.ky_N_per_m.value;
-    to[0] += along * c * c + across * s * s, to[rows + 1] += along * s * s + across * c * c;
-    to[1] += (along - across) * c * s, to[rows] += (along - across) * c * s;
-    to[2 * rows + 2] += (is_driven(m, h->pin) ? hardly : 1) / m->pin[h->pin].stiffness_Nm_per_rad;
+    memset(to, 0, 9 * sizeof *to);
+    to[0] = along * c * c + across * s * s, to[4] = along * s * s + across * c * c;
+    to[1] = to[3] = (along - across) * c * s;
+    to[8] = (is_driven(m, h->pin) ? hardly : 1) / m->pin[h->pin].stiffness_Nm_per_rad;
+}
+
+/* what a link gives by itself, to (3 x 3) at its place in F + D */
+static void add_own(swings *x, int link) {
+    const int rows = 3 * x->nlink;
+    double own[9] = {0}, *to = x->a + 3 * link * rows + 3 * link;
+    if (link < x->m->nhinge) {
+        flexure_gives(x->m, link, own);
+    } else {
+        const fw_verdict_loop *l = &x->b.loop[link - x->m->nhinge];
+        own[0] = own[4] = l->goes, own[8] = l->turns;
+    }
+    for (int i = 0; i < 9; i++)
+        to[i / 3 * rows + i % 3] += own[i];
 }
 
 static fw_status link_all(swings *x) {
@@ -415,42 +422,83 @@ static void make_square(double *row, size_t p, size_t n) {
     }
 }
 
-/* by iteration of a few more rows than are asked for (Rayleigh and Ritz) */
-static fw_status iterate(swings *x, int count, double *s2) {
-    enum { MORE = 4, TIMES = 100 };
-    const double settled = 1e-5, lacks = 1e-3;
-    const size_t n = 3 * (size_t)x->b.n, want = (size_t)count + MORE, p = n < want ? n : want;
-    double *row, *next, *form, *value;
+/* A few more rows than are asked for (Rayleigh and Ritz) */
+typedef struct ritz {
+    double *row, *next, *form,
+        *value; /* (p x n), (p x n), (p x p) then vectors in rows, (p) ascending */
+    size_t p, n;
     fw_maths_lapack_space space;
-    FW_NEED(row = fw_arena_array(x->arena, double, 2 * p * n + p * p + p));
-    next = row + p * n, form = next + p * n, value = form + p * p;
-    FW_TRY(fw_maths_eigen_space(x->arena, (int)p, &space));
+} ritz;
+
+static fw_status ritz_new(swings *x, int count, ritz *r) {
+    enum { MORE = 4 };
+    const size_t n = 3 * (size_t)x->b.n, want = (size_t)count + MORE, p = n < want ? n : want;
+    *r = (ritz){.p = p, .n = n};
+    FW_NEED(r->row = fw_arena_array(x->arena, double, 2 * p * n + p * p + p));
+    r->next = r->row + p * n, r->form = r->next + p * n, r->value = r->form + p * p;
     for (size_t i = 0; i < p * n; i++) /* no mode is square to any numbers, of either sign */
-        row[i] = ((unsigned)i * 2654435761U >> 16 & 255) / 256.0 - 0.5;
+        r->row[i] = ((unsigned)i * 2654435761U >> 16 & 255) / 256.0 - 0.5;
+    return fw_maths_eigen_space(x->arena, (int)p, &r->space);
+}
+
+static bool ritz_step(swings *x, ritz *r) {
+    const size_t p = r->p, n = r->n;
+    make_square(r->row, p, n);
+    for (size_t i = 0; i < p; i++)
+        swing(x, r->row + i * n, r->next + i * n);
+    for (size_t i = 0; i < p; i++)
+        for (size_t j = 0; j <= i; j++) {
+            double sum = 0;
+            for (size_t k = 0; k < n; k++)
+                sum += r->row[i * n + k] * r->next[j * n + k];
+            r->form[i * p + j] = r->form[j * p + i] = sum;
+        }
+    return fw_maths_eigen((int)p, r->form, r->value, &r->space);
+}
+
+static fw_status iterate(swings *x, int count, ritz *r, double *s2) {
+    enum { TIMES = 100 };
+    const double settled = 1e-5, lacks = 1e-3;
+    const size_t p = r->p;
     for (int turn = 0, still = 0; turn < TIMES && still < 2; turn++) {
         if (fw_arena_cancelled(x->arena)) return FW_CANCELLED;
         double off = 0;
-        make_square(row, p, n);
-        for (size_t i = 0; i < p; i++)
-            swing(x, row + i * n, next + i * n);
-        for (size_t i = 0; i < p; i++)
-            for (size_t j = 0; j <= i; j++) {
-                double sum = 0;
-                for (size_t k = 0; k < n; k++)
-                    sum += row[i * n + k] * next[j * n + k];
-                form[i * p + j] = form[j * p + i] = sum;
-            }
-        if (!fw_maths_eigen((int)p, form, value, &space)) return FW_SOLVER;
+        if (!ritz_step(x, r)) return FW_SOLVER;
         for (int k = 0; k < count; k++) {
-            const double now = (size_t)k < p ? value[p - 1 - (size_t)k] : 0;
+            const double now = (size_t)k < p ? r->value[p - 1 - (size_t)k] : 0;
             off = fmax(off, fabs(now - s2[k]) / fmax(now, DBL_MIN)), s2[k] = now;
         }
         still = off < settled ? still + 1 : 0;
-        memcpy(row, next, p * n * sizeof *row);
+        memcpy(r->row, r->next, p * r->n * sizeof *r->row);
     }
     for (int k = 0; k < count; k++)
         s2[k] *= 1 + lacks;
     return FW_OK;
+}
+
+/* s2 (count), and the device as it was made ready; *why NULL, or why that is not known */
+static fw_status slowest(fw_arena *arena, swings *x, const fw_verdict_arm *arm, int count,
+                         double *s2, ritz *r, const char **why) {
+    const fw_mechanism *m = x->m;
+    bool holds = false;
+    *why = NULL;
+    for (int k = 0; k < count; k++)
+        s2[k] = 0;
+    fw_status status = beams_of(x->arena, m, arm, &x->b);
+    x->nlink = m->nhinge + x->b.nloop;
+    if (status == FW_OK && x->b.lost == FW_NONE) status = link_all(x);
+    if (status == FW_OK && x->b.lost == FW_NONE) status = prepare(x, &holds);
+    if (status == FW_OK && holds) status = ritz_new(x, count, r);
+    if (status == FW_OK && holds) status = iterate(x, count, r, s2);
+    if (status == FW_OK && x->b.lost != FW_NONE)
+        FW_NEED(*why = fw_arena_printf(
+                    arena,
+                    "no grid resolves %s%s, so that what it does by its own mass is not known",
+                    FW_NAMED("body", fw_text_name(m->body[x->b.lost].id))));
+    else if (!holds)
+        *why = "flexures alone do not hold its bodies, so that what these do by their own mass is "
+               "not known";
+    return status == FW_SOLVER ? FW_OK : status;
 }
 
 fw_status fw_verdict_slowest_swings(fw_arena *arena, const fw_mechanism *m,
@@ -459,26 +507,52 @@ fw_status fw_verdict_slowest_swings(fw_arena *arena, const fw_mechanism *m,
     fw_arena *own = fw_arena_part(arena, 0);
     FW_NEED(own);
     swings x = {.arena = own, .m = m};
-    bool holds = false;
-    *why = NULL;
-    for (int k = 0; k < count; k++)
-        s2[k] = 0;
-    fw_status status = beams_of(own, m, arm, &x.b);
-    x.nlink = m->nhinge + x.b.nloop;
-    if (status == FW_OK && x.b.lost == FW_NONE) status = link_all(&x);
-    if (status == FW_OK && x.b.lost == FW_NONE) status = prepare(&x, &holds);
-    if (status == FW_OK && holds) status = iterate(&x, count, s2);
-    const int lost = x.b.lost;
+    ritz r;
+    const fw_status status = slowest(arena, &x, arm, count, s2, &r, why);
     fw_arena_free(own);
-    if (status == FW_OK && lost != FW_NONE)
-        FW_NEED(*why = fw_arena_printf(
-                    arena,
-                    "no grid resolves %s%s, so that what it does by its own mass is not known",
-                    FW_NAMED("body", fw_text_name(m->body[lost].id))));
-    else if (!holds)
-        *why = "flexures alone do not hold its bodies, so that what these do by their own mass is "
-               "not known";
-    return status == FW_SOLVER ? FW_OK : status;
+    return status;
+}
+
+/* mode k of its rows, of mass 1 */
+static void keep_mode(swings *x, const ritz *r, int k, fw_verdict_swung *to) {
+    const size_t at = r->p - 1 - (size_t)k, nh = (size_t)x->m->nhinge, beams = (size_t)x->b.n;
+    const double s2 = r->value[at];
+    double *sum = r->next, *out = r->next + r->n;
+    memset(sum, 0, r->n * sizeof *sum);
+    for (size_t i = 0; i < r->p; i++)
+        for (size_t j = 0; j < r->n; j++)
+            sum[j] += r->form[at * r->p + i] * r->row[i * r->n + j];
+    swing(x, sum, out);
+    for (size_t i = 0; i < 3 * beams; i++)
+        to->goes[(size_t)k * beams + i / 3][i % 3] = x->b.u[i / 3][i % 3] / s2;
+    for (size_t h = 0; h < nh; h++) {
+        double own[9], *opens = to->opens[(size_t)k * nh + h];
+        const double *w = x->gap + 3 * h;
+        flexure_gives(x->m, (int)h, own);
+        for (int i = 0; i < 3; i++) {
+            opens[i] = (own[3 * i] * w[0] + own[3 * i + 1] * w[1] + own[3 * i + 2] * w[2]) / s2;
+            to->flexures[k] += opens[i] * w[i];
+        }
+    }
+    to->s2[k] = s2;
+}
+
+fw_status fw_verdict_swung_modes(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                                 int count, fw_verdict_swung *to, const char **why) {
+    const size_t modes = (size_t)count, nh = (size_t)m->nhinge;
+    swings x = {.arena = arena, .m = m};
+    ritz r = {0};
+    *to = (fw_verdict_swung){0};
+    FW_NEED(to->s2 = fw_arena_array(arena, double, 2 * modes));
+    to->flexures = to->s2 + modes;
+    FW_TRY(slowest(arena, &x, arm, count, to->s2, &r, why));
+    to->beams = x.b;
+    if (*why || r.p == 0 || !ritz_step(&x, &r)) return FW_OK;
+    FW_NEED(to->goes = fw_arena_alloc(arena, modes * (size_t)x.b.n, sizeof *to->goes));
+    FW_NEED(to->opens = fw_arena_alloc(arena, modes * nh + 1, sizeof *to->opens));
+    while (to->n < count && (size_t)to->n < r.p && r.value[r.p - 1 - (size_t)to->n] > 0)
+        keep_mode(&x, &r, to->n, to), to->n++;
+    return FW_OK;
 }
 
 /* ---- how far a shock that is over throws the device across the plane ----
@@ -516,53 +590,4 @@ fw_status fw_verdict_thrown_across(fw_arena *arena, const fw_mechanism_plates *p
     }
     *far_m = speed * sqrt(mass_kg * most);
     return FW_OK;
-}
-
-/* ---- what hangs over swings slower (body_hung.c): 1/omega^2 of the rigid bodies and of what hangs over add up at most (Weyl) ---- */
-
-static int slowest_hung(const fw_verdict_variant_verdict *v, double *s2) {
-    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
-    int body = FW_NONE;
-    *s2 = 0;
-    for (int i = 0; hung && i < v->mechanism->nbody; i++)
-        if (hung[i].in_plane_mode_s2 > *s2) *s2 = hung[i].in_plane_mode_s2, body = i;
-    return body;
-}
-
-bool fw_verdict_hangs_alone(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
-    const fw_verdict_out_of_plane *o = v->out_of_plane;
-    double s2;
-    if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_INCONCLUSIVE || r->why) return false;
-    if (!(r->low < r->min) || r->high > r->max || slowest_hung(v, &s2) == FW_NONE) return false;
-    for (int k = 0; k < o->nmode; k++)
-        if (o->mode[k].f_Hz == r->value) return false; /* across the plane */
-    const double left = 1 - s2 * pow(FW_TURN * r->low, 2);
-    return !(left > 0) || r->low / sqrt(left) >= r->min;
-}
-
-fw_status fw_verdict_hangs_open(fw_verdict_variant_verdict *v, const char *scene, int number,
-                                const char *what) {
-    FW_NEED(what);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = FW_VERDICT_KEEP_HALF,
-                                                  .not_by_width = true,
-                                                  .text = what};
-    return FW_OK;
-}
-
-fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
-                               const fw_verdict_requirement *r, const char *text) {
-    double s2;
-    const int body = slowest_hung(v, &s2);
-    char own[32];
-    FW_NEED(text = fw_arena_printf(
-                arena,
-                "%s: %s%s, which is rigid in the value, may swing in the plane from %s Hz on where "
-                "it reaches beyond its hinges: make it wider or shorter",
-                text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
-                fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
-    return fw_verdict_hangs_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
 }

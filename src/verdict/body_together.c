@@ -316,3 +316,52 @@ fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_ver
     }
     return FW_OK;
 }
+
+/* ---- what hangs over swings slower (body_hung.c): 1/omega^2 of the rigid bodies and of what hangs over add up at most (Weyl) ---- */
+
+static int slowest_hung(const fw_verdict_variant_verdict *v, double *s2) {
+    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
+    int body = FW_NONE;
+    *s2 = 0;
+    for (int i = 0; hung && i < v->mechanism->nbody; i++)
+        if (hung[i].in_plane_mode_s2 > *s2) *s2 = hung[i].in_plane_mode_s2, body = i;
+    return body;
+}
+
+bool fw_verdict_hangs_alone(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    double s2;
+    if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_INCONCLUSIVE || r->why) return false;
+    if (!(r->low < r->min) || r->high > r->max || slowest_hung(v, &s2) == FW_NONE) return false;
+    for (int k = 0; k < o->nmode; k++)
+        if (o->mode[k].f_Hz == r->value) return false; /* across the plane */
+    const double left = 1 - s2 * pow(FW_TURN * r->low, 2);
+    return !(left > 0) || r->low / sqrt(left) >= r->min;
+}
+
+fw_status fw_verdict_hangs_open(fw_verdict_variant_verdict *v, const char *scene, int number,
+                                const char *what) {
+    FW_NEED(what);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = number,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
+                                                  .not_by_width = true,
+                                                  .text = what};
+    return FW_OK;
+}
+
+fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
+                               const fw_verdict_requirement *r, const char *text) {
+    double s2;
+    const int body = slowest_hung(v, &s2);
+    char own[32];
+    FW_NEED(text = fw_arena_printf(
+                arena,
+                "%s: %s%s, which is rigid in the value, may swing in the plane from %s Hz on where "
+                "it reaches beyond its hinges: make it wider or shorter",
+                text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
+                fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
+    return fw_verdict_hangs_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
+}

@@ -439,8 +439,17 @@ static void spread_from_root(fw_verdict_tree *t, int part) {
     }
 }
 
+/* how far what spreads around the middle goes all around: a part there is a ring */
+static double around_middle(const fw_verdict_tree *t, int part) {
+    double widest = 0;
+    for (; part != FW_NONE; part = t->at[part].before)
+        widest = fmax(widest, t->at[part].wide_m);
+    return widest / FW_TURN;
+}
+
 /* What bears spreads within a body by a quarter of its way on either side, from both ends of it: in a corner, and behind a
-   narrow part, less is borne than is there. And what spreads around the middle, which is held there alone, is as long as it is. */
+   narrow part, less is borne than is there. And what spreads around the middle, which is held there alone, is as long as it is,
+   less what of the middle is wider than what goes on from there. */
 static void narrow_parts(fw_verdict_tree *t) {
     const double spreads = 0.5;
     for (int i = 0; i < t->n; i++) {
@@ -449,7 +458,8 @@ static void narrow_parts(fw_verdict_tree *t) {
         const fw_verdict_tree_part *b = &t->at[p->before];
         const bool first = b->before == FW_NONE || b->spreads;
         if (first)
-            p->long_m = vec_distance(p->at, t->at[0].at) + 0.5 * p->long_m;
+            p->long_m = fmax(p->long_m, vec_distance(p->at, t->at[0].at) + 0.5 * p->long_m -
+                                            fmax(0, around_middle(t, p->before) - 0.5 * p->wide_m));
         else
             p->wide_m = fmin(p->wide_m, b->wide_m + spreads * vec_distance(p->at, b->at));
         if (!first && b->bears > 1) /* the front runs into a branch before it parts there */

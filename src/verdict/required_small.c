@@ -547,6 +547,7 @@ fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
                   "was found";
     }
     if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
+    fw_verdict_swings_required(v, r);
     return FW_OK;
 }
 

@@ -220,13 +220,13 @@ static void hold_both(const fw_statics_modes *other, double bodies, fw_verdict_s
 
 /* modes of the scene with how far they swing in it; none: nothing goes to and fro, or nothing swings */
 static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                             const fw_dynamics_motion *motion, double bodies, shakings *by,
-                             fw_verdict_shaken *to) {
+                             const fw_dynamics_motion *motion, double bodies, bool own,
+                             shakings *by, fw_verdict_shaken *to) {
     const fw_statics_modes *modes = NULL, *rest = NULL;
     fw_device_scene steady, still = {.name = "(none)", .duration_s = 1};
     bool moves, slowly;
     FW_TRY(find_laws(arena, m, s, by));
-    if ((by->n == 0 && !by->again) || motion->nsample < 2) return FW_OK;
+    if ((by->n == 0 && !by->again && !own) || motion->nsample < 2) return FW_OK;
     FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
     FW_TRY(fw_verdict_modes_about(arena, m, &steady, moves, 0.03, &modes));
     if (modes && slowly) FW_TRY(fw_verdict_modes_about(arena, m, &steady, false, 0.03, &rest));
@@ -353,12 +353,12 @@ static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, con
     return FW_OK;
 }
 
-static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, double bodies,
+static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, double bodies, bool may,
                          fw_verdict_variant_verdict *v) {
     const fw_device_scene *s = &m->device->scene[scene];
     fw_verdict_shaken *to = &v->shaken[scene];
     shakings by;
-    FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, &by, to));
+    FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, may, &by, to));
     double hangs_s2 = 0; /* 1/omega^2 of rigid bodies and of what hangs over add up (Weyl) */
     for (int i = 0; v->out_of_plane && v->out_of_plane->hung && i < m->nbody; i++)
         hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_mode_s2);
@@ -467,18 +467,22 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
     const double told = 1.1;
     const fw_device *d = m->device;
     const int nh = m->nhinge;
+    fw_verdict_own own = {0};
     FW_NEED(v->shaken = fw_arena_array(arena, fw_verdict_shaken, (size_t)d->nscene));
     for (int i = 0; i < d->nscene; i++) {
         double *f, most, least = 1;
         char up[32], down[32];
+        bool may;
         FW_NEED(f = v->shaken[i].factor = fw_arena_array(arena, double, 2 * (size_t)nh + 2));
         for (int h = 0; h < 2 * nh + 2; h++)
             f[h] = 1;
-        if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], v));
+        FW_TRY(fw_verdict_may_swing(arena, v, i, bodies[i], &own, &may));
+        if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], may, v));
         const double shakes = largest_of(f, 2 * nh + 2);
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
         fw_verdict_requirement_factor(f, nh, v->shaken[i].required);
         v->shaken[i].required_late = v->shaken[i].late;
+        if (may) FW_TRY(fw_verdict_bodies_swing(arena, i, &own, v));
         const double ways = f[2 * nh];
         if (v->motion[i] && !fw_verdict_stands_still(v, i)) { /* ways of round-off have no ratio */
             const double e = fw_verdict_bending_counted(v->motion[i]) +
@@ -491,6 +495,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         if (near < 1) may_not_meet(v, i, near);
         FW_TRY(may_meet(arena, i, far, v));
         if (v->motion[i]) FW_TRY(fw_verdict_may_touch(arena, i, v));
+        FW_TRY(fw_verdict_swings_tell(arena, i, brief, diags, v));
         FW_TRY(may_ring(arena, i, v));
         may_come_near(i, far, ways * (g ? g[2 * nh] : 1), v);
         most = largest_of(f, 2 * nh + 2);
@@ -525,7 +530,7 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
     for (size_t i = 0; i < scenes; i++) {
         fw_verdict_shaken *of = &to[i];
-        of->other[0].probe = of->other[1].probe = NULL;
+        of->other[0].probe = of->other[1].probe = NULL, of->own = NULL;
         const size_t n = (size_t)of->n, loads = (size_t)of->nload, reach = (size_t)of->nreach,
                      rows = bodies + reach;
         KEEP(of->factor, 2 * h);

@@ -131,6 +131,16 @@ static fw_status acting_of(fw_arena *arena, const fw_mechanism *m, const fw_devi
     return FW_OK;
 }
 
+fw_status fw_verdict_ways_held(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                               fw_verdict_held_ways *to) {
+    acting by;
+    *to = (fw_verdict_held_ways){0};
+    FW_TRY(acting_of(arena, m, s, NULL, &by, &to->unknown));
+    FW_NEED(to->load = fw_arena_array(arena, fw_quantity_law_load, (size_t)by.ways + 1));
+    to->way = by.way, to->n = laws_of(m, s, to->load);
+    return FW_OK;
+}
+
 static int loads_on(const fw_mechanism *m, const fw_device_scene *s, const acting *by,
                     const double *q, const double *shape, double square, double unit,
                     fw_quantity_law_load *load) {
@@ -190,7 +200,7 @@ fw_status fw_verdict_comes_again(fw_arena *arena, const fw_mechanism *m, const f
    about as much; along a leaf nothing gives that far. */
 typedef fw_verdict_bends bent;
 
-static bent bend_of(const fw_mechanism_hinge *h, double turn, double x_m, double y_m) {
+bent fw_verdict_bend_of(const fw_mechanism_hinge *h, double turn, double x_m, double y_m) {
     const double by = h->law.length_m > 0 ? 6 / h->law.length_m : 0;
     return (bent){turn, by * x_m, by * y_m};
 }
@@ -216,7 +226,7 @@ static bent bent_by(const fw_mechanism *m, const fw_mechanism_hinge *h, const do
         x += sign * (u[3 * b] - arm.y * u[3 * b + 2]);
         y += sign * (u[3 * b + 1] + arm.x * u[3 * b + 2]);
     }
-    return bend_of(h, turn, x, y);
+    return fw_verdict_bend_of(h, turn, x, y);
 }
 
 /* between two poses, exactly */
@@ -228,7 +238,8 @@ static double bent_between(const fw_mechanism *m, const fw_mechanism_hinge *h, c
     if (p->body_b != FW_GROUND) turn += to[3 * p->body_b + 2] - from[3 * p->body_b + 2];
     const fw_geometry_vec2 before = fw_mechanism_pin_opened(p, from),
                            after = fw_mechanism_pin_opened(p, to);
-    return fw_verdict_bends_most(bend_of(h, turn, after.x - before.x, after.y - before.y));
+    return fw_verdict_bends_most(
+        fw_verdict_bend_of(h, turn, after.x - before.x, after.y - before.y));
 }
 
 /* largest modal speed over w of every mode: in the scene, and in the last period of its frequency; *start: at the start,

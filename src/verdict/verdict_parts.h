@@ -174,6 +174,8 @@ fw_status fw_verdict_scene_reason(fw_verdict_variant_verdict *v, const fw_device
 typedef struct fw_verdict_bends {
     double turn, x, y;
 } fw_verdict_bends;
+fw_verdict_bends fw_verdict_bend_of(const fw_mechanism_hinge *hinge, double turn, double x_m,
+                                    double y_m);
 double fw_verdict_bends_most(fw_verdict_bends b);
 /* a mode that swings in a scene whose law goes to and fro, or where something comes again */
 typedef struct fw_verdict_shaken_mode {
@@ -215,8 +217,12 @@ struct fw_verdict_shaken {
     /* the same on what is required, by the most of them, without what the motions of `other` have */
     double required[2], required_late;
     double nearer_m, kept; /* of electrodes, in these; share of a gap as computed, 0: not asked */
+    const struct fw_verdict_swinging
+        *own;                  /* what bodies do by modes of their own (body.h); NULL: nothing */
     fw_verdict_other other[2]; /* softer, with all of the pull, and stiffer, with the least of it */
 };
+/* body_farther.c: what bodies do by modes of their own in its scene, in low and high */
+void fw_verdict_swings_required(const fw_verdict_variant_verdict *v, fw_verdict_requirement *r);
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);

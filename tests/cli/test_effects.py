@@ -661,6 +661,67 @@ class BodiesThatSwing(unittest.TestCase):
             self.assertTrue(0.87 * true < row["band"][0] < true, (row, true))
 
 
+class BodiesThatAreShaken(unittest.TestCase):
+    """Modes that rigid bodies do not have, under laws: legs of a portal by plane solids of the drawn outlines, arms by frames with their mass along them"""
+    PLATES = """<plate x="-0.5 mm" y="0 mm" width="60 um" height="1.2 mm"/><plate x="0.5 mm" y="0 mm" width="60 um" height="1.2 mm"/><plate x="0 mm" y="0.57 mm" width="1.06 mm" height="60 um"/>
+<plate x="-0.5 mm" y="-0.6 mm" width="60 um" height="60 um"/><plate x="0.5 mm" y="-0.6 mm" width="60 um" height="60 um"/><plate x="0 mm" y="0.65 mm" width="200 um" height="150 um"/>"""
+    ARM = """<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um" youngs-modulus="150 GPa"/><limits safety-factor="1.2"/><flow ref="al-masked-rie"/>
+<flexure id="leaf" kind="leaf" length="300 um" width="WIDE" fillet="10 um"/><mechanism><body id="arm" x="0 mm" y="0.5 mm"><plate x="0 mm" y="0 mm" width="0.2 mm" height="0.2 mm"/>BARS</body>
+<revolute id="A" a="ground" b="arm" b-y="-0.5 mm" hinge="leaf" axis="0 deg"/></mechanism>REST<die clearance="600 um"/></device>"""
+    UP = '<bar x="0 mm" y="0.1 mm" to-x="0 mm" to-y="1.6 mm" width="20 um"/>'
+
+    def said(self, text):
+        done = run("check", "-", "--corners", "none", "--advice", "none", "--json", input=text)
+        self.assertIn("FW-D741", done.stderr)
+        return json.loads(done.stdout)
+
+    def portal(self, Hz, m_per_s2):
+        text = BodiesThatSwing().drawn([], [(-0.5, -0.5, -1), (0.5, -0.5, -1)], "")
+        text = re.sub("<plate.*(?=</body>)", self.PLATES, text)
+        return self.said(re.sub("<scene.*</scene>", f'<scene name="shake" duration="2 ms"><base-motion ax="{m_per_s2} m/s2" law="sine" frequency="{Hz} Hz"/>'
+                                '<material-damping loss-factor="1e-3"/></scene>', text))
+
+    def arm(self, rest, bars=UP, wide="30 um"):
+        return self.said(self.ARM.replace("BARS", bars).replace("REST", rest).replace("WIDE", wide))
+
+    def test_legs_between_hinges(self):
+        """stress of the leaves, of 667 MPa, by the mode that is met, at 1e-3 of it lost in a period: 756 and 722 MPa"""
+        for Hz, m_per_s2, true in ((61376, 15000, 1.13), (11700, 2000, 1.08)):
+            said = self.portal(Hz, m_per_s2)
+            self.assertEqual(said["verdict"], "inconclusive")
+            high = max(h["utilisation_band"][1] for h in said["hinges"])
+            self.assertTrue(true < high < 2.5 * true, (Hz, high))
+
+    def test_slow_laws_widen_little(self):
+        """far below its first mode, 11.7 kHz, what the portal bears is what its weight at rest does (10.2 MPa by 2 km/s2), and a little more"""
+        high = max(h["utilisation_band"][1] for h in self.portal(1000, 2000)["hinges"])
+        self.assertTrue(0.0155 < high < 0.08, high)
+
+    def test_arms_beyond_a_hinge(self):
+        """frames have 15.7 um damped as a whole, 41 by the leaf alone; 28.8 of two arms, which the leaf does not damp"""
+        probe = '<probe id="tip" kind="displacement" on="arm" x="{x} mm" y="{y} mm" direction="{turn} deg"/><require probe="tip" measure="peak" max="10 um"/>'
+        scene = '<scene name="go" duration="20 ms"><base-motion {way}="{a} m/s^2" law="sine" frequency="{f} kHz"/><material-damping loss-factor="{loss}"/></scene>'
+        up = self.arm(probe.format(x=0, y=1.6, turn=0) + scene.format(way="ax", a=500, f=8.9, loss=0.02))
+        self.assertTrue(15.7e-6 < up["requirements"][0]["band"][1], up["requirements"])
+        beside = self.arm(probe.format(x=1.6, y=0, turn=90) + scene.format(way="ay", a=200, f=17.27, loss=0.01),
+                          '<bar x="-1.6 mm" y="0 mm" to-x="1.6 mm" to-y="0 mm" width="30 um"/>', "20 um")
+        self.assertTrue(28e-6 < beside["requirements"][0]["band"][1] < 60e-6, beside["requirements"])
+
+    def test_what_rings_on(self):
+        """a ramp of 20 us leaves the arm ringing for 3 ms and more"""
+        said = self.arm('<probe id="tip" kind="displacement" on="arm" x="0 mm" y="1.6 mm" direction="0 deg"/><require probe="tip" measure="settling-time" band="1 um" max="2 ms"/>'
+                        '<scene name="go" duration="15 ms"><force on="arm" x="0 mm" y="1.6 mm" fx="20 uN" law="ramp" rise="0.02 ms"/><material-damping loss-factor="0.02"/></scene>')
+        self.assertEqual(said["requirements"][0]["verdict"], "inconclusive", said["requirements"])
+
+    def test_a_stop_that_the_arm_may_reach(self):
+        """6 um from the stop the rigid arm goes 2; a run with the arm's mass along it hits with 13 uN"""
+        said = self.arm('<probe id="blow" kind="force" of="stop"/><require probe="blow" measure="peak" max="1 uN"/><scene name="go" duration="10 ms">'
+                        '<base-motion ax="300 m/s^2" law="sine" frequency="8.9 kHz"/><contact id="stop" a="arm" a-x="0.010 mm" a-y="1.6 mm" a-face="0 deg" b="ground" b-x="0.021 mm" b-y="2.1 mm"'
+                        ' side="outside" undrawn="placed" distance="5 um" stiffness="100 N/m" damping="1e-4 N s/m"/><material-damping loss-factor="0.02"/></scene>')
+        self.assertEqual(said["verdict"], "inconclusive", said)
+        self.assertIn("contact stop may be met", " ".join(r["text"] for r in said["reasons"]))
+
+
 class NotDrawn(unittest.TestCase):
     """Bands of what is required of a device of which nothing is drawn are those of rigid bodies, and say so by their names"""
 
@@ -851,7 +912,7 @@ class Resonance(unittest.TestCase):
         far, said = self.shaken(500)
         mode = next(r for r in far["requirements"] if r["kind"] == "frequency")
         low, high = (f / mode["value"] for f in mode["band"])
-        self.assertTrue(low < 0.99 and high > 1.002)
+        self.assertTrue(low < 0.995 and high > 1.002)
         self.assertNotIn("FW-D642", said)
         near, said = self.shaken(0.977 * mode["value"])
         self.assertIn("FW-D642", said)
@@ -860,7 +921,7 @@ class Resonance(unittest.TestCase):
         # a device that is a little softer is one that is shaken a little faster
         softer, _ = self.shaken(0.977 * mode["value"] / (0.25 + 0.75 * low))
         for h, other in zip(near["hinges"], softer["hinges"]):
-            self.assertGreater(other["utilisation"], 1.3 * h["utilisation"])
+            self.assertGreater(other["utilisation"], 1.15 * h["utilisation"])
             self.assertLess(other["utilisation"], h["utilisation_band"][1])
         stroke, other = (next(r for r in d["requirements"] if r["kind"] == "displacement") for d in (near, softer))
         self.assertLess(other["value"], stroke["band"][1])
@@ -1108,10 +1169,10 @@ class Resonance(unittest.TestCase):
             mode = next(r for r in near["requirements"] if r["kind"] == "frequency")
             self.assertAlmostEqual(mode["value"] / mode_Hz, 1, delta=3e-3)
             self.assertIn("FW-D642", said)
-            # what flexures are off by and bodies give; what bodies do by their own mass (decision 217) is in the band of the required frequency
-            # alone, and a drive near a mode does not have it
-            left = 1 - self.flexures_off(what(0.985 * mode_Hz)) - 0.5 * near["hinge_model"][0]["bodies_give"]
-            self.assertLess(mode["band"][0], mode["value"] * left * (1 + 1e-5))
+            # what flexures are off by and bodies give at most; of the required frequency, by bodies with their own mass (decision 217), it is less
+            flexures = self.flexures_off(what(0.985 * mode_Hz))
+            left = 1 - flexures - 0.5 * near["hinge_model"][0]["bodies_give"]
+            self.assertLess(mode["band"][0], mode["value"] * (1 - flexures) * (1 + 1e-5))
             off = 1 / left
             for times in (off, 1 - 0.3 * (off - 1)) if ALL or what is self.electrodes else (off,):
                 other, _ = self.judged(what(0.985 * mode_Hz * times))
