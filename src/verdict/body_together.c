@@ -244,7 +244,7 @@ static near_to nearest(const fw_dynamics_motion *x, int element) {
         fw_effects_comb_place(e, p, at);
         const bool comb = c->kind == FW_ELECTRODES_COMB;
         const double half = 0.5 * (comb ? c->overlap_m + at[0] : c->length_m);
-        n.gap = fmin(n.gap, c->gap_m - (comb ? fabs(at[1]) : at[0]) -
+        n.gap = fmin(n.gap, c->gap_m - fabs(c->lean_m) - (comb ? fabs(at[1]) : at[0]) -
                                 fabs(at[2]) * half);
         n.along = fmax(n.along, at[0]);
     }
