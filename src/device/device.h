@@ -214,6 +214,7 @@ typedef struct fw_device_comb {
         length_m;   /* length: of the fingers (NaN: twice the overlap), or plate */
     double depth_m; /* NaN: the device layer's thickness */
     double width_m; /* of the fingers, or of a plate across its face, as drawn; 0: the default */
+    double lean_m;  /* as made: the gap is so much narrower at one face, wider at the other */
     double voltage_V;
     const fw_quantity_law *law;
     bool pad_at_edge; /* a track leads from the stator's pad to the edge of the chip */
@@ -506,6 +507,7 @@ typedef struct fw_device {
     fw_device_wafer_asked wafer;
     const fw_device_cell *cell; /* (ncell) on the die */
     int ncell;
+    bool meets_midway; /* as made: contacts meet in the middle of the depth */
     bool rounded; /* the poses were typed with few digits, and closed as they were read: FW-D132 */
 } fw_device;
 

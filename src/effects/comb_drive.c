@@ -15,6 +15,11 @@
    effects.h; the charge that it moves at constant V is C' V^2, half of it work). V^2 goes with the
    load factor. First and second derivatives of C are exact.
 
+   Walls that lean, by l of the gap from the middle of the depth to either face, leave the gaps g + l z, -1 <= z <= 1: C is the mean
+   over the depth, by the points of Gauss; of plates that stand parallel eps0 h L atanh(l/(g - x))/l, which pulls with the mean of
+   1/gap^2, 1/((g - x)^2 - l^2). Three points up to l = g/10, else six: within 1e-4 of
+   the pull while l is below 0.3 and 0.6 of the gap in the middle of the depth. Edges and tips are those of the same gaps.
+
    and ends of fingers, whose field goes with the distance of tips from the other comb's root (element.c).
 
    Inputs SI. Range: |gap change| <= 95 % of the gap at both ends, the fingers engaged and no nearer to
@@ -193,12 +198,11 @@ static double add_tips(const fw_effects_comb_element *c, const double place[3], 
            add_end_aside(c, root, away, place[1] - t * (half + place[0]), stator, -1, slope, bend);
 }
 
-double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const double place[3],
-                                   double *slope, double *bend) {
+/* of one gap; slope and bend are added to */
+static double add_slice(const fw_effects_comb_element *c, const double place[3], double *slope,
+                        double *bend) {
     const double x = place[0], y = place[1], t = place[2];
     double face = c->face_Fm;
-    if (slope) memset(slope, 0, 3 * sizeof *slope);
-    if (bend) memset(bend, 0, 9 * sizeof *bend);
     if (c->kind == FW_ELECTRODES_PLATE) {
         const strip only = {
             .l = c->length_m, .m = c->gap_m - x, .t = t, .by = {{0}, {-1, 0, 0}, {0, 0, 1}}};
@@ -220,6 +224,37 @@ double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const doubl
         if (c->edge) all += add_edge(&one, c, slope, bend);
     }
     return all + (isfinite(all) ? add_tips(c, place, slope, bend) : 0);
+}
+
+/* points and weights of Gauss over -1 to 1, the positive half; M. Abramowitz, I. Stegun, table 25.4 */
+static const double gauss_3[2][2] = {{0, 8.0 / 9}, {0.7745966692414834, 5.0 / 9}},
+                    gauss_6[3][2] = {{0.2386191860831969, 0.4679139345726910},
+                                     {0.6612093864662645, 0.3607615730481386},
+                                     {0.9324695142031521, 0.1713244923791704}};
+
+double fw_effects_comb_capacitance(const fw_effects_comb_element *c, const double place[3],
+                                   double *slope, double *bend) {
+    const double hardly = 0.1;
+    const bool little = fabs(c->lean_m) < hardly * c->gap_m;
+    const double(*point)[2] = little ? gauss_3 : gauss_6;
+    double all = 0, by[3], bent[9];
+    if (slope) memset(slope, 0, 3 * sizeof *slope);
+    if (bend) memset(bend, 0, 9 * sizeof *bend);
+    if (!(c->lean_m != 0)) return add_slice(c, place, slope, bend);
+    for (int k = 0; k < 6; k++) {
+        const int at = k / 2, side = k % 2 ? -1 : 1;
+        fw_effects_comb_element slice = *c;
+        if (little && (at == 2 || k == 1)) continue;
+        slice.gap_m += side * point[at][0] * c->lean_m;
+        memset(by, 0, sizeof by);
+        memset(bent, 0, sizeof bent);
+        all += 0.5 * point[at][1] * add_slice(&slice, place, slope ? by : NULL, bend ? bent : NULL);
+        for (int i = 0; slope && i < 3; i++)
+            slope[i] += 0.5 * point[at][1] * by[i];
+        for (int i = 0; bend && i < 9; i++)
+            bend[i] += 0.5 * point[at][1] * bent[i];
+    }
+    return all;
 }
 
 /* Half of what the long edges add, where something stands near or below; of ends and corners 3 %, and what wide bodies behind
@@ -354,13 +389,14 @@ static void power(const fw_effects_force_element *e, const fw_effects_port_state
     out[1] = -fw_effects_comb_capacitance(data_of(e), place, NULL, NULL) * v[0] * v[1] * s->load;
 }
 
-/* the gap that is left at the nearer end, relative to the gap as drawn */
+/* the gap that is left at the nearer end and face, relative to the gap in the middle of the depth */
 static double least_gap(const fw_effects_comb_element *c, const double place[3]) {
+    const double leans = fabs(c->lean_m);
     if (c->kind == FW_ELECTRODES_PLATE)
-        return 1 - (place[0] + 0.5 * c->length_m * fabs(place[2])) / c->gap_m;
+        return 1 - (leans + place[0] + 0.5 * c->length_m * fabs(place[2])) / c->gap_m;
     double at_stator = place[1] - place[2] * (0.5 * c->overlap_m + place[0]);
     double at_rotor = place[1] + place[2] * 0.5 * c->overlap_m;
-    return 1 - fmax(fabs(at_stator), fabs(at_rotor)) / c->gap_m;
+    return 1 - (leans + fmax(fabs(at_stator), fabs(at_rotor))) / c->gap_m;
 }
 
 static bool valid(const fw_effects_force_element *e, const fw_effects_port_state *s,

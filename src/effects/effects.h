@@ -505,11 +505,11 @@ typedef struct fw_effects_comb_tips {
 typedef struct fw_effects_comb_element {
     fw_device_electrodes kind;
     double gap_m, overlap_m, length_m, depth_m; /* overlap of combs; length of fingers or plate */
-    double face_Fm;                             /* eps0 depth fingers: C is this times an integral
-                                                   of ds over the gap */
-    double direction_rad, turn_rad;             /* in the stator's frame; phi_b - phi_a as drawn */
+    double face_Fm; /* eps0 depth fingers: C is this times an integral of ds over the gap */
+    double direction_rad, turn_rad; /* in the stator's frame; phi_b - phi_a as drawn */
     double voltage_V;
     double width_m;      /* of the fingers; of a plate across its face */
+    double lean_m;       /* as in fw_device_comb: the least gap is by that less than gap_m */
     double edge_F_per_m; /* eps0 fingers */
     fw_effects_comb_tips tip;
     /* the field at the edges of a gap and at an end, where it counts: fringe_field.c; else NULL */

@@ -261,6 +261,7 @@ fw_effects_comb_element fw_effects_comb_as_drawn(const fw_effect_case *c,
                                  .length_m = from->length_m,
                                  .depth_m = from->depth_m,
                                  .width_m = fw_device_comb_width_m(from),
+                                 .lean_m = from->lean_m,
                                  .direction_rad = from->direction_rad,
                                  .turn_rad = turn_of(m, from->body_b) - turn_of(m, from->body_a),
                                  .voltage_V = from->voltage_V};

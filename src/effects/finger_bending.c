@@ -12,6 +12,12 @@ static double softest_Pa(const fw_device_material *of) {
     return fw_device_material_is_crystal(of) ? fmin(e, (a - b) * (a + 2 * b) / (a + b)) : e;
 }
 
+/* mean of 1/gap^3 over the depth, in walls that lean: g/(g^2 - l^2)^2 */
+static double cube(const fw_effects_comb_element *c, double gap_m) {
+    const double g = gap_m, l = fabs(c->lean_m);
+    return g > l ? g / ((g * g - l * l) * (g * g - l * l)) : HUGE_VAL;
+}
+
 /* Fingers are cantilevers of length L in a field that pulls them to either side: per gap and length the energy is
    -kappa V^2 D^2/2 of what the gap changes by, kappa = eps0 (h/g^3 + F''/2). Where D is the sum of what two fingers bend,
    D^2 <= 2 (y_a^2 + y_b^2), and each has two gaps: 4 kappa V^2 < mu keeps all stable, mu the least eigenvalue of EI d4/ds4.
@@ -32,7 +38,7 @@ double fw_effects_comb_fingers_V(const fw_effects_comb_element *c, const fw_mech
     const double l2 = c->length_m * c->length_m, g = c->gap_m, w = c->width_m,
                  bending = softest_Pa(&made->material) * c->depth_m * w * w * w / 12,
                  kappa = FW_VACUUM_PERMITTIVITY_F_PER_m *
-                         (c->depth_m / (g * g * g) + (edges ? 0.5 * by[1] : 0));
+                         (c->depth_m * cube(c, g) + (edges ? 0.5 * by[1] : 0));
     const double away = fmax(c->length_m - c->overlap_m, 0), ends = 4 * fmax(c->tip.aside, 0) * g;
     return sqrt(3 * bending / (kappa * (l2 * l2 + ends * (l2 * c->length_m + away * away * away))));
 }
@@ -70,14 +76,14 @@ static bool bends(const fw_effects_comb_element *d, double share, double y, doub
     *more = 0;
     for (int i = 0; i < 200; i++) {
         if (!(left > 0.5 * g)) return false;
-        const double r = 1.5 * share * pow(g / left, 3);
+        const double r = 1.5 * share * cube(d, left) / cube(d, g);
         if (!(r < 0.9)) return false;
         const double next = y * r / (1 - r);
         if (next <= *more * (1 + 1e-9)) break;
         *more = next, left = g - y - next;
     }
     fw_effects_comb_edge(left, d->width_m, by);
-    *kappa_F_per_m3 = d->face_Fm / (left * left * left) + 0.5 * d->edge_F_per_m * by[1];
+    *kappa_F_per_m3 = d->face_Fm * cube(d, left) + 0.5 * d->edge_F_per_m * by[1];
     return true;
 }
 
@@ -85,7 +91,8 @@ static bool lacks(const fw_effect_case *c, const fw_device_comb *from, double *f
                   double *turns) {
     const fw_effects_comb_element d = fw_effects_comb_as_drawn(c, from);
     const fw_effects_comb_reach at = fw_effects_comb_reaches(c, from, &d);
-    const double y = at.aside_m + at.tilt_rad * at.half_m, g = d.gap_m;
+    const double y = at.aside_m + at.tilt_rad * at.half_m,
+                 g = d.gap_m - fabs(d.lean_m); /* at the narrowest face, which pulls most */
     double kappa, more;
     *turns = at.turns;
     if (!bends(&d, share_of(c, &d, at.square_V2), y, &kappa, &more)) return false;

@@ -81,10 +81,11 @@ static bool lacks(const fw_effect_case *c, const fw_device_comb *from, double sq
             tilt += e->reach[3 * body[k] + 2];
         }
     const double half = 0.5 * (comb ? d.overlap_m + aside : d.length_m);
-    if (!comb && !(aside + tilt * half < 0.95 * d.gap_m)) return false;
+    if (!comb && !(aside + tilt * half + fabs(d.lean_m) < 0.95 * d.gap_m)) return false;
     const double away = comb ? fw_effects_comb_away(&d, aside, tilt) : 1;
     if (!(away > FW_EFFECTS_COMB_NEAREST_ROOT * d.gap_m)) return false;
-    along = 0.5 * square_V2 * pull_of(&d, comb ? d.gap_m : d.gap_m - aside - tilt * half, away);
+    along = 0.5 * square_V2 *
+            pull_of(&d, d.gap_m - fabs(d.lean_m) - (comb ? 0 : aside + tilt * half), away);
     if (comb) {
         fw_effects_comb_edge(d.gap_m, d.width_m, by);
         across =

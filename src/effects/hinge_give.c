@@ -315,7 +315,8 @@ double fw_effects_contact_gap(const fw_effect_case *c, const fw_device_contact_u
     if (!isnan(use->distance_m)) return use->distance_m;
     const fw_device *d = c->mechanism->device;
     bool drawn = h->surface_radius_m > 0 && d && h->flexure >= 0 && h->flexure < d->nflexure;
-    return drawn ? d->flexure[h->flexure].gap_m : 0;
+    const fw_device_flexure *f = drawn ? &d->flexure[h->flexure] : NULL;
+    return f ? f->gap_m - (d->meets_midway ? 0 : fabs(f->flare_m)) : 0;
 }
 
 /* as far as a point of a body can move, m */

@@ -79,7 +79,7 @@ static bool pulls(const fw_effect_case *c, const fw_device_comb *from, double sh
     const fw_effects_comb_element d = fw_effects_comb_as_drawn(c, from);
     const fw_effects_comb_reach at = fw_effects_comb_reaches(c, from, &d);
     const bool comb = d.kind == FW_ELECTRODES_COMB;
-    const double g = d.gap_m, tilted = at.tilt_rad * at.half_m;
+    const double g = d.gap_m - fabs(d.lean_m), tilted = at.tilt_rad * at.half_m;
     const double *reach = c->envelope->reach;
     double by[2], y = at.aside_m + tilted;
     if (!comb) { /* along is what closes the gap */

@@ -4,7 +4,7 @@
 #include "geometry/segment.h"
 #include "plan/stages.h"
 #include "process/films.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <string.h>
 

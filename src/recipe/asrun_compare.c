@@ -3,7 +3,7 @@
    what is accepted, settings against what was planned; as text. */
 #include "base/text.h"
 #include "recipe/asrun_parts.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <string.h>
 

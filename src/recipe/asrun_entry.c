@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "process/process_law.h"
 #include "recipe/asrun_parts.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include "schedule/schedule.h"
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
    coupons as calibrate takes them. */
 #include "base/svg.h"
 #include "recipe/asrun_parts.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #include "base/json.h"
 #include "base/text.h"
 #include "recipe/asrun_parts.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "base/svg.h"
 #include "geometry/segment.h"
 #include "recipe/recipe_profile.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

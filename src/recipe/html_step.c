@@ -2,7 +2,7 @@
 /* One step of the run sheet, and what is made at its head. */
 #include "base/svg.h"
 #include "recipe/recipe_profile.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include "process/process_law.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What people write on the run sheet: a column for every wafer and a cell for every site, what becomes of the lot, what
    deviated; and the hazards, each once, by the bench where they are met. */
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include "base/constants.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The run sheet: one file, no scripts, made for A4 or Letter, as the printer has it, and a pen. */
 #include "recipe/recipe_profile.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
    flexwright.sections/1. */
 #include "base/json.h"
 #include "recipe/recipe_profile.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <stdio.h>
 

@@ -4,7 +4,7 @@
 #include "base/svg.h"
 #include "process/films.h"
 #include "recipe/recipe_profile.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #include "geometry/segment.h"
 #include "process/process.h"
 #include "recipe/recipe_profile.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

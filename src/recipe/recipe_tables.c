@@ -2,7 +2,7 @@
 /* What is listed of a recipe: for other programs tables of the flow and of the schedule, and the schedule as a calendar;
    what the lot uses up, as a page of the run sheet and as JSON: baths and how they are mixed, consumables, costs. */
 #include "base/json.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include "recipe/asrun_parts.h"
 #include <math.h>
 #include <stdlib.h>

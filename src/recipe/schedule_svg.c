@@ -3,7 +3,7 @@
    every operator and for every hold window. The night behind a day is a narrow strip of its panel,
    so that no run is outside the picture. */
 #include "base/svg.h"
-#include "recipe/recipe_words.h"
+#include "recipe/recipe.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

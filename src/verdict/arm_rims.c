@@ -344,42 +344,6 @@ const char *fw_verdict_stuck_text(fw_arena *arena, const fw_verdict_stuck *s,
         fw_number_text(times, sizeof times, 1 / share, 3));
 }
 
-/* least, most: over what is allowed, of the rims beside end i; of required poses its low end is not known */
-fw_status fw_verdict_give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, double least,
-                               double most, const char *scene, fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-    const bool breaks = least > 1, posed = scene == NULL;
-    char low[32], high[32], x[32], y[32];
-    const char *use = posed ? "at most"
-                            : fw_arena_printf(arena, "%s to",
-                                              fw_number_text(low, sizeof low, 100 * least, 2)),
-               *where = posed ? "required poses"
-                              : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", scene));
-    FW_NEED(use && where ? use : NULL);
-    const char *text = fw_arena_printf(
-        arena,
-        "in %s the rims of release holes of %s%s %s what %s%s brings: they use %s "
-        "%s %% of what is allowed, near (%s, %s) um; a larger pitch (<die release-pitch>), "
-        "smaller holes (release-hole), a wider body there or %s lowers it",
-        where, FW_NAMED("body", m->device->body[i % 2 ? pin->body_b : pin->body_a].id),
-        breaks ? "do not bear" : "are not known to bear", FW_NAMED("hinge", pin->id), use,
-        fw_number_text(high, sizeof high, 100 * most, 4),
-        fw_number_text(x, sizeof x, 1e6 * arm->rim.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * arm->rim.y, 4),
-        posed ? "a smaller required box" : "less load");
-    FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = posed ? "workspace" : scene,
-                                                  .flow = m->variant->flow,
-                                                  .number = FW_VERDICT_RIMS,
-                                                  .decision = breaks ? FW_REJECT : FW_INCONCLUSIVE,
-                                                  .keep = fmin(fmax(0.98 / most, 1e-3), 0.99),
-                                                  .not_by_loads = posed,
-                                                  .not_by_width = true,
-                                                  .text = text};
-    return FW_OK;
-}
-
 /* ---- what of required poses is open ---- */
 
 /* required poses in which nothing bounds what drift and give of the hinges add */

@@ -91,6 +91,39 @@ fw_status fw_verdict_say_bent(fw_arena *arena, struct fw_verdict_variant_verdict
                               const char *scene, int number, const char *what, int body,
                               double by_m);
 
+/* ---- body_together.c, strain_monitor.c (at the end): what bodies bear in the course of a scene that is repeated ---- */
+
+/* Rows: of each end of a hinge its stress times thickness, N/m; of each body the force, then the moment, that its hinges put on
+   it together; of each place what acts there, N. Four signed courses of each */
+typedef struct fw_verdict_courses {
+    fw_arena *arena;
+    fw_maths_turning (*row)[FW_FACES]; /* (n) */
+    double *gate;                      /* (n) turns below it are none */
+    double *
+        lasts; /* (n) in units of the row: the amplitude, fully reversed, which once a repetition tires as much; 0: nothing does */
+    int n;
+} fw_verdict_courses;
+static inline int fw_verdict_course_of_force(const fw_mechanism *m, int body) {
+    return 2 * m->nhinge + body;
+}
+static inline int fw_verdict_course_of_moment(const fw_mechanism *m, int body) {
+    return 2 * m->nhinge + m->nbody + body;
+}
+static inline int fw_verdict_course_of_place(const fw_mechanism *m, int place) {
+    return 2 * m->nhinge + 2 * m->nbody + place;
+}
+fw_status fw_verdict_courses_new(fw_arena *arena, const fw_mechanism *m, fw_verdict_bending *b);
+/* at every instant, behind all else that is recorded of bodies; NULL where the run starts */
+void fw_verdict_courses_record(fw_verdict_bending *b, const fw_mechanism *m,
+                               const fw_dynamics_instant *now);
+/* once the run has ended, and what rings on is known: lasts */
+fw_status fw_verdict_courses_end(fw_arena *arena, fw_verdict_strain_monitor *monitor);
+/* how many times as much of its fatigue limit one fully reversed stress a repetition uses as of its static one; 0: nothing is
+   repeated, or one of both is not known */
+double fw_verdict_tires(const fw_mechanism *m, int hinge);
+/* body_bears.c: "what is allowed", tires: by the fatigue limit; NULL: FW_NOMEM */
+const char *fw_verdict_allowed_words(fw_arena *arena, const fw_mechanism *m, bool tires);
+
 /* a.M b of motions (3 nbody) of the bodies' centres */
 static inline double fw_verdict_mass_form(const fw_mechanism *m, const double *a, const double *b) {
     double sum = 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How much farther a place of a body goes in a scene than rigid bodies let it, by all that acts there at once.
+/* How much farther a place of a body goes in a scene than rigid bodies let it, by all that acts there at once; and, further down,
+   what bodies bear.
 
    Loads f at places of flexible bodies displace them by D f more than of rigid ones, and by least complementary energy D lies
    between 0 and B, the form of 2 U_b of what hinges and loads put on the bodies (body_solids.c). So of a load f and a unit
@@ -18,7 +19,6 @@
    Elasticity, 3rd ed., art. 86); Cauchy and Schwarz. Theory: docs/theory/verdict.md. Test: test_effects.py BodiesOfBars */
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "quantity/law_kind.h"
 #include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>

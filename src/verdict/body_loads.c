@@ -131,6 +131,7 @@ fw_status fw_verdict_places_new(fw_arena *arena, const fw_mechanism *m, int scen
         b->place[b->nplace++] =
             (fw_verdict_place){.body = end[k].body,
                                .force = end[k].force,
+                               .known_N = end[k].known_N,
                                .x_m = end[k].x_m,
                                .y_m = end[k].y_m,
                                .id = end[k].id,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What ways of one body (body_arms.c) bear together where they go together. */
+/* What ways of one body (body_arms.c) bear together where they go together, and bear in the course of a scene. */
 #include "geometry/segment.h"
 #include "verdict/body.h"
 #include "verdict/verdict_parts.h"
@@ -244,7 +244,8 @@ static near_to nearest(const fw_dynamics_motion *x, int element) {
         fw_effects_comb_place(e, p, at);
         const bool comb = c->kind == FW_ELECTRODES_COMB;
         const double half = 0.5 * (comb ? c->overlap_m + at[0] : c->length_m);
-        n.gap = fmin(n.gap, c->gap_m - (comb ? fabs(at[1]) : at[0]) - fabs(at[2]) * half);
+        n.gap = fmin(n.gap, c->gap_m - fabs(c->lean_m) - (comb ? fabs(at[1]) : at[0]) -
+                                fabs(at[2]) * half);
         n.along = fmax(n.along, at[0]);
     }
     return n;
@@ -317,51 +318,130 @@ fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_ver
     return FW_OK;
 }
 
-/* ---- what hangs over swings slower (body_hung.c): 1/omega^2 of the rigid bodies and of what hangs over add up at most (Weyl) ---- */
+/* ---- what bodies bear in the course of a scene that is repeated ----
+   A strip at r of an end of a hinge is strained by M + r x F over its width squared and by F along it over its width: sums of M, Fx
+   and Fy, in the axes in which the body was drawn, with signs that are not kept. So with the largest factors m, x, y of all strips
+   (fw_verdict_arm_add, fw_verdict_arm_rims)
 
-static int slowest_hung(const fw_verdict_variant_verdict *v, double *s2) {
-    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
-    int body = FW_NONE;
-    *s2 = 0;
-    for (int i = 0; hung && i < v->mechanism->nbody; i++)
-        if (hung[i].in_plane_mode_s2 > *s2) *s2 = hung[i].in_plane_mode_s2, body = i;
-    return body;
+     s(t) = m M(t) +- x Fx(t) +- y Fy(t)
+
+   are four courses, of which cycles are counted as those at the faces of a hinge, with what rings on behind; where the largest
+   stress that the static limit is held against is above all of them (fw_verdict_arm_bears) a course is taken to be so much
+   more. Of what hinges put on a body together, and of what is stated at a place, the courses are those along four directions,
+   and the moment. A sum of such is taken to tire by no more than the sum of what each uses: amplitudes are a norm of the
+   damage as far as means are not (Smith, Watson, Topper). Of several scenes each is taken to be all of them, and to swing to
+   the other side once a repetition, which in turn is the most. Out: the amplitude, fully reversed, that once a repetition
+   tires as much. Error: signs of a strip's own sum, the factor of three of corners (decision 222). Cost: (8 nhinge + 5 nbody + 4 nplace)
+   turning points an instant, where cycles are asked for. Test: test_body_arms.c, test_limits.py FatigueOfBodies */
+
+/* turns by less than this share of a limit are none, as in strain_monitor.c */
+static const double course_gate = 1e-3;
+
+double fw_verdict_tires(const fw_mechanism *m, int hinge) {
+    const fw_flexure_limits *l = &m->hinge[hinge].limits;
+    const fw_flexure_limit *once = fw_flexure_limits_governing(l);
+    if (!(m->device->limits.cycles > 0) || !l->life.known || l->fatigue == FW_NONE || !once)
+        return 0;
+    return once->allowable_Pa / l->item[l->fatigue].allowable_Pa;
 }
 
-bool fw_verdict_hangs_alone(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
-    const fw_verdict_out_of_plane *o = v->out_of_plane;
-    double s2;
-    if (strcmp(r->kind, "frequency") != 0 || r->decision != FW_INCONCLUSIVE || r->why) return false;
-    if (!(r->low < r->min) || r->high > r->max || slowest_hung(v, &s2) == FW_NONE) return false;
-    for (int k = 0; k < o->nmode; k++)
-        if (o->mode[k].f_Hz == r->value) return false; /* across the plane */
-    const double left = 1 - s2 * pow(FW_TURN * r->low, 2);
-    return !(left > 0) || r->low / sqrt(left) >= r->min;
+/* turns of what is multiplied by `factor` that are none */
+static double least_turn(const fw_mechanism *m, int hinge, const fw_verdict_arm *arm,
+                         double factor) {
+    const double corner = 3.3; /* the most that holes and corners count */
+    return factor > 0 ? course_gate * fw_verdict_arm_allowed_N_per_m(m, hinge, arm) /
+                            (corner * fmax(fw_verdict_tires(m, hinge), 1) * factor)
+                      : HUGE_VAL;
 }
 
-fw_status fw_verdict_hangs_open(fw_verdict_variant_verdict *v, const char *scene, int number,
-                                const char *what) {
-    FW_NEED(what);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene,
-                                                  .flow = v->mechanism->variant->flow,
-                                                  .number = number,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = FW_VERDICT_KEEP_HALF,
-                                                  .not_by_width = true,
-                                                  .text = what};
+static void find_gates(fw_verdict_bending *b, const fw_mechanism *m) {
+    double *gate = b->courses->gate;
+    const bool holes = b->rest_Nm != NULL;
+    for (int i = 0; i < b->courses->n; i++)
+        gate[i] = HUGE_VAL;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_verdict_arm *arm = &b->arm[i];
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        const int body = i % 2 ? pin->body_b : pin->body_a;
+        if (!arm->known || body == FW_GROUND) continue;
+        double *force = &gate[fw_verdict_course_of_force(m, body)],
+               *moment = &gate[fw_verdict_course_of_moment(m, body)];
+        gate[i] = least_turn(m, i / 2, arm, 1);
+        *force = fmin(*force, least_turn(m, i / 2, arm, holes ? arm->rim_rest_m : 0));
+        *moment = fmin(*moment, least_turn(m, i / 2, arm, holes ? arm->rim_rest_m2 : 0));
+    }
+    for (int k = 0; k < b->nplace; k++) {
+        const fw_verdict_arm *arm = b->place[k].arm;
+        const double by = holes ? arm->rim_m + arm->rim_rest_m : arm->edge_m,
+                     turns = holes ? arm->rim_rest_m2 : 0;
+        double *force = &gate[fw_verdict_course_of_force(m, b->place[k].body)],
+               *moment = &gate[fw_verdict_course_of_moment(m, b->place[k].body)];
+        gate[fw_verdict_course_of_place(m, k)] = least_turn(m, 0, arm, by);
+        *force = fmin(*force, least_turn(m, 0, arm, by));
+        *moment = fmin(*moment, least_turn(m, 0, arm, turns));
+    }
+}
+
+fw_status fw_verdict_courses_new(fw_arena *arena, const fw_mechanism *m, fw_verdict_bending *b) {
+    if (m->nhinge == 0 || !(fw_verdict_tires(m, 0) > 0)) return FW_OK;
+    const size_t n = 2 * (size_t)m->nhinge + 2 * (size_t)m->nbody + (size_t)b->nplace;
+    FW_NEED(b->courses = fw_arena_one(arena, fw_verdict_courses));
+    *b->courses = (fw_verdict_courses){.arena = arena, .n = (int)n};
+    FW_NEED(b->courses->row = fw_arena_alloc(arena, n, sizeof *b->courses->row));
+    FW_NEED(b->courses->gate = fw_arena_array(arena, double, n));
+    FW_NEED(b->courses->lasts = fw_arena_array(arena, double, n));
+    find_gates(b, m);
+    fw_verdict_courses_record(b, m, NULL);
     return FW_OK;
 }
 
-fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
-                               const fw_verdict_requirement *r, const char *text) {
-    double s2;
-    const int body = slowest_hung(v, &s2);
-    char own[32];
-    FW_NEED(text = fw_arena_printf(
-                arena,
-                "%s: %s%s, which is rigid in the value, may swing in the plane from %s Hz on where "
-                "it reaches beyond its hinges: make it wider or shorter",
-                text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
-                fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
-    return fw_verdict_hangs_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
+static void add_courses(fw_verdict_courses *c, int row, const fw_dynamics_instant *now,
+                        const double value[FW_FACES]) {
+    for (int i = 0; isfinite(c->gate[row]) && i < FW_FACES; i++) {
+        if (now->begins) fw_maths_turning_jump(&c->row[row][i]);
+        fw_maths_turning_add(&c->row[row][i], c->arena, now->t_s, value[i]);
+    }
+}
+
+static void add_directions(fw_verdict_courses *c, int row, const fw_dynamics_instant *now, double x,
+                           double y) {
+    const double to[FW_FACES] = {x, y, sqrt(0.5) * (x + y), sqrt(0.5) * (x - y)};
+    add_courses(c, row, now, to);
+}
+
+void fw_verdict_courses_record(fw_verdict_bending *b, const fw_mechanism *m,
+                               const fw_dynamics_instant *now) {
+    fw_verdict_courses *c = b->courses;
+    for (int i = 0; !now && i < c->n; i++)
+        for (int k = 0; k < FW_FACES; k++)
+            c->row[i][k] = (fw_maths_turning){.gate = c->gate[i]};
+    if (!now) return;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_verdict_arm *arm = &b->arm[i];
+        const int j = m->hinge[i / 2].pin, body = i % 2 ? m->pin[j].body_b : m->pin[j].body_a;
+        if (!isfinite(c->gate[i])) continue;
+        const bool holes = b->rest_Nm != NULL;
+        const fw_verdict_turn *turn = &b->turn[body];
+        const double *f = now->reaction_N + 2 * j,
+                     bends = (holes ? arm->rim_m2 : arm->edge_m2) * m->pin[j].stiffness_Nm_per_rad *
+                             now->angle_rad[j],
+                     x = (holes ? arm->rim_x_m : arm->edge_x_m) *
+                         (turn->cosine * f[0] + turn->sine * f[1]),
+                     y = (holes ? arm->rim_y_m : arm->edge_y_m) *
+                         (turn->cosine * f[1] - turn->sine * f[0]);
+        const double to[FW_FACES] = {bends + x + y, bends + x - y, bends - x + y, bends - x - y};
+        add_courses(c, i, now, to);
+    }
+    for (int i = 0; i < m->nbody; i++) {
+        const double turns[FW_FACES] = {b->rest_Nm ? b->put[3 * i + 2] : 0};
+        add_directions(c, fw_verdict_course_of_force(m, i), now, b->rest[2 * i],
+                       b->rest[2 * i + 1]);
+        add_courses(c, fw_verdict_course_of_moment(m, i), now, turns);
+    }
+    for (int k = 0; k < b->nplace; k++) {
+        double acts[3];
+        if (!isfinite(b->place[k].known_N)) continue;
+        fw_verdict_place_acts(&b->place[k], now, acts, NULL);
+        add_directions(c, fw_verdict_course_of_place(m, k), now, acts[0], acts[1]);
+    }
 }

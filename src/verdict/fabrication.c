@@ -247,6 +247,7 @@ static void change_comb(const fw_verdict_fabrication *fabricated, const fw_devic
                         fw_device_comb *c) {
     const double edge = fabricated->edge_m;
     c->gap_m -= 2.0 * edge;
+    c->lean_m = fabs(fabricated->flare_m);
     c->depth_m *= fabricated->thickness_ratio; /* NaN stays: that of the layer */
     if (c->kind == FW_ELECTRODES_PLATE) {      /* its fringe does not feel what its bar loses */
         double own = c->direction_rad + turned(d, c->body_a) - turned(d, c->body_b);
@@ -403,9 +404,12 @@ fw_status fw_verdict_undrawn(fw_arena *arena, const fw_device *device, const fw_
 }
 
 /* A hinge without a distance of its own has the gap of its flexure, as made. What is drawn of two round things, or of a
-   face and what it meets, grows by the edge. */
-static void change_contact(double edge_m, const fw_device *d, const fw_layout *layout,
-                           fw_device_contact_use *c) {
+   face and what it meets, grows by the edge; and where walls lean, to the face of the layer at which they stand out most, which
+   meets first, by half of the flare more. All walls lean alike, so that two that are drawn meet at the same face. */
+static void change_contact(const fw_verdict_fabrication *fabricated, const fw_device *d,
+                           const fw_layout *layout, fw_device_contact_use *c) {
+    const double edge_m =
+        fabricated->edge_m + (d->meets_midway ? 0 : 0.5 * fabs(fabricated->flare_m));
     if (isnan(c->distance_m)) return;
     if (!is_outside(c)) {
         c->distance_m -= 2.0 * edge_m;
@@ -462,7 +466,7 @@ static fw_status change_scene(fw_arena *arena, const fw_verdict_fabrication *fab
     for (size_t i = 0; i < t; i++) {
         fw_device_contact_use *contact = &s->contact[i];
         const double drawn_m = contact->distance_m;
-        change_contact(fabricated->edge_m, d, layout, contact);
+        change_contact(fabricated, d, layout, contact);
         FW_TRY(contact_gone(arena, contact, drawn_m, gone));
     }
     return FW_OK;

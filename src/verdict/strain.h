@@ -306,6 +306,7 @@ typedef struct fw_verdict_place {
         *spring; /* or a spring, which acts on its second body there (second) or its first */
     bool second;
     const fw_device_force *force; /* or what is stated */
+    double known_N;               /* as in fw_mechanism_load_end */
     fw_verdict_blow blow;
 } fw_verdict_place;
 
@@ -354,12 +355,13 @@ typedef struct fw_verdict_bending {
     double stated_J; /* under loads of which the scene says how large they become, at most */
     double *
         last; /* (12 nbody) of the last instant poses, and speeds up to it; speeds at anchor_s, and by what they grow since */
-    double last_s, anchor_s;       /* NaN: none yet */
-    double swings_s;               /* between two anchors */
-    double late_s;                 /* where the last tenth of the scene begins */
-    double carried_m_per_s2;       /* what the scene shakes the device by in the plane */
-    double moves_J, late_J;        /* largest so far of twice the kinetic energy */
-    const fw_effects_loads *loads; /* whose elements act there; NULL: the run starts */
+    double last_s, anchor_s;            /* NaN: none yet */
+    double swings_s;                    /* between two anchors */
+    double late_s;                      /* where the last tenth of the scene begins */
+    double carried_m_per_s2;            /* what the scene shakes the device by in the plane */
+    double moves_J, late_J;             /* largest so far of twice the kinetic energy */
+    const fw_effects_loads *loads;      /* whose elements act there; NULL: the run starts */
+    struct fw_verdict_courses *courses; /* body.h; NULL: nothing is repeated, or no life is known */
 } fw_verdict_bending;
 
 /* by how much the end of a hinge goes over the hinge's width, or turns over its limit, as the strip of its body gives:
@@ -561,12 +563,6 @@ fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_moni
 struct fw_mechanism_limb;
 const char *fw_verdict_limb_text(fw_arena *arena, const fw_layout *layout,
                                  const struct fw_mechanism_limb *limb);
-
-/* arm_rims.c; low, high: over what is allowed, of the rims beside end i; of required poses (scene NULL) its low end is not
-   known */
-fw_status fw_verdict_give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, double low,
-                               double high, const char *scene,
-                               struct fw_verdict_variant_verdict *v);
 
 /* ---- arm_rims.c: what takes hold where it is met: a contact, a stop of a joint, a cable that becomes taut ---- */
 

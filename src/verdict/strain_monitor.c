@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue counts. And what bodies bear
-   of what was seen there: the stress of the ways of body_arms.c under what hinges and loads bring.
-   Theory: docs/theory/verdict.md, docs/theory/release.md. Test: test_body_arms.c */
+/* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue counts, of hinges and of what
+   they and loads bring to bodies. Theory: docs/theory/verdict.md. Test: test_fatigue.c, test_body_arms.c */
 #include "base/constants.h"
 #include "base/text.h"
 #include "geometry/segment.h"
+#include "quantity/law_kind.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -335,228 +336,154 @@ fw_status fw_verdict_in_turn(fw_arena *arena, const fw_verdict_variant_verdict *
     return FW_OK;
 }
 
-/* ---- rims of release holes ---- */
+/* ---- what bodies bear in the course of a scene that is repeated (body_together.c), once it has ended ---- */
 
-/* what the hinge of an end brings: its largest moment and force, and what equilibrium asks of the cut, times thickness */
-typedef struct brought {
-    double moment_Nm, force_N, cut_N_per_m;
-    const double *along_N; /* as fw_verdict_arm_rims_bear takes it */
-    double rest[2];
-} brought;
-
-/* shares of what is allowed at the rims beside one end of a hinge. Walls that the flow puts farther in leave less of
-   every strip, and of the narrowest one most; walls farther out leave more */
-static fw_verdict_band rims_of(const fw_mechanism *m, const fw_verdict_arm *arm, int i,
-                               const brought *by) {
-    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[i / 2].limits);
-    if (!arm->known || !limit) return (fw_verdict_band){0, 0};
-    const double allowed_N_per_m =
-        limit->allowable_Pa / m->device->safety_factor * m->variant->thickness_m;
-    const double walls = m->layout ? 2 * m->layout->edge_m : 0;
-    const double made = fmax(arm->narrow_m + walls, 1e-3 * arm->narrow_m) / arm->narrow_m;
-    const double low = by->cut_N_per_m / (fmax(made, 1) * fmax(made, 1));
-    return (fw_verdict_band){
-        low / allowed_N_per_m,
-        fw_verdict_arm_rims_bear(m, i / 2, arm, by->moment_Nm, by->force_N, by->along_N, by->rest)};
-}
-
-static brought in_motion(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
-    const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
-    const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-    const int body = i % 2 ? pin->body_b : pin->body_a;
-    const bool moves = body != FW_GROUND;
-    return (brought){most[1],
-                     sqrt(most[0]),
-                     b->cut_N_per_m[i],
-                     b->along_N + 2 * i,
-                     {moves ? b->rest_N[body] : 0, moves ? b->rest_Nm[body] : 0}};
-}
-
-fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
-                                        int at[2]) {
-    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    fw_verdict_band worst = {0, 0};
-    if (!saw || !saw->bending.arm || !saw->bending.cut_N_per_m)
-        return (fw_verdict_band){(double)NAN, (double)NAN};
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const brought by = in_motion(m, &saw->bending, i);
-        const fw_verdict_band here = rims_of(m, &saw->bending.arm[i], i, &by);
-        if (here.low > worst.low) worst.low = here.low, at[0] = i;
-        if (here.high > worst.high) worst.high = here.high, at[1] = i;
-    }
-    const double off = fw_verdict_motion_model_error(m, motion);
-    return (fw_verdict_band){worst.low * fmax(1 - off, 0), worst.high * (1 + off)};
-}
-
-/* No required pose turns a hinge further, or has a larger joint force, than is proved of all of them; what drift and
-   give of the hinges add to strains they are taken to add to forces. Where nothing bounds that (FW-D535) it is left
-   out: the poses are undecided. What else holds a body is no more than all its hinges together. */
-static brought in_poses(const fw_verdict_variant_verdict *v, int i) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_workspace_result *w = &v->workspace;
-    const int at = m->hinge[i / 2].pin;
-    const fw_workspace_load *load = &w->load[at];
-    const double more =
-        (1 + fmax(load->added, 0)) * (1 + (isfinite(load->give) ? fmax(load->give, 0) : 0));
-    return (brought){.moment_Nm = m->pin[at].stiffness_Nm_per_rad *
-                                      (fabs(w->peak[at].angle_rad) + w->peak[at].error_rad) +
-                                  (load->known ? more * load->rub_Nm : 0),
-                     .force_N = load->known ? more * load->most_N : 0};
-}
-
-/* what the hinges of a body put on it together at most */
-static void add_rest(const fw_verdict_variant_verdict *v, int body, double rest[2]) {
-    const fw_mechanism *m = v->mechanism;
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        if (m->hinge[i / 2].pin >= FW_SIX || (i % 2 ? pin->body_b : pin->body_a) != body) continue;
-        const brought by = in_poses(v, i);
-        const fw_geometry_vec2 middle = {m->drawn[body].x_m, m->drawn[body].y_m};
-        rest[0] += by.force_N;
-        rest[1] +=
-            by.moment_Nm + by.force_N * vec_distance(fw_mechanism_pin_place(m, pin, i % 2), middle);
-    }
-}
-
-static double required_at_most(const fw_verdict_variant_verdict *v, int *at) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_workspace_result *w = &v->workspace;
-    double worst = 0;
-    if (!v->arm || !w->required || !w->reachable) return (double)NAN;
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        const int body = i % 2 ? pin->body_b : pin->body_a;
-        if (m->hinge[i / 2].pin >= FW_SIX || body == FW_GROUND) continue;
-        brought by = in_poses(v, i);
-        if (m->device->release_pitch_m > 0) add_rest(v, body, by.rest);
-        const double high =
-            m->device->release_pitch_m > 0
-                ? rims_of(m, &v->arm[i], i, &by).high
-                : fw_verdict_arm_bears(m, i / 2, &v->arm[i], by.moment_Nm, by.force_N, NULL);
-        if (high > worst) worst = high, *at = i;
-    }
-    return worst * (1 + fw_verdict_motion_lasting_error(m));
-}
-
-double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at) {
-    return v->mechanism->device->release_pitch_m > 0 ? required_at_most(v, at) : (double)NAN;
-}
-
-/* ---- and of bodies, with holes and without ---- */
-
-typedef struct weak { /* what a body is not known to bear */
-    double share;     /* over what is allowed, at most */
-    const fw_verdict_arm *arm;
-    int body;
-    const char *what, *id;
-} weak;
-
-static void take_weak(weak *worst, double share, const fw_verdict_arm *arm, int body,
-                      const char *what, const char *id) {
-    if (share > worst->share) *worst = (weak){share, arm, body, what, id};
-}
-
-static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
-                            const fw_verdict_bending *b, weak *worst) {
-    fw_mechanism_load_end *end;
-    int n;
-    for (int i = 0; !b->cut_N_per_m && i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        const double *most = b->hardest_N + 2 * m->nhinge + i / 2 * 2;
-        take_weak(worst,
-                  fw_verdict_arm_bears(m, i / 2, &b->arm[i], most[1], sqrt(most[0]),
-                                       b->along_N ? b->along_N + 2 * i : NULL),
-                  &b->arm[i], i % 2 ? pin->body_b : pin->body_a, "hinge", pin->id);
-    }
-    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
-    for (int k = 0; k < n; k++)
-        for (int i = 0; end[k].scene == scene && i < 2 * m->nhinge; i++) {
-            const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-            const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
-            if ((i % 2 ? pin->body_b : pin->body_a) != end[k].body) continue;
-            if (arm->lost) take_weak(worst, HUGE_VAL, arm, end[k].body, end[k].what, end[k].id);
-            const double load_N = fw_verdict_load_N(end, n, k, b->rest_N);
-            const double rest[2] = {b->rest_N[end[k].body],
-                                    b->rest_Nm ? b->rest_Nm[end[k].body] : 0};
-            take_weak(worst,
-                      b->rest_Nm ? fw_verdict_arm_rims_bear(m, i / 2, arm, 0, load_N, NULL, rest)
-                                 : fw_verdict_arm_bears(m, i / 2, arm, 0, load_N, NULL),
-                      arm, end[k].body, end[k].what, end[k].id);
+/* `most` as the static limit sees it. Of a load of which no course was seen one swing to both sides */
+static fw_status lasts_of(fw_arena *arena, const fw_verdict_strain_monitor *w, int row, double most,
+                          const fw_verdict_after *after) {
+    const fw_mechanism *m = w->mechanism;
+    fw_verdict_courses *c = w->bending.courses;
+    const fw_flexure_limits *l = &m->hinge[row < 2 * m->nhinge ? row / 2 : 0].limits;
+    const double amplitude_Pa = l->item[l->fatigue].allowable_Pa, seen = largest_face(c->row[row]),
+                 barely = 0.1;
+    const bool whole = seen > barely * most || isinf(c->gate[row]);
+    fw_verdict_fatigue f;
+    c->lasts[row] = whole ? 0 : most;
+    if (!(most > 0) || !whole || !(seen > 0)) return FW_OK;
+    for (int i = 0; m->device->nscene > 1 && i < FW_FACES; i++)
+        for (int side = 1; side >= -1; side -= 2) {
+            fw_maths_turning_jump(&c->row[row][i]);
+            fw_maths_turning_add(&c->row[row][i], arena, HUGE_VAL, side * seen);
         }
+    FW_TRY(fw_verdict_fatigue_of(arena, &l->life, c->row[row], most, amplitude_Pa / most,
+                                 m->device->limits.cycles * m->device->nscene, after, &f));
+    c->lasts[row] = fmax(f.utilisation, f.at_most) * most;
     return FW_OK;
 }
 
-/* a body that is narrower than its hinges or loads ask for breaks before they do; scene NULL: in required poses */
-static fw_status say_weak(fw_arena *arena, const char *scene, const weak *w,
-                          fw_verdict_variant_verdict *v) {
+/* of a body's hinges the one that rings on most beside the most that it was bent by; FW_GROUND: of all */
+static const fw_verdict_after *rings_most(const fw_verdict_strain_monitor *w, int body) {
+    const fw_mechanism *m = w->mechanism;
+    const fw_verdict_after *most = NULL;
+    for (int k = 0; w->after && k < m->nhinge; k++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[k].pin];
+        const fw_verdict_after *one = &w->after[k];
+        if (pin->body_a != body && pin->body_b != body) continue;
+        if (!most || (one->n > 0 && (most->n == 0 || one->ring[0].share > most->ring[0].share)))
+            most = one;
+    }
+    return most;
+}
+
+fw_status fw_verdict_courses_end(fw_arena *arena, fw_verdict_strain_monitor *w) {
+    const fw_mechanism *m = w->mechanism;
+    const fw_verdict_bending *b = &w->bending;
+    const bool holes = b->rest_Nm != NULL;
+    if (!b->courses) return FW_OK;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_verdict_arm *arm = &b->arm[i];
+        const double *hardest = b->hardest_N + 2 * m->nhinge + i / 2 * 2,
+                     *along = b->along_N + 2 * i,
+                     force = sqrt(hardest[0]) * (holes ? arm->rim_m : arm->edge_m),
+                     sides = along[0] * (holes ? arm->rim_x_m : arm->edge_x_m) +
+                             along[1] * (holes ? arm->rim_y_m : arm->edge_y_m);
+        FW_TRY(lasts_of(arena, w, i,
+                        hardest[1] * (holes ? arm->rim_m2 : arm->edge_m2) + fmin(force, sides),
+                        w->after ? &w->after[i / 2] : NULL));
+    }
+    for (int i = 0; i < m->nbody; i++) {
+        const fw_verdict_after *after = rings_most(w, i);
+        FW_TRY(lasts_of(arena, w, fw_verdict_course_of_force(m, i), b->rest_N[i], after));
+        if (holes)
+            FW_TRY(lasts_of(arena, w, fw_verdict_course_of_moment(m, i), b->rest_Nm[i], after));
+    }
+    for (int k = 0; k < b->nplace; k++)
+        if (isfinite(b->place[k].known_N))
+            FW_TRY(lasts_of(arena, w, fw_verdict_course_of_place(m, k), b->place[k].known_N, NULL));
+    return FW_OK;
+}
+
+/* ---- and what hangs over bears what shakes it (body_hung.c) ---- */
+
+/* Where a mode swings that what hangs over may lower, its own ways are left (resonance.c). Here is what it bears as it is
+   shaken itself: its own mode is computed, and lies between these times 1/sqrt(droop per acceleration), from a load at its end to
+   one all along, where it is a bar. */
+static double shaken_by(const fw_device_scene *s, const fw_verdict_hung *hung) {
+    const double lowest = 0.95, highest = 1.4, root = sqrt(hung->in_plane_s2),
+                 own = sqrt(hung->in_plane_mode_s2);
+    double most = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
+    for (int i = 0; i < s->nbase && root > 0; i++) {
+        const double size = hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2);
+        if (size > 0)
+            most += size * fw_quantity_law_answer(s->base[i].law, s->duration_s,
+                                                  lowest / fmax(root, own),
+                                                  fmax(highest / root, 1 / own));
+    }
+    return most;
+}
+
+/* The same over what lasts: all that shakes it is an amplitude to both sides, about what its weight bends it by, as often as its
+   mode swings and its laws turn in one repetition, and behind it falls by what the material's loss factor takes. Out: over the
+   largest stress, once */
+static fw_status shaken_lasts(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                              const fw_verdict_hung *hung, double *times) {
+    const fw_flexure_limits *l = &m->hinge[0].limits;
+    const double all = shaken_by(s, hung), weight = hypot(s->gx_m_per_s2, s->gy_m_per_s2),
+                 root = sqrt(hung->in_plane_s2), own = sqrt(hung->in_plane_mode_s2), highest = 1.4,
+                 fastest = fmax(root > 0 ? highest / root : 0, own > 0 ? 1 / own : 0);
+    const fw_quantity *loss = &m->variant->material.loss;
+    *times = 0;
+    if (!(fw_verdict_tires(m, 0) > 0) || !isfinite(all) || !(all > weight)) return FW_OK;
+    const double amplitude_Pa = l->item[l->fatigue].allowable_Pa, to_Pa = amplitude_Pa / all;
+    double turns = 1 + fastest * s->duration_s / (2 * FW_PI);
+    for (int i = 0; i < s->nbase; i++)
+        turns += s->duration_s * fw_quantity_law_wave_of(s->base[i].law).fastest_Hz +
+                 fw_quantity_law_breaks_of(s->base[i].law, s->duration_s, NULL, 0);
+    const fw_verdict_after after = {
+        .rest = weight / (all - weight),
+        .ring = {{1, FW_PI * (loss->unknown ? 0 : fmax(loss->value, 0)), 1}},
+        .n = 1};
+    fw_maths_cycle *cycle = fw_arena_array(arena, fw_maths_cycle, 1 + FW_RING_BLOCKS);
+    FW_NEED(cycle);
+    cycle[0] = (fw_maths_cycle){2 * (all - weight) * to_Pa, weight * to_Pa, turns};
+    const size_t n = 1 + fw_verdict_rung_out(&after, 0, (all - weight) * to_Pa, cycle + 1);
+    *times = fw_verdict_tires(m, 0) *
+             fw_verdict_fatigue_utilisation(&l->life, cycle, n,
+                                            m->device->limits.cycles * m->device->nscene);
+    return FW_OK;
+}
+
+fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene) {
     const fw_mechanism *m = v->mechanism;
-    char high[32], wide[32], x[32], y[32];
-    const char *text =
-        w->arm->lost
-            ? fw_arena_printf(
-                  arena,
-                  "in %s%s %s%s is not known to bear what %s%s%s brings: where that acts it is "
-                  "narrower "
-                  "than an 800th of its size, or hangs by so little; make it wider there",
-                  scene ? fw_text_kind("scene ", scene) : "required poses", scene ? scene : "",
-                  FW_NAMED("body", m->device->body[w->body].id), w->what, w->id ? " " : "",
-                  w->id ? w->id : "")
-            : fw_arena_printf(
-                  arena,
-                  "in %s%s %s%s is not known to bear what %s%s%s brings: at most %s %% of what is "
-                  "allowed, where it is %s um wide, near (%s, %s) um, corners counted three times; "
-                  "make it "
-                  "wider there, or %s",
-                  scene ? fw_text_kind("scene ", scene) : "required poses", scene ? scene : "",
-                  FW_NAMED("body", m->device->body[w->body].id), w->what, w->id ? " " : "",
-                  w->id ? w->id : "", fw_number_text(high, sizeof high, 100 * w->share, 3),
-                  fw_number_text(wide, sizeof wide, 1e6 * w->arm->edge_wide_m, 3),
-                  fw_number_text(x, sizeof x, 1e6 * w->arm->edge.x, 4),
-                  fw_number_text(y, sizeof y, 1e6 * w->arm->edge.y, 4),
-                  scene ? "the load smaller" : "the required box smaller");
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double corners = 3;
+    const fw_flexure_limit *limit =
+        m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
+    double worst = 1;
+    int body = FW_NONE;
+    bool tires = false;
+    const bool counts = limit && v->motion[scene] && v->out_of_plane->hung;
+    for (int i = 0; counts && i < m->nbody; i++) {
+        const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
+        double again, share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
+                              (limit->allowable_Pa / m->device->safety_factor);
+        FW_TRY(shaken_lasts(arena, m, s, hung, &again));
+        if (share * fmax(again, 1) > worst)
+            worst = share * fmax(again, 1), body = i, tires = again > 1;
+    }
+    if (body == FW_NONE) return FW_OK;
+    char high[32];
+    const char *allowed = fw_verdict_allowed_words(arena, m, tires);
+    FW_NEED(allowed);
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s%s %s%s is not known to bear its own weight as it is shaken, where it reaches beyond "
+        "its hinges and "
+        "its middle: at most %s %% of %s, corners counted three times; make it wider "
+        "or shorter there",
+        FW_NAMED("scene", s->name), FW_NAMED("body", fw_text_name(m->body[body].id)),
+        isfinite(worst) ? fw_number_text(high, sizeof high, 100 * worst, 3) : "any number of",
+        allowed);
     FW_NEED(text);
-    v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene ? scene : "workspace",
-                                                  .flow = m->variant->flow,
-                                                  .number = FW_VERDICT_BODIES,
-                                                  .decision = FW_INCONCLUSIVE,
-                                                  .keep = fmin(fmax(0.98 / w->share, 1e-3), 0.99),
-                                                  .not_by_loads = scene == NULL,
-                                                  .not_by_width = true,
-                                                  .text = text};
-    return FW_OK;
-}
-
-static fw_status judge_bodies(fw_arena *arena, int scene, const fw_dynamics_motion *motion,
-                              fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    weak worst = {.share = 0};
-    if (!saw || !saw->bending.arm || !saw->bending.rest_N) return FW_OK;
-    FW_TRY(weakest_of(arena, m, scene, &saw->bending, &worst));
-    worst.share *= 1 + fw_verdict_motion_model_error(m, motion);
-    return worst.share > 1 ? say_weak(arena, m->device->scene[scene].name, &worst, v) : FW_OK;
-}
-
-fw_status fw_verdict_bending_judge(fw_arena *arena, int scene, const fw_dynamics_motion *motion,
-                                   fw_verdict_variant_verdict *v) {
-    int at[2] = {0, 0};
-    const fw_verdict_band band = fw_verdict_bending_rims(v->mechanism, motion, at);
-    FW_TRY(judge_bodies(arena, scene, motion, v));
-    if (!(band.high > 1)) return FW_OK;
-    const fw_verdict_strain_monitor *saw = motion->observed;
-    const int i = at[band.low > 1 ? 0 : 1];
-    return fw_verdict_give_rims(arena, &saw->bending.arm[i], i, band.low, band.high,
-                                v->mechanism->device->scene[scene].name, v);
-}
-
-fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    int at = 0;
-    const double high = required_at_most(v, &at);
-    if (!(high > 1)) return FW_OK;
-    if (m->device->release_pitch_m > 0)
-        return fw_verdict_give_rims(arena, &v->arm[at], at, 0, high, NULL, v);
-    const fw_mechanism_pin *pin = &m->pin[m->hinge[at / 2].pin];
-    const weak worst = {high, &v->arm[at], at % 2 ? pin->body_b : pin->body_a, "hinge", pin->id};
-    return say_weak(arena, NULL, &worst, v);
+    return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
 }

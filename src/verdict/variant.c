@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "verdict/verdict_parts.h"
 #include "base/constants.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include <math.h>
 #include <string.h>
@@ -340,6 +341,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         FW_TRY(fw_verdict_rings_on(arena, m, scene, v->motion[i], &monitor[i].after));
         other[i].after = monitor[i].after;
+        FW_TRY(fw_verdict_courses_end(arena, &monitor[i]));
+        FW_TRY(fw_verdict_courses_end(arena, &other[i]));
         if (v->motion[i])
             FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->loads, v->motion[i]->level));
         FW_TRY(fw_verdict_bending_judge(arena, (int)i, v->motion[i], v));

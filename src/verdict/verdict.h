@@ -248,6 +248,7 @@ typedef struct fw_verdict_fabricated_verdict {
     const double *ln;    /* (ncorner x ncheck) of the search that found it, for one that follows */
     int ncheck;
     fw_verdict_edge_room room; /* where it is accepted */
+    bool midway; /* contacts meet in the middle of the depth, not where walls stand out most */
     bool etched; /* what no mask draws of contacts, and nobody said more of, moves as edges do */
 } fw_verdict_fabricated_verdict;
 

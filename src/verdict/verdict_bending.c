@@ -307,6 +307,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
             b->rest_Nm[i] = 0;
         for (int i = 0; b->cut_N_per_m && i < 2 * m->nhinge; i++)
             b->cut_N_per_m[i] = 0;
+        if (b->courses) fw_verdict_courses_record(b, m, NULL);
         return;
     }
     double hinges = 0, bodies = 0, moving = 0, *each = b->body_J + m->nbody;
@@ -351,6 +352,7 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
     fw_verdict_places_record(b, m, now);
     fw_verdict_solid_keep(b, m, now);
     if (b->cut_N_per_m) record_cuts(b, m, now);
+    if (b->courses) fw_verdict_courses_record(b, m, now);
     for (int i = 0; i < m->nbody; i++)
         b->body_J[i] = fmax(b->body_J[i], each[i]);
     b->moving_J = fmax(b->moving_J, moving);
@@ -397,11 +399,12 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     FW_NEED(bending->end = fw_arena_array(arena, double, 6 * (size_t)m->nhinge));
     FW_TRY(fw_verdict_places_new(arena, m, scene, bending));
     FW_TRY(fw_verdict_solid_keep_new(arena, m, bending->nplace, &bending->kept));
-    if (!(m->device->release_pitch_m > 0)) return FW_OK;
-    FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
-    FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
-    FW_NEED(bending->rest_Nm = fw_arena_array(arena, double, (size_t)m->nbody));
-    return FW_OK;
+    if (m->device->release_pitch_m > 0) {
+        FW_NEED(bending->cut_N_per_m = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
+        FW_NEED(bending->put = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
+        FW_NEED(bending->rest_Nm = fw_arena_array(arena, double, (size_t)m->nbody));
+    }
+    return fw_verdict_courses_new(arena, m, bending);
 }
 
 /* ---- plain ways ----

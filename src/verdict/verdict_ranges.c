@@ -10,7 +10,13 @@
    A contact may be with something that no mask of the device draws. An object, or a stop that is put there, stands where
    it is stated; what is etched of the same layer by a mask that somebody adds has an edge that moves as all do. Where
    the file does not say which, the device is judged as both, which is twice the devices; a trial that is refused as
-   placed is not asked again. Decision 151. Test: test_not_drawn.c */
+   placed is not asked again. Decision 151. Test: test_not_drawn.c
+
+   Walls that lean meet first at the face where they stand out most, and from there on over ever more of the depth. How stiff a
+   contact is over a part of it no stiffness that is stated says: with all of it from the first touch on nothing presses
+   more, and where it begins only as the middles of the walls would meet nothing presses less, for the mean over the depth of
+   what overlaps is at least the overlap of the means. So the device is judged as both (device.h, meets_midway). Decision 223.
+   Test: tests/cli/test_near_pull_in.py LeaningWalls */
 
 static double largest_of(const fw_verdict_fabricated_verdict *f) {
     double most = -HUGE_VAL;
@@ -19,63 +25,144 @@ static double largest_of(const fw_verdict_fabricated_verdict *f) {
     return most;
 }
 
-/* one of the two is accepted, or is refused where the other is undecided: reasons of `of` stand, from `first` on */
-static fw_status differ(fw_arena *arena, const char *id, int first,
-                        const fw_verdict_variant_verdict *placed,
-                        const fw_verdict_variant_verdict *etched, fw_verdict_variant_verdict *v) {
-    static const char *const word[] = {
-        [FW_ACCEPT] = "accepted", [FW_REJECT] = "rejected", [FW_INCONCLUSIVE] = "undecided"};
-    const char *flow = v->variant->flow ? v->variant->flow : "this flow", *text;
+static const char *const how[] = {
+    [FW_ACCEPT] = "accepted", [FW_REJECT] = "rejected", [FW_INCONCLUSIVE] = "undecided"};
+
+/* reasons of the worse stand, from `first` on; text NULL: FW_NOMEM */
+static fw_status differ(int number, const char *text, int first, fw_verdict_variant_verdict *v) {
     double keep = FW_VERDICT_KEEP_HALF;
+    FW_NEED(text);
     for (int i = first; i < v->nreason; i++) {
         if (v->reason[i].decision == FW_REJECT) v->reason[i].decision = FW_INCONCLUSIVE;
         keep = v->reason[i].keep;
     }
-    FW_NEED(
-        text = fw_arena_printf(
-            arena,
-            "%s%s touches what no mask of %s draws: put there at its place the device is %s as the "
-            "flow makes it, and etched of the same layer, so that its edge moves as all edges do, "
-            "it "
-            "is %s: say which it is (undrawn=\"placed\" or undrawn=\"etched\"), or leave the "
-            "contact "
-            "more room",
-            FW_NAMED("contact", id), flow, word[placed->decision], word[etched->decision]));
     v->decision = FW_INCONCLUSIVE;
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = "as made",
                                                   .flow = v->variant->flow,
-                                                  .number = 657,
+                                                  .number = number,
                                                   .decision = FW_INCONCLUSIVE,
                                                   .keep = keep,
                                                   .text = text};
     return FW_OK;
 }
 
+static fw_status differ_by_place(fw_arena *arena, const char *id, int first,
+                                 const fw_verdict_variant_verdict *placed,
+                                 const fw_verdict_variant_verdict *etched,
+                                 fw_verdict_variant_verdict *v) {
+    const char *text = fw_arena_printf(
+        arena,
+        "%s%s touches what no mask of %s draws: put there at its place the device is %s as the "
+        "flow makes it, and etched of the same layer, so that its edge moves as all edges do, it "
+        "is %s: say which it is (undrawn=\"placed\" or undrawn=\"etched\"), or leave the contact "
+        "more room",
+        FW_NAMED("contact", id), v->variant->flow ? v->variant->flow : "this flow",
+        how[placed->decision], how[etched->decision]);
+    return differ(657, text, first, v);
+}
+
+/* may walls lean, and do contacts of the flow meet? */
+static bool contacts_lean(const fw_device *device, const char *flow,
+                          const fw_verdict_fabrication_input *input, int ninput) {
+    bool leans = false, touch = false;
+    for (int i = 0; i < ninput; i++)
+        leans = leans || input[i].flare_m != 0 || input[i].flare_at_m != 0;
+    for (int i = 0; leans && i < device->nscene; i++)
+        touch = touch ||
+                (device->scene[i].ncontact > 0 && fw_device_in_flow(device->scene[i].flow, flow));
+    return touch;
+}
+
+static fw_status meets_midway(fw_arena *arena, const fw_device *device, const fw_device **as) {
+    fw_device *d = fw_arena_one(arena, fw_device);
+    FW_NEED(d);
+    *d = *device;
+    d->meets_midway = true;
+    *as = d;
+    return FW_OK;
+}
+
+static fw_status differ_by_lean(fw_arena *arena, int first, const fw_verdict_variant_verdict *one,
+                                const fw_verdict_variant_verdict *midway,
+                                fw_verdict_variant_verdict *v) {
+    const char *text = fw_arena_printf(
+        arena,
+        "walls of %s lean, so that contacts meet first at the face of the layer where they stand "
+        "out most: with their whole stiffness from there on the device is %s, and with none before "
+        "the middles of the walls meet it is %s; how stiff they are between is not known: leave "
+        "them more room, or etch straighter walls",
+        v->variant->flow ? v->variant->flow : "this flow", how[one->decision],
+        how[midway->decision]);
+    return differ(712, text, first, v);
+}
+
+static double end_of(double all, double of_corner) {
+    return isnan(all) ? of_corner : all;
+}
+
+/* bands of what is required hold what either says */
+static void hold_both(const fw_verdict_variant_verdict *one,
+                      const fw_verdict_variant_verdict *other, fw_verdict_variant_verdict *v) {
+    for (int k = 0; k < v->nrequirement; k++) {
+        if (!one->fabricated->requirement || !other->fabricated->requirement) return;
+        const fw_verdict_requirement *a = &one->fabricated->requirement[k],
+                                     *b = &other->fabricated->requirement[k];
+        fw_verdict_requirement *to = &v->fabricated->requirement[k];
+        if (a->why || b->why) continue;
+        const double low = fmin(a->low, b->low), high = fmax(a->high, b->high);
+        if (!isnan(a->all_low) || !isnan(b->all_low)) {
+            to->all_low = fmin(end_of(a->all_low, a->low), end_of(b->all_low, b->low));
+            to->all_high = fmax(end_of(a->all_high, a->high), end_of(b->all_high, b->high));
+        }
+        to->low = low, to->high = high;
+    }
+}
+
+/* all ways in which contacts may meet; in haste only until one is refused */
 static fw_status of_contacts(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_verdict_options *options, fw_verdict_variant_verdict *v) {
-    const char *id = v->ninput > 0 && options->corners != FW_CORNERS_NONE
-                         ? fw_verdict_undrawn_not_said(device, layout, v->variant->flow)
-                         : NULL;
+    enum { ETCHED = 1, MIDWAY = 2, WAYS = 4 };
+    const bool asked = v->ninput > 0 && options->corners != FW_CORNERS_NONE,
+               leans = asked && contacts_lean(device, v->variant->flow, v->input, v->ninput);
+    const char *id = asked ? fw_verdict_undrawn_not_said(device, layout, v->variant->flow) : NULL;
     const size_t n = (size_t)v->nreason, most = fw_verdict_reasons_most(device, v->nrequirement);
-    const fw_device *as;
-    fw_verdict_variant_verdict etched = *v;
+    const fw_verdict_variant_verdict drawn = *v;
+    fw_verdict_variant_verdict of[WAYS];
+    bool known[WAYS] = {true}, same = true;
     FW_TRY(fw_verdict_as_fabricated(arena, device, layout, options, v));
     const bool quick = options->corners != FW_CORNERS_AUTO;
-    if (!id || !v->fabricated || (quick && v->decision != FW_ACCEPT)) return FW_OK;
-    FW_NEED(etched.reason = fw_arena_grow(arena, etched.reason, n, most, sizeof *etched.reason));
-    FW_TRY(fw_verdict_undrawn_as(arena, device, FW_UNDRAWN_ETCHED, &as));
-    FW_TRY(fw_verdict_as_fabricated(arena, as, layout, options, &etched));
-    if (!etched.fabricated) return FW_OK;
-    etched.fabricated->etched = true;
-    const fw_verdict_variant_verdict placed = *v;
-    const bool same = placed.decision == etched.decision;
-    const bool tighter = largest_of(etched.fabricated) > largest_of(placed.fabricated);
-    const bool worse = fw_verdict_is_worse(etched.decision, placed.decision);
-    if (same ? tighter : worse) *v = etched;
+    if (!(id || leans) || !v->fabricated || (quick && v->decision != FW_ACCEPT)) return FW_OK;
+    of[0] = *v;
+    for (int way = 1; way < WAYS; way++) {
+        const fw_device *as = device;
+        if (((way & ETCHED) && !id) || ((way & MIDWAY) && !leans)) continue;
+        if (quick && v->decision != FW_ACCEPT) break;
+        if (way & ETCHED) FW_TRY(fw_verdict_undrawn_as(arena, device, FW_UNDRAWN_ETCHED, &as));
+        if (way & MIDWAY) FW_TRY(meets_midway(arena, as, &as));
+        of[way] = drawn;
+        FW_NEED(of[way].reason =
+                    fw_arena_grow(arena, of[way].reason, n, most, sizeof *of[way].reason));
+        FW_TRY(fw_verdict_as_fabricated(arena, as, layout, options, &of[way]));
+        if (!(known[way] = of[way].fabricated != NULL)) continue;
+        of[way].fabricated->etched = (way & ETCHED) != 0;
+        of[way].fabricated->midway = (way & MIDWAY) != 0;
+        const fw_verdict_variant_verdict before = *v;
+        const bool as_before = before.decision == of[way].decision;
+        const bool tighter = largest_of(of[way].fabricated) > largest_of(before.fabricated);
+        const bool worse = fw_verdict_is_worse(of[way].decision, before.decision);
+        if (as_before ? tighter : worse) *v = of[way];
+        hold_both(&before, &of[way], v);
+        same = same && as_before;
+    }
     if (same) return FW_OK;
-    if (!quick) return differ(arena, id, (int)n, &placed, &etched, v);
-    v->decision = FW_INCONCLUSIVE;
-    return FW_OK;
+    if (quick) {
+        v->decision = FW_INCONCLUSIVE;
+        return FW_OK;
+    }
+    for (int way = 0; way < WAYS; way += MIDWAY)
+        if (known[way] && known[way | ETCHED] && of[way].decision != of[way | ETCHED].decision)
+            return differ_by_place(arena, id, (int)n, &of[way], &of[way | ETCHED], v);
+    return differ_by_lean(arena, (int)n, &of[0], &of[MIDWAY], v);
 }
 
 /* what nobody knows holds it open, whatever the devices do that were run */
@@ -102,9 +189,10 @@ fw_status fw_verdict_as_made(fw_arena *arena, const fw_device *device, const fw_
 /* the device as the governing of the two was judged */
 static fw_status as_judged(fw_arena *arena, const fw_verdict_variant_verdict *v,
                            const fw_device **device) {
-    return v->fabricated && v->fabricated->etched
-               ? fw_verdict_undrawn_as(arena, *device, FW_UNDRAWN_ETCHED, device)
-               : FW_OK;
+    const fw_verdict_fabricated_verdict *f = v->fabricated;
+    if (f && f->etched) FW_TRY(fw_verdict_undrawn_as(arena, *device, FW_UNDRAWN_ETCHED, device));
+    if (f && f->midway) FW_TRY(meets_midway(arena, *device, device));
+    return FW_OK;
 }
 
 /* ---- other ranges ----

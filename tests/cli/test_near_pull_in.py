@@ -4,6 +4,7 @@
 stiffness is said to be off by."""
 import json
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -228,6 +229,63 @@ def aligned(away_um):
 
 def aside(shape):
     return "".join(DRIVE % (name, 0, y, turn, shape) for name, y, turn in (("upper", 0.845, 90), ("lower", -0.845, -90)))
+
+
+class LeaningWalls(unittest.TestCase):
+    """walls that lean by 3 % of a depth of 50 um stand 0.75 um further out at one face: electrodes and contacts as made were those of
+    straight walls, so that plates that snap at 27.5 V were accepted at 28, and a grip of 2.75 mN where 2.2 was the most"""
+    DEVICE = """<device xmlns="urn:flexwright:device:1" name="leans"><material ref="silicon-100" thickness="50 um"%(modulus)s/>
+<limits safety-factor="1.2"/><flow ref="%(flow)s"/><flexure id="leaf" kind="leaf" length="500 um" width="12 um" fillet="6 um"/>
+<mechanism><body id="head" x="0 mm" y="0.9 mm" plate-width="0.6 mm" plate-height="0.6 mm"/>
+<revolute id="A" a="ground" b="head" b-y="-0.9 mm" hinge="leaf" axis="0 deg"/></mechanism>%(asked)s
+<scene name="s" duration="60 ms">%(acts)s<material-damping loss-factor="0.2"/></scene><die clearance="600 um"%(die)s/></device>"""
+    LAB = """<process xmlns="urn:flexwright:process:1" flow="%(flow)s"><source id="me" kind="measured" date="2026-10-01">me</source>%(q)s</process>"""
+
+    def judged(self, flow, a, values, acts, asked, modulus="", die=""):
+        q = "".join(f'<q id="{k}" value="{v}" u="0" unit="{unit}" status="measured" src="me"/>' for k, v, unit in values(a))
+        with tempfile.TemporaryDirectory() as here:
+            lab = pathlib.Path(here) / "lab.xml"
+            lab.write_text(self.LAB % {"flow": flow, "q": q})
+            text = self.DEVICE % {"flow": flow, "acts": acts, "asked": asked, "modulus": modulus, "die": die}
+            done = run("check", "-", "--lab", lab, "--json", "--advice", "none", input=text)
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        return json.loads(done.stdout)
+
+    def test_plates_snap_earlier(self):
+        """C' = eps h L/((g - x)^2 - d^2): the fold is at 27.5 V with d = 1.5 um, the stiffer leaf included, and 29.4 V of straight walls"""
+        def at(volts, a):
+            acts = f'<comb-drive id="plate" kind="plate" on="head" x="0.3 mm" direction="0 deg" gap="6 um" length="400 um" voltage="{volts} V" law="ramp" rise="40 ms"/>'
+            said = self.judged("soi-deep-rie", a, lambda a: (("drie.A", a, "1"), ("litho.edge", 0, "um"), ("soi.d", 50, "um")), acts,
+                               '<probe id="way" kind="displacement" on="head" direction="0 deg"/><require probe="way" measure="final" max="3 um"/>',
+                               modulus=' youngs-modulus="150 GPa"', die=' release-pitch="72 um"')
+            found = re.findall(r"pull-in of comb drive plate is at ([\d.]+) V", " ".join(r["text"] for r in said["reasons"]))
+            return said["verdict"], [float(v) for v in found]
+
+        verdict, pull_in = at(28, 0.97)
+        self.assertEqual(verdict, "inconclusive")
+        self.assertAlmostEqual(pull_in[0] / 27.5, 1, delta=0.01)
+        self.assertEqual(at(28, 1)[0], "accept")
+
+    def test_contacts_meet_where_walls_stand_out_most(self):
+        """a stop in series with a cable of its own stiffness, 2 um away: (4 - 2 um) 1 N/mm, and 0.75 um more where the wall leans"""
+        def at(a, most, stop="2 um"):
+            acts = ('<tendon id="pull" draw="4 um" stiffness="2000 N/m" law="ramp" rise="30 ms"><eyelet on="head"/><eyelet on="ground" x="0.85 mm" y="0.9 mm"/></tendon>'
+                    f'<contact id="stop" a="head" a-x="0.3 mm" a-face="0 deg" b="ground" b-x="0.3 mm + {stop}" b-y="0.9 mm" side="outside" undrawn="placed" '
+                    'distance="0 um" stiffness="2000 N/m" damping="1e-3 N s/m"/>')
+            said = self.judged("al-masked-rie", a, lambda a: (("rie.A", a, "1"), ("litho.edge", 0, "um"), ("made.al-edge", 0, "um"), ("si.d", 50, "um")), acts,
+                               f'<probe id="grip" kind="force" of="stop"/><require probe="grip" measure="final" {most}/>')
+            grip = [r for r in said["requirements"] if r["probe"] == "grip"]
+            return said["verdict"], {r["code"] for r in said["reasons"]}, grip
+
+        verdict, codes, _ = at(0.97, 'max="2.2 mN"')
+        self.assertEqual(verdict, "inconclusive")
+        self.assertIn("FW-D712", codes)
+        verdict, codes, grip = at(0.97, 'max="3 mN"')
+        self.assertEqual((verdict, codes & {"FW-D712"}), ("accept", set()))
+        made = grip[0]["as_fabricated"]
+        for band in (made["band"], made["all_corners_band"]):
+            self.assertTrue(band[0] < 2.0e-3 and 2.75e-3 < band[1] < 2.9e-3, made)
+        self.assertEqual(at(1, 'max="2.2 mN"')[0], "accept")
 
 
 class Tips(unittest.TestCase):

@@ -201,6 +201,43 @@ static void test_closed_forms(void **state) {
     fw_arena_free(r.arena);
 }
 
+/* walls that lean: of plates that stand parallel eps0 h L atanh(l/m)/l, and with the means of 1/gap^2 and 2/gap^3; fingers pull
+   along with the mean of 1/gap of either side. They touch where the narrowest face does */
+static void test_leaning_walls(void **state) {
+    (void)state;
+    rig r;
+    const char *why = NULL;
+    const double w[6] = {0}, lean[] = {0.2e-6, 1.5e-6};
+    double p[6], slope[3], bend[9];
+    for (int i = 0; i < 2; i++) {
+        const double l = lean[i];
+        fw_device_comb flat = plate_of();
+        flat.lean_m = l;
+        without_fringe(&r, &flat);
+        const fw_effects_comb_element *c = fw_effects_comb_of(r.e);
+        for (double x = -1e-6; x < 5e-6 - 2 * l && x < 3e-6; x += 0.5e-6) {
+            const double m = 5e-6 - x, area = eps0 * 50e-6 * 200e-6, parts = m * m - l * l, at[3] = {x, 0, 0};
+            assert_relative(fw_effects_comb_capacitance(c, at, slope, bend), area * atanh(l / m) / l, 1e-6);
+            assert_relative(slope[0], area / parts, 1e-4);
+            assert_relative(bend[0], 2 * area * m / (parts * parts), 1e-3);
+            assert_relative(fw_effects_comb_capacitance(c, at, NULL, NULL), fw_effects_comb_capacitance(c, at, slope, NULL), 1e-15);
+        }
+        fw_effects_port_state s = seen(p, w, 0, 1);
+        place_rotor(&r, 4.7e-6 - l, 0, 0, p);
+        assert_true(r.e->class_->valid(r.e, &s, &why));
+        place_rotor(&r, 4.8e-6 - l, 0, 0, p);
+        assert_false(r.e->class_->valid(r.e, &s, &why));
+        fw_arena_free(r.arena);
+        fw_device_comb fingers = comb;
+        fingers.lean_m = l;
+        without_fringe(&r, &fingers);
+        const double at[3] = {0, 0.5e-6, 0}, f = 20 * eps0 * 50e-6, near = 3.5e-6, far = 4.5e-6;
+        fw_effects_comb_capacitance(fw_effects_comb_of(r.e), at, slope, NULL);
+        assert_relative(slope[0], f * (atanh(l / near) + atanh(l / far)) / l, 1e-4);
+        fw_arena_free(r.arena);
+    }
+}
+
 /* power, tangent and balance on random states; stator on the ground or a body that turns, voltage
    constant or a sine in time */
 static void test_laws(void **state) {
@@ -332,6 +369,7 @@ int main(void) {
         cmocka_unit_test(test_capacitance),  cmocka_unit_test(test_derivatives),
         cmocka_unit_test(test_closed_forms), cmocka_unit_test(test_laws),
         cmocka_unit_test(test_valid),        cmocka_unit_test(test_compiled),
+        cmocka_unit_test(test_leaning_walls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
