@@ -190,3 +190,52 @@ fw_status fw_verdict_may_touch(fw_arena *arena, int scene, fw_verdict_variant_ve
     }
     return FW_OK;
 }
+
+/* ---- what hangs over bears as it is shaken (body_hung.c) ---- */
+
+/* Where a mode swings that what hangs over may lower, its own ways are left (resonance.c). Here is what it bears as it is
+   shaken itself: its own mode is computed, and lies between these times 1/sqrt(droop per acceleration), from a load at its end to
+   one all along, where it is a bar. */
+static double shaken_by(const fw_device_scene *s, const fw_verdict_hung *hung) {
+    const double lowest = 0.95, highest = 1.4, root = sqrt(hung->in_plane_s2),
+                 own = sqrt(hung->in_plane_mode_s2);
+    double most = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
+    for (int i = 0; i < s->nbase && root > 0; i++) {
+        const double size = hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2);
+        if (size > 0)
+            most += size * fw_quantity_law_answer(s->base[i].law, s->duration_s,
+                                                  lowest / fmax(root, own),
+                                                  fmax(highest / root, 1 / own));
+    }
+    return most;
+}
+
+fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v,
+                                  const fw_verdict_hung *all, int scene) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double corners = 3;
+    const fw_flexure_limit *limit =
+        m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
+    double worst = 1;
+    int body = FW_NONE;
+    const bool counts = limit && v->motion[scene] && all;
+    for (int i = 0; counts && i < m->nbody; i++) {
+        const fw_verdict_hung *hung = &all[i];
+        const double share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
+                             (limit->allowable_Pa / m->device->safety_factor);
+        if (share > worst) worst = share, body = i;
+    }
+    if (body == FW_NONE) return FW_OK;
+    char high[32];
+    const char *text = fw_arena_printf(
+        arena,
+        "in %s%s %s%s is not known to bear its own weight as it is shaken, where it reaches beyond "
+        "its hinges and "
+        "its middle: at most %s %% of what is allowed, corners counted three times; make it wider "
+        "or shorter there",
+        FW_NAMED("scene", s->name), FW_NAMED("body", fw_text_name(m->body[body].id)),
+        isfinite(worst) ? fw_number_text(high, sizeof high, 100 * worst, 3) : "any number of");
+    FW_NEED(text);
+    return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
+}

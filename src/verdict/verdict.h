@@ -305,6 +305,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_clearance_things *things;      /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;        /* (nclearance) none of what is not drawn */
     int nclearance;
+    double bends_m; /* what bodies bend beside hinges may take of distances at a corner */
     fw_wiring_moved
         *stator; /* (nstator) every stator in every scene, as drawn; low_m: at all corners */
     int nstator;
