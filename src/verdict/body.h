@@ -108,6 +108,10 @@ fw_status fw_verdict_goes_farther(fw_arena *arena, const struct fw_verdict_varia
                                   int scene, const fw_device_probe *probe, double direction_rad,
                                   struct fw_verdict_soft *soft, double *down, double *up,
                                   bool *known);
+/* it goes by what bodies bend beside their hinges; and is what hangs over asked for in any scene? */
+struct fw_verdict_requirement;
+bool fw_verdict_moves(const struct fw_verdict_requirement *requirement);
+bool fw_verdict_asks_hung(const struct fw_verdict_variant_verdict *verdict);
 fw_status fw_verdict_say_bent(fw_arena *arena, struct fw_verdict_variant_verdict *verdict,
                               const char *scene, int number, const char *what, int body,
                               double by_m);

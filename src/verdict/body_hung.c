@@ -21,6 +21,7 @@
    Source: a beam's; H. Weyl, Math. Ann. 71 (1912) 441. Theory: docs/theory/effects/out-of-plane.md (4a). Test:
    test_body_arms.c what_hangs_over_bends, folded_bars; test_out_of_plane.py */
 #include "base/constants.h"
+#include "base/text.h"
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
 #include "verdict/body.h"
@@ -509,9 +510,16 @@ static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
     return FW_OK;
 }
 
-static bool moves(const fw_verdict_requirement *r) {
-    return r->scene_index != FW_NONE && !r->why &&
-           fw_words_hold("displacement gap distance opening", " ", r->kind);
+/* where it was undecided already, its reason says the band that it has now */
+static fw_status widen(fw_arena *arena, double down, double up, fw_verdict_requirement *r,
+                       fw_verdict_variant_verdict *v) {
+    const char *then = fw_verdict_requirement_text(arena, r), *now;
+    fw_verdict_requirement_widen(down, up, r);
+    FW_NEED(then && (now = fw_verdict_requirement_text(arena, r)));
+    for (int i = 0; i < v->nreason; i++)
+        if (v->reason[i].number == 330 && fw_text_same(v->reason[i].text, then))
+            v->reason[i].text = now;
+    return FW_OK;
 }
 
 static fw_status opens(fw_arena *arena, int scene, double by, int body, const fw_verdict_hung *hung,
@@ -533,11 +541,11 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body, const fw
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         const fw_verdict_decision was = r->decision;
-        if (r->scene_index != scene || !moves(r) || was == FW_REJECT) continue;
+        if (r->scene_index != scene || !fw_verdict_moves(r) || was == FW_REJECT) continue;
         double down = by, up = by;
         FW_TRY(asked_of(arena, v, r, hung, &soft, &down, &up));
         if (!(fmax(down, up) > hardly * fabs(r->value))) continue;
-        fw_verdict_requirement_widen(down, up, r);
+        FW_TRY(widen(arena, down, up, r, v));
         if (was != FW_ACCEPT || r->decision == FW_ACCEPT) continue;
         FW_TRY(fw_verdict_say_bent(arena, v, name, 639, fw_verdict_requirement_text(arena, r), body,
                                    fmax(down, up)));
@@ -545,35 +553,16 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body, const fw
     return FW_OK;
 }
 
-/* At a corner of a flow nobody has looked at what hangs over yet: it counts where a scene shakes the device in the plane, or weighs
-   on it there, and where a stated force acts on the body that is asked, which rings */
-static bool asks_hung(const fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    bool any = false;
-    for (int i = 0; i < d->nscene && !any; i++) {
-        const fw_device_scene *s = &d->scene[i];
-        any = v->motion[i] && (s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0);
-        for (int k = 0; k < s->nbase && v->motion[i]; k++)
-            any = any || s->base[k].ax_m_per_s2 != 0 || s->base[k].ay_m_per_s2 != 0;
-        for (int k = 0; k < s->nforce * v->nrequirement && !any; k++) {
-            const fw_verdict_requirement *r = &v->requirement[k / s->nforce];
-            const fw_device_probe *p = &d->probe[d->requirement[r->asked].probe];
-            any = r->scene_index == i && moves(r) && p->body == s->force[k % s->nforce].body;
-        }
-    }
-    return any;
-}
-
 /* A corner looks for distances no further than counts: by what is asked, and twice what bends as drawn (v->bends_m) */
 fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
-    fw_verdict_hung *own = NULL;
     const double hardly_m = 1e-8;
+    fw_verdict_hung *own = NULL;
     double *to = fw_arena_array(arena, double, (size_t)m->nbody), apart, most = 0;
     FW_NEED(to);
     if (v->corner ? !v->arm : !v->out_of_plane) return FW_OK;
-    if (!hung && v->corner && asks_hung(v)) {
+    if (!hung && v->corner && fw_verdict_asks_hung(v)) {
         FW_TRY(fw_verdict_overhangs(arena, m, v->arm, false, &own));
         hung = own;
     }
