@@ -7,25 +7,21 @@
 #include "verdict/strain.h"
 
 /* Where ways of one body go together they bear together what comes by each of them: body_together.c */
-typedef struct fw_verdict_strip { /* a piece of a way, as fw_verdict_arm_add has it */
-    fw_geometry_vec2 at, from, until;
-    double w;
-} fw_verdict_strip;
 typedef struct
     fw_verdict_arm_end { /* of a hinge, or where a load acts: pin and root are that place */
     fw_verdict_arm *to;
     int index; /* of the arm */
     fw_geometry_vec2 pin, root;
-    fw_verdict_strip *strip; /* (nstrip) */
-    int nstrip;
 } fw_verdict_arm_end;
 typedef struct fw_verdict_shared {
     fw_geometry_vec2 about; /* world, as drawn */
     int first;              /* the first of its ends */
     struct fw_verdict_trunk {
-        double give[6]; /* as an arm's, about `about` */
-        int n, *end;    /* indices of arms */
-        bool counts;    /* several, and it is more than a 200th of a way */
+        double give[6];                /* as an arm's, about `about` */
+        int n, *end;                   /* indices of arms */
+        const fw_verdict_strip *strip; /* (nstrip) */
+        int nstrip;
+        bool counts; /* several, and it is more than a 200th of a way */
     } * trunk;
     int n;
     bool counts;
@@ -59,6 +55,31 @@ double fw_verdict_beams_J(const fw_mechanism *mechanism, const fw_verdict_arm *a
                           const double *instant, const fw_verdict_turn *turn,
                           const fw_verdict_places *places, double *meet_J, double *aside_J);
 
+/* What a flow leaves of a width whose edges stand out by edge_m, of a body that bends; never more than is drawn, since bands
+   hold what the drawn one gives, too. A quarter of it at least: what is cut through is told (corner_search.c) */
+static inline double fw_verdict_made_m(double wide_m, double edge_m) {
+    return fmax(wide_m + 2 * fmin(edge_m, 0), 0.25 * wide_m);
+}
+/* body_together.c: the same arms of the drawn device with all edges in by -edge_m; *made: those, or arm where edges stand out */
+fw_status fw_verdict_arms_made(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_verdict_arm *arm, double edge_m,
+                               const fw_verdict_arm **made);
+/* how many times as much a body gives as its drawn solid, at most: by what hinges put on it, by all that acts on it */
+void fw_verdict_softer(const fw_mechanism *mechanism, const fw_verdict_arm *arm,
+                       const fw_verdict_bending *bending, int body, double to[2]);
+/* why nothing, or one face of nothing, is left of a body's way at its narrowest; NULL: something is */
+fw_status fw_verdict_body_cut(fw_arena *arena, const fw_mechanism *mechanism,
+                              const fw_verdict_arm *arm, double edge_m, double flare_m,
+                              const char **why);
+/* body_loads.c: a stated force on the very place of a displacement that is asked for; by how much that may be less and more for
+   what hangs over by such forces, m */
+bool fw_verdict_bends_own(const fw_mechanism_load_end *end, int scene,
+                          const fw_device_probe *probe);
+fw_status fw_verdict_bends_asked(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
+                                 int scene, const fw_verdict_hung *hung,
+                                 const fw_device_probe *probe, double *down, double *up,
+                                 double *rings_m);
+
 /* ---- body_solids.c: what bodies store by all that acts on them, as beams and as solids ---- */
 typedef struct fw_verdict_solids {
     const fw_mechanism *m;
@@ -87,6 +108,10 @@ fw_status fw_verdict_goes_farther(fw_arena *arena, const struct fw_verdict_varia
                                   int scene, const fw_device_probe *probe, double direction_rad,
                                   struct fw_verdict_soft *soft, double *down, double *up,
                                   bool *known);
+/* it goes by what bodies bend beside their hinges; and is what hangs over asked for in any scene? */
+struct fw_verdict_requirement;
+bool fw_verdict_moves(const struct fw_verdict_requirement *requirement);
+bool fw_verdict_asks_hung(const struct fw_verdict_variant_verdict *verdict);
 fw_status fw_verdict_say_bent(fw_arena *arena, struct fw_verdict_variant_verdict *verdict,
                               const char *scene, int number, const char *what, int body,
                               double by_m);

@@ -437,7 +437,7 @@ static void add_piece(const grid *g, const fw_verdict_pierced *pierced, fw_geome
     fw_verdict_arm_end *end = g->end;
     fw_verdict_arm_add(end->to, end->pin, at, from, until, w);
     fw_verdict_arm_rims(pierced, end->pin, from, until, w, end->to);
-    end->strip[end->nstrip++] = (fw_verdict_strip){at, from, until, w};
+    end->to->strip[end->to->nstrip++] = (fw_verdict_strip){at, from, until, w};
 }
 
 /* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own
@@ -447,7 +447,7 @@ static fw_status follow(const grid *g, edges *around, const fw_verdict_pierced *
     around->wide.n = 0;
     g->end->to->known = true;
     g->end->to->narrow_m = HUGE_VAL;
-    FW_NEED(g->end->strip = fw_arena_array(g->arena, fw_verdict_strip, (size_t)g->nway + 2));
+    FW_NEED(g->end->to->strip = fw_arena_array(g->kept, fw_verdict_strip, (size_t)g->nway + 2));
     fw_geometry_vec2 from = place(g, g->way[0]), here = from;
     double w = 0;
     for (int i = 0; i < last;) {
@@ -520,8 +520,6 @@ static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *lay
         double cells = across * across / (cell * cell);
         if (cells > CELLS) break;
         fw_arena_rewind(scratch, lines); /* the former cells */
-        for (int i = 0; i < n; i++)
-            ends[i].nstrip = 0;
         FW_TRY(lay(&g, cell));
         int middle = cell_at(&g, layout->body[body].centroid, 2);
         if (middle < 0) continue;
@@ -532,7 +530,7 @@ static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *lay
         all = true;
         for (int i = 0; i < n; i++) {
             fw_verdict_arm *to = ends[i].to;
-            *to = (fw_verdict_arm){.known = false};
+            *to = (fw_verdict_arm){.known = false, .pin = ends[i].pin};
             pierced.own = i, pierced.root = ends[i].root;
             const int begin = cell_at(&g, ends[i].root, 0);
             find_way(&g, &q, begin, middle);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What bodies bear: rims of release holes, ways of hinges and loads, once and over the cycles that are asked for; and what of them
-   hangs over, of required frequencies. Theory: docs/theory/verdict.md, docs/theory/release.md. */
+   hangs over, of required frequencies; and how near bodies that bend come to electrodes. Theory: docs/theory/verdict.md, docs/theory/release.md. */
 #include "base/constants.h"
 #include "base/text.h"
 #include "geometry/segment.h"
@@ -407,4 +407,97 @@ fw_status fw_verdict_hangs_say(fw_arena *arena, fw_verdict_variant_verdict *v,
                 text, FW_NAMED("body", fw_text_name(v->mechanism->body[body].id)),
                 fw_number_text(own, sizeof own, 1 / (FW_TURN * sqrt(s2)), 4)));
     return fw_verdict_hangs_open(v, r->scene ? r->scene : fw_verdict_at_rest, 640, text);
+}
+
+/* ---- how near electrodes come ----
+   By the place of every rotor in each row: across the fingers and by its tilt, of a plate along; of fingers that are nearly
+   at the roots of the others along, too. Error: between rows. Test: test_near_pull_in.py, Motions */
+
+typedef struct near_to { /* m: least gap, and farthest along */
+    double gap, along;
+} near_to;
+
+static near_to nearest(const fw_dynamics_motion *x, int element) {
+    const fw_effects_force_element *e = &x->loads->element[element];
+    const fw_effects_comb_element *c = fw_effects_comb_of(e);
+    near_to n = {HUGE_VAL, -HUGE_VAL};
+    fw_dynamics_motion_rows(x, 0, x->nsample);
+    for (int row = 0; row < x->nsample; row++) {
+        double p[6], w[6], at[3];
+        fw_effects_element_place_ports(e, x->q + (size_t)row * 3 * (size_t)x->nbody, NULL, p, w);
+        fw_effects_comb_place(e, p, at);
+        const bool comb = c->kind == FW_ELECTRODES_COMB;
+        const double half = 0.5 * (comb ? c->overlap_m + at[0] : c->length_m);
+        n.gap = fmin(n.gap, c->gap_m - fabs(c->lean_m) - (comb ? fabs(at[1]) : at[0]) -
+                                fabs(at[2]) * half);
+        n.along = fmax(n.along, at[0]);
+    }
+    return n;
+}
+
+double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
+                                    double *kept) {
+    double nearer = 0;
+    *kept = 1;
+    for (int i = 0; i < was->loads->nelement && i < now->loads->nelement; i++) {
+        const fw_effects_comb_element *c = fw_effects_comb_of(&was->loads->element[i]);
+        if (!c || !fw_effects_comb_of(&now->loads->element[i])) continue;
+        const near_to a = nearest(was, i), b = nearest(now, i);
+        const double length = isnan(c->length_m) ? 2 * c->overlap_m : c->length_m;
+        *kept = fmin(*kept, a.gap / c->gap_m);
+        nearer = fmax(nearer, a.gap - b.gap);
+        if (c->kind == FW_ELECTRODES_COMB && length - c->overlap_m - b.along < 2 * b.gap)
+            nearer = fmax(nearer, b.along - a.along);
+    }
+    return nearer;
+}
+
+/* ---- and in series with electrodes ----
+   Pull-in comes where the field takes the stiffness k that holds its rotor; where a place of the rotor's body gives c that is
+   k/(1 + c k), and k is what the field takes there: the largest eigenvalue of -df/dp at the pull-in voltage and pose. Test:
+   test_effects.py SlenderArms */
+
+static double field_takes(const fw_effects_force_element *e, const fw_statics_pull_in *p,
+                          double duration_s) {
+    enum { TIMES = 64, ROTOR = 1 };
+    double at[6], w[6], stiff[36], damp[36], most = 0;
+    if (!e->class_->electrodes || e->ports != 2 || e->switches > 0) return 0;
+    fw_effects_element_place_ports(e, p->q, NULL, at, w);
+    for (int i = 0; i <= TIMES; i++) { /* wherever its law is largest */
+        const double t_s = duration_s * i / TIMES;
+        const fw_effects_port_state seen = {.t_s = t_s,
+                                            .piece_s = t_s,
+                                            .load = p->margin * p->margin,
+                                            .p = at,
+                                            .w = w,
+                                            .still = true};
+        e->class_->tangent(e, &seen, stiff, damp);
+        const double *row = stiff + 3 * ROTOR * 6 + 3 * ROTOR;
+        const double a = -row[0], b = -0.5 * (row[1] + row[6]), c = -row[7];
+        most = fmax(most, 0.5 * (a + c) + hypot(0.5 * (a - c), b));
+    }
+    return most;
+}
+
+fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                   const fw_statics_pull_in *p, double *gives) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *motion = v->motion[scene];
+    fw_mechanism_load_end *end;
+    int n;
+    *gives = 0;
+    if (!v->arm || v->straight || !p->q || !motion || !motion->loads) return FW_OK;
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
+    for (int k = 0; k < n; k++) {
+        const fw_verdict_arm *arm = &v->arm[2 * m->nhinge + k];
+        if (end[k].scene != scene || !end[k].id || !arm->known) continue;
+        const double goes = fw_verdict_arm_goes(arm);
+        for (int i = 0; i < motion->loads->nelement; i++)
+            if (motion->loads->element[i].id &&
+                strcmp(motion->loads->element[i].id, end[k].id) == 0)
+                *gives +=
+                    goes / (m->variant->material.youngs.value * m->variant->thickness_m) *
+                    field_takes(&motion->loads->element[i], p, m->device->scene[scene].duration_s);
+    }
+    return FW_OK;
 }

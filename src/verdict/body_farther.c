@@ -319,3 +319,30 @@ fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diag
                     fw_number_text(up, sizeof up, own->share, 2));
     return diags->failed ? FW_NOMEM : FW_OK;
 }
+
+/* ---- whom what hangs over concerns (body_hung.c) ---- */
+
+bool fw_verdict_moves(const fw_verdict_requirement *r) {
+    return r->scene_index != FW_NONE && !r->why &&
+           fw_words_hold("displacement gap distance opening", " ", r->kind);
+}
+
+/* At a corner of a flow nobody has looked at what hangs over yet: it counts where a scene shakes the device in the plane, or weighs
+   on it there, and where a stated force acts on the body that is asked, which rings */
+bool fw_verdict_asks_hung(const fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    bool any = false;
+    for (int i = 0; i < d->nscene && !any; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        any = v->motion[i] && (s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0);
+        for (int k = 0; k < s->nbase && v->motion[i]; k++)
+            any = any || s->base[k].ax_m_per_s2 != 0 || s->base[k].ay_m_per_s2 != 0;
+        for (int k = 0; k < s->nforce * v->nrequirement && !any; k++) {
+            const fw_verdict_requirement *r = &v->requirement[k / s->nforce];
+            const fw_device_probe *p = &d->probe[d->requirement[r->asked].probe];
+            any = r->scene_index == i && fw_verdict_moves(r) &&
+                  p->body == s->force[k % s->nforce].body;
+        }
+    }
+    return any;
+}

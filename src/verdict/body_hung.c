@@ -21,6 +21,7 @@
    Source: a beam's; H. Weyl, Math. Ann. 71 (1912) 441. Theory: docs/theory/effects/out-of-plane.md (4a). Test:
    test_body_arms.c what_hangs_over_bends, folded_bars; test_out_of_plane.py */
 #include "base/constants.h"
+#include "base/text.h"
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
 #include "verdict/body.h"
@@ -275,9 +276,18 @@ static bool is_fine(const fw_verdict_tree *t, const fw_verdict_hung *hung) {
     return narrow <= 1 + all / 10;
 }
 
-static fw_status bend_tree(fw_verdict_tree *t, double kg_per_m2, double gap_m,
+/* kg/m2 of what parts have of the body, as made */
+static double weighs(const fw_verdict_tree *t, double mass_kg) {
+    const double less = t->made_m2 > 0 ? t->reached_m2 / t->made_m2 : 1;
+    return mass_kg / t->whole_m2 * less;
+}
+
+/* across: what it does across the plane, too */
+static fw_status bend_tree(fw_verdict_tree *t, double mass_kg, double gap_m, bool across,
                            fw_verdict_hung *hung) {
-    FW_TRY(fw_verdict_tree_grow(t, false));
+    FW_TRY(fw_verdict_tree_grow(t, !across && t->nhinge == 1));
+    if (!across) return put_in_plane(t, weighs(t, mass_kg), hung);
+    const double kg_per_m2 = weighs(t, mass_kg);
     accelerate(t, true, 0, kg_per_m2);
     hung->across_s2 = placed * farthest_across(t);
     hung->tip_m_per_N = softest_tip(t, false);
@@ -286,10 +296,10 @@ static fw_status bend_tree(fw_verdict_tree *t, double kg_per_m2, double gap_m,
     hung->bears_N_per_m = gap_m > 0 ? bears(t, gap_m) : HUGE_VAL;
     /* in the plane one hinge's arm has all of the body that is between */
     if (t->nhinge == 1) FW_TRY(fw_verdict_tree_grow(t, true));
-    return put_in_plane(t, kg_per_m2, hung);
+    return put_in_plane(t, weighs(t, mass_kg), hung);
 }
 
-static fw_status hang(fw_verdict_tree *t, const fw_mechanism *m, double mass_kg,
+static fw_status hang(fw_verdict_tree *t, const fw_mechanism *m, double mass_kg, bool across,
                       fw_verdict_hung *hung) {
     const fw_mechanism_below *below = &m->variant->below;
     const bool pulled = m->variant->drying.how != FW_DRIED_UNKNOWN && below->known && !below->open;
@@ -300,14 +310,14 @@ static fw_status hang(fw_verdict_tree *t, const fw_mechanism *m, double mass_kg,
     for (;; cell /= 2) {
         fw_arena_rewind(t->arena, mark);
         FW_TRY(fw_verdict_tree_lay(t, box, cell));
-        FW_TRY(bend_tree(t, mass_kg / t->whole_m2, pulled ? fmax(below->low_m, 1e-9) : 0, hung));
+        FW_TRY(bend_tree(t, mass_kg, pulled ? fmax(below->low_m, 1e-9) : 0, across, hung));
         if (is_fine(t, hung) || cell < 2 * least_m || 4 * x * y / (cell * cell) > TREE_MOST) break;
     }
     return FW_OK;
 }
 
-fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                              int body, const fw_verdict_arm *arm, fw_verdict_hung *hung) {
+static fw_status overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout, int body,
+                          const fw_verdict_arm *arm, bool across, fw_verdict_hung *hung) {
     const fw_device_material *of = &m->variant->material;
     const double nu = of->poisson.unknown ? 0.3 : of->poisson.value,
                  crystal = 1.6; /* of silicon's shear moduli, along and across its axes */
@@ -320,11 +330,16 @@ fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_l
     for (int i = 0; m->device && i < m->device->nscene; i++)
         t.thrown = t.thrown || fw_mechanism_plates_shaken(&m->device->scene[i]);
     FW_TRY(fw_verdict_tree_new(arena, m, layout, body, arm, &t));
-    return t.nline > 0 ? hang(&t, m, m->body[body].mass_kg, hung) : FW_OK;
+    return t.nline > 0 ? hang(&t, m, m->body[body].mass_kg, across, hung) : FW_OK;
+}
+
+fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                              int body, const fw_verdict_arm *arm, fw_verdict_hung *hung) {
+    return overhang(arena, m, layout, body, arm, true, hung);
 }
 
 fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
-                               fw_verdict_hung **hung) {
+                               bool across, fw_verdict_hung **hung) {
     fw_status status = FW_OK;
     FW_NEED(*hung = fw_arena_array(arena, fw_verdict_hung, (size_t)m->nbody));
     fw_arena *own = fw_arena_part(arena, 0);
@@ -333,7 +348,7 @@ fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *m, const fw_
     fw_arena_keep(own); /* one body takes the pages of the one before it */
     for (int b = 0; b < m->nbody && status == FW_OK; b++) {
         fw_arena_rewind(own, mark);
-        status = fw_verdict_overhang(own, m, m->layout, b, arm, &(*hung)[b]);
+        status = overhang(own, m, m->layout, b, arm, across, &(*hung)[b]);
     }
     fw_arena_free(own);
     return status;
@@ -357,7 +372,7 @@ fw_status fw_verdict_hung_of(fw_arena *arena, const fw_verdict_variant_verdict *
                              const fw_verdict_hung **hung) {
     fw_verdict_hung *own = NULL;
     *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
-    if (!*hung) FW_TRY(fw_verdict_overhangs(arena, v->mechanism, v->arm, &own));
+    if (!*hung) FW_TRY(fw_verdict_overhangs(arena, v->mechanism, v->arm, true, &own));
     if (own) *hung = own;
     return FW_OK;
 }
@@ -410,12 +425,12 @@ static double on_one_side(const fw_mechanism *m, const fw_mechanism_load_end *en
 }
 
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                    const fw_device_probe *but, double *to, double *apart_m) {
+                                    const fw_verdict_hung *hung, const fw_device_probe *but,
+                                    double *to, double *apart_m) {
     const fw_mechanism *m = v->mechanism;
     const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
     const fw_verdict_bending *b = saw ? &saw->bending : NULL;
     const fw_device_scene *s = &m->device->scene[scene];
-    const fw_verdict_hung *hung = v->out_of_plane->hung;
     const double sudden = 2, hardly_m = 1e-9;
     double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
     fw_mechanism_load_end *end;
@@ -465,8 +480,8 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
 /* Of a displacement along a direction, with its sign, only what its own body does counts; and of any what hinges and loads do
    together, beside what the band has of hinges alone */
 static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
-                          const fw_verdict_requirement *r, fw_verdict_soft *soft, double *down,
-                          double *up) {
+                          const fw_verdict_requirement *r, const fw_verdict_hung *hung,
+                          fw_verdict_soft *soft, double *down, double *up) {
     const fw_device *d = v->mechanism->device;
     const fw_device_probe *p = &d->probe[d->requirement[r->asked].probe];
     const fw_dynamics_motion *x = v->motion[r->scene_index];
@@ -486,8 +501,8 @@ static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
     if (!way) less = more = times * fmax(less, more); /* whichever way it is farthest */
     if (way) {
         FW_NEED(to = fw_arena_array(arena, double, (size_t)v->mechanism->nbody));
-        FW_TRY(fw_verdict_bends_in_plane(arena, v, r->scene_index, p, to, &apart));
-        FW_TRY(fw_verdict_bends_asked(arena, v, r->scene_index, p, down, up, &rings));
+        FW_TRY(fw_verdict_bends_in_plane(arena, v, r->scene_index, hung, p, to, &apart));
+        FW_TRY(fw_verdict_bends_asked(arena, v, r->scene_index, hung, p, down, up, &rings));
         if (known) *down = *up = 0; /* what it gives by itself is in the whole */
     }
     *down = fmax(*down, less - has) + rings, *up = fmax(*up, more - has) + rings;
@@ -495,7 +510,19 @@ static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
     return FW_OK;
 }
 
-static fw_status opens(fw_arena *arena, int scene, double by, int body,
+/* where it was undecided already, its reason says the band that it has now */
+static fw_status widen(fw_arena *arena, double down, double up, fw_verdict_requirement *r,
+                       fw_verdict_variant_verdict *v) {
+    const char *then = fw_verdict_requirement_text(arena, r), *now;
+    fw_verdict_requirement_widen(down, up, r);
+    FW_NEED(then && (now = fw_verdict_requirement_text(arena, r)));
+    for (int i = 0; i < v->nreason; i++)
+        if (v->reason[i].number == 330 && fw_text_same(v->reason[i].text, then))
+            v->reason[i].text = now;
+    return FW_OK;
+}
+
+static fw_status opens(fw_arena *arena, int scene, double by, int body, const fw_verdict_hung *hung,
                        fw_verdict_variant_verdict *v) {
     const char *name = v->mechanism->device->scene[scene].name;
     const double hardly = 1e-4; /* of a value: its band is as it was */
@@ -513,13 +540,12 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body,
     }
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
-        const bool moves = fw_words_hold("displacement gap distance opening", " ", r->kind);
         const fw_verdict_decision was = r->decision;
-        if (r->scene_index != scene || !moves || r->why || was == FW_REJECT) continue;
+        if (r->scene_index != scene || !fw_verdict_moves(r) || was == FW_REJECT) continue;
         double down = by, up = by;
-        FW_TRY(asked_of(arena, v, r, &soft, &down, &up));
+        FW_TRY(asked_of(arena, v, r, hung, &soft, &down, &up));
         if (!(fmax(down, up) > hardly * fabs(r->value))) continue;
-        fw_verdict_requirement_widen(down, up, r);
+        FW_TRY(widen(arena, down, up, r, v));
         if (was != FW_ACCEPT || r->decision == FW_ACCEPT) continue;
         FW_TRY(fw_verdict_say_bent(arena, v, name, 639, fw_verdict_requirement_text(arena, r), body,
                                    fmax(down, up)));
@@ -527,14 +553,22 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body,
     return FW_OK;
 }
 
+/* A corner looks for distances no further than counts: by what is asked, and twice what bends as drawn (v->bends_m) */
 fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
-    double *to = fw_arena_array(arena, double, (size_t)m->nbody), apart;
+    const fw_verdict_hung *hung = v->out_of_plane ? v->out_of_plane->hung : NULL;
+    const double hardly_m = 1e-8;
+    fw_verdict_hung *own = NULL;
+    double *to = fw_arena_array(arena, double, (size_t)m->nbody), apart, most = 0;
     FW_NEED(to);
-    if (!v->out_of_plane) return FW_OK;
+    if (v->corner ? !v->arm : !v->out_of_plane) return FW_OK;
+    if (!hung && v->corner && fw_verdict_asks_hung(v)) {
+        FW_TRY(fw_verdict_overhangs(arena, m, v->arm, false, &own));
+        hung = own;
+    }
     for (int i = 0; i < m->device->nscene; i++) {
-        FW_TRY(fw_verdict_shaken_bears(arena, v, i));
-        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, NULL, to, &apart));
+        if (!v->corner) FW_TRY(fw_verdict_shaken_bears(arena, v, hung, i));
+        FW_TRY(fw_verdict_bends_in_plane(arena, v, i, hung, NULL, to, &apart));
         int body = 0;
         double by = 0, other = 0;
         for (int b = 0; b < m->nbody; b++)
@@ -542,7 +576,9 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
                 other = by, by = to[b], body = b;
             else
                 other = fmax(other, to[b]);
-        FW_TRY(opens(arena, i, by + other, body, v));
+        most = fmax(most, by + other);
+        FW_TRY(opens(arena, i, by + other, body, hung, v));
     }
+    if (!v->corner) v->bends_m = 2 * most + hardly_m;
     return FW_OK;
 }

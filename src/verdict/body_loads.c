@@ -53,12 +53,11 @@ static double turned_most(const fw_mechanism *m, const fw_dynamics_motion *x, in
 }
 
 fw_status fw_verdict_bends_asked(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                 const fw_device_probe *p, double *down, double *up,
-                                 double *rings_m) {
+                                 const fw_verdict_hung *hung, const fw_device_probe *p,
+                                 double *down, double *up, double *rings_m) {
     const fw_mechanism *m = v->mechanism;
     const fw_dynamics_motion *x = v->motion[scene];
     const fw_verdict_bending *b = &((const fw_verdict_strain_monitor *)x->observed)->bending;
-    const fw_verdict_hung *hung = v->out_of_plane->hung;
     const double slow_s = hung ? sqrt(hung[p->body].in_plane_mode_s2) : 0, fast = 30,
                  end_s = m->device->scene[scene].duration_s;
     fw_mechanism_load_end *end;

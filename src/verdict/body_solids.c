@@ -140,7 +140,8 @@ static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
     const fw_verdict_turn turn = {rad, cos(rad), sin(rad)};
     const fw_geometry_vec2 about = s->layout->body[body].centroid;
     const fw_verdict_places places = {body, b->nplace, s->nend, b->place, s->end};
-    double beam = 0, meet, aside;
+    double beam = 0, meet, aside, softer[2];
+    fw_verdict_softer(m, s->arm, b, body, softer);
     if (of->known) wrenches_of(s, b, body, of, instant, false, about, w);
     for (int i = 0, end = 0; i < 2 * m->nhinge; i++) {
         const fw_mechanism_hinge *h = &m->hinge[i / 2];
@@ -149,7 +150,7 @@ static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
         if ((i % 2 ? pin->body_b : pin->body_a) != body) continue;
         const fw_geometry_vec2 arm = vec_sub(fw_mechanism_pin_place(m, pin, i % 2), about);
         if (of->known)
-            most->gone = fmax(most->gone, end_goes(s, of, w, end++, h, arm));
+            most->gone = fmax(most->gone, softer[0] * end_goes(s, of, w, end++, h, arm));
         else if (s->arm[i].known)
             most->gone =
                 fmax(most->gone, fw_verdict_arm_gone(b, h, &s->arm[i], -on[0], on + 1, &turn));
@@ -159,11 +160,13 @@ static void body_stores(const solids *s, const fw_verdict_bending *b, int body,
     const double all =
         fw_verdict_beams_J(m, s->arm, s->stiff_N, instant, &turn, &places, &meet, &aside);
     beam += meet;
-    const double one = of->known ? fw_mechanism_solid_energy_J(of, s->stiff_N, w) : beam;
+    const double one =
+        of->known ? softer[0] * fw_mechanism_solid_energy_J(of, s->stiff_N, w) : beam;
     double acted = one, known = all;
     if (of->known) {
         const bool placed = wrenches_of(s, b, body, of, instant, true, about, w);
-        if (of->n > of->nhinge + 1) acted = fw_mechanism_solid_energy_J(of, s->stiff_N, w);
+        if (of->n > of->nhinge + 1)
+            acted = softer[1] * fw_mechanism_solid_energy_J(of, s->stiff_N, w);
         known = placed ? acted : fmin(all, pow(sqrt(one) + sqrt(aside), 2)); /* two in step */
         most->mixed = most->mixed || !placed;
     }

@@ -80,7 +80,7 @@ static void add_masses(const fw_verdict_tree *t, double kg_per_m2, fw_verdict_be
         const fw_geometry_vec2 here = {t->box.x0 + (at % t->nx + 0.5) * t->cell,
                                        t->box.y0 + (at / t->nx + 0.5) * t->cell},
                                off = vec_sub(here, to[part].at);
-        const double kg = kg_per_m2 * t->cell * t->cell * (double)t->full[at];
+        const double kg = kg_per_m2 * t->cell * t->cell * (double)t->full[at] * t->at[part].keeps;
         to[part].mass_kg += kg;
         to[part].inertia_kg_m2 += kg * (vec_dot(off, off) + t->cell * t->cell / 6);
     }
@@ -189,7 +189,7 @@ static fw_status beams_of(fw_arena *arena, const fw_mechanism *m, const fw_verdi
             status = fw_verdict_tree_beams(arena, m, arm, &t, b, to, &holds);
         if (status == FW_OK && to->n > to->first[b]) {
             const double kg = m->body[b].mass_kg, halves = halves_kg(m, b);
-            add_masses(&t, (kg - (kg > halves ? halves : 0)) / t.reached_m2, to->at + to->first[b]);
+            add_masses(&t, (kg - (kg > halves ? halves : 0)) / t.made_m2, to->at + to->first[b]);
         }
         fw_arena_free(scratch);
         if (status == FW_OK && to->n == to->first[b]) status = add_point(m, arena, b, to);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What ways of one body (body_arms.c) bear together where they go together, and bear in the course of a scene. */
 #include "geometry/segment.h"
+#include "maths/dense.h"
 #include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -21,17 +22,18 @@
    Source: least complementary energy (S. Timoshenko, J. Goodier, Theory of Elasticity, 3rd ed., art. 86). Test:
    test_effects.py BodiesOfBars */
 
-/* from which piece of way a on it goes with way b; a->nstrip: nowhere */
+/* from which piece of way a on it goes with way b; a->to->nstrip: nowhere */
 static int meets_from(const fw_verdict_arm_end *a, const fw_verdict_arm_end *b, double cell) {
-    int k = a->nstrip, at = b->nstrip - 1;
+    int k = a->to->nstrip, at = b->to->nstrip - 1;
     for (; k > 0 && at >= 0; k--) {
-        const fw_verdict_strip *s = &a->strip[k - 1];
-        double off = vec_distance(b->strip[at].at, s->at);
-        for (double next; at > 0 && (next = vec_distance(b->strip[at - 1].at, s->at)) <= off; at--)
+        const fw_verdict_strip *s = &a->to->strip[k - 1];
+        double off = vec_distance(b->to->strip[at].at, s->at);
+        for (double next; at > 0 && (next = vec_distance(b->to->strip[at - 1].at, s->at)) <= off;
+             at--)
             off = next;
-        const fw_geometry_vec2 with = vec_sub(b->strip[at].until, b->strip[at].from),
+        const fw_geometry_vec2 with = vec_sub(b->to->strip[at].until, b->to->strip[at].from),
                                own = vec_sub(s->until, s->from);
-        if (off > 0.5 * fmax(s->w, b->strip[at].w) + 1.5 * cell) break;
+        if (off > 0.5 * fmax(s->w, b->to->strip[at].w) + 1.5 * cell) break;
         if (vec_dot(own, with) < 0.5 * vec_length(own) * vec_length(with))
             break; /* it comes from elsewhere */
     }
@@ -61,10 +63,11 @@ static fw_status add_trunk(fw_arena *arena, const fw_verdict_arm_end *end, int i
     fw_verdict_arm piece = {.narrow_m = HUGE_VAL};
     struct fw_verdict_trunk *t = &to->trunk[to->n++];
     for (int k = from; k < until; k++) {
-        const fw_verdict_strip *s = &end[i].strip[k];
+        const fw_verdict_strip *s = &end[i].to->strip[k];
         fw_verdict_arm_add(&piece, to->about, s->at, s->from, s->until, s->w);
     }
     memcpy(t->give, piece.give, sizeof t->give);
+    t->strip = end[i].to->strip + from, t->nstrip = until > from ? until - from : 0;
     t->counts = n > 1 && counts(end, member, n, to, piece.give);
     to->counts = to->counts || t->counts;
     FW_NEED(t->end = fw_arena_array(arena, int, (size_t)n));
@@ -76,7 +79,7 @@ static fw_status add_trunk(fw_arena *arena, const fw_verdict_arm_end *end, int i
 /* what way i has for itself, and with those behind it, up to where it meets one before it, which has the rest */
 static fw_status trunks_of(fw_arena *arena, const fw_verdict_arm_end *end, int n, int i,
                            const int *with, int *member, fw_verdict_shared *to) {
-    int until = end[i].nstrip, from = until;
+    int until = end[i].to->nstrip, from = until;
     for (int j = 0; j < i; j++)
         until = with[j] < until ? with[j] : until;
     for (int j = i + 1; j < n; j++)
@@ -107,7 +110,7 @@ fw_status fw_verdict_ways_meet(fw_arena *arena, const fw_verdict_arm_end *end, i
         if (!end[i].to->known) continue;
         for (int j = 0; j < n; j++)
             with[j] =
-                end[j].to->known && j != i ? meets_from(&end[i], &end[j], cell) : end[i].nstrip;
+                end[j].to->known && j != i ? meets_from(&end[i], &end[j], cell) : end[i].to->nstrip;
         FW_TRY(trunks_of(arena, end, n, i, with, with + n, to));
     }
     for (int i = 0; to->counts && i < n; i++)
@@ -168,6 +171,177 @@ static double trunks_J(const fw_verdict_shared *s, double stiff_N, const double 
     return sum / (2 * stiff_N);
 }
 
+/* ---- bodies as a flow makes them ----
+   Where edges stand in by e on both sides, a strip of width w as drawn is w - 2 e wide: an arm gives (w/(w - 2 e))^3 as much by
+   moments and w/(w - 2 e) by forces, piece by piece, and so does a trunk. Where edges stand out bodies count as drawn, since what
+   is made holds what the drawn device may give. Thickness and modulus are in E h. A plane solid of the drawn outlines (its mesh is
+   what costs) gives as many times as much as its ways do by any wrench at most, the largest eigenvalue q of
+
+     give as made - q give as drawn
+
+   of any of the ways that bear. In: strips, m; e, m. Error: walls that lean leave more than their mid-depth (theory, (2)). Cost: of a
+   piece some 50 operations. Test: test_body_arms.c arms_as_made; test_effects.py AsMade */
+
+/* to: over the sizes of its own axes */
+static void whole_form(const double g[6], const double size[3], double to[9]) {
+    static const int at[9] = {0, 1, 2, 1, 3, 4, 2, 4, 5};
+    for (int k = 0; k < 9; k++)
+        to[k] = g[at[k]] / (size[k / 3] * size[k % 3]);
+}
+
+/* q, by powers of drawn^-1 (made - drawn); where the form has a nought all of it is as the narrowest place */
+static double most_softer(const fw_verdict_arm *drawn, const double made[6], double edge_m) {
+    enum { TIMES = 300 };
+    const double *g = drawn->give, size[3] = {sqrt(g[0]), sqrt(g[3]), sqrt(g[5])},
+                 narrow = pow(drawn->narrow_m / fw_verdict_made_m(drawn->narrow_m, edge_m), 3);
+    double was[9], root[9], more[9], x[3] = {1, 1.3, 1.7}, most = 0;
+    if (!(g[0] > 0 && g[3] > 0 && g[5] > 0)) return narrow;
+    whole_form(g, size, was), whole_form(g, size, root), whole_form(made, size, more);
+    for (int k = 0; k < 9; k++)
+        more[k] -= was[k];
+    if (!fw_maths_cholesky(3, root)) return narrow;
+    for (int turn = 0; turn < TIMES; turn++) {
+        double y[3], up = 0, down = 0;
+        for (int i = 0; i < 3; i++) {
+            y[i] = more[3 * i] * x[0] + more[3 * i + 1] * x[1] + more[3 * i + 2] * x[2];
+            up += x[i] * y[i];
+            down += x[i] * (was[3 * i] * x[0] + was[3 * i + 1] * x[1] + was[3 * i + 2] * x[2]);
+        }
+        if (!(up > 0)) break;
+        most = fmax(most, up / down);
+        (void)fw_maths_cholesky_solve(3, root, y);
+        for (int i = 0; i < 3; i++)
+            x[i] = y[i] / sqrt(up);
+    }
+    return fmin(1 + most, narrow);
+}
+
+/* what pieces of a way give about a place */
+static void strips_give(const fw_verdict_strip *strip, int n, double edge_m, fw_geometry_vec2 about,
+                        fw_verdict_arm *to) {
+    for (int k = 0; k < n; k++)
+        fw_verdict_arm_add(to, about, strip[k].at, strip[k].from, strip[k].until,
+                           fw_verdict_made_m(strip[k].w, edge_m));
+}
+
+/* a straight way has kept no pieces: all of it as its narrowest place */
+static void arm_made(const fw_verdict_arm *arm, double edge_m, fw_verdict_arm *to) {
+    fw_verdict_arm gives = {.narrow_m = HUGE_VAL};
+    const double wide = arm->narrow_m / fw_verdict_made_m(arm->narrow_m, edge_m),
+                 cube = arm->nstrip > 0 ? 1 : pow(wide, 3), one = arm->nstrip > 0 ? 1 : wide;
+    to->softer = 1;
+    if (!arm->known || !(arm->length_m > 0)) return; /* a load may act on the middle itself */
+    strips_give(arm->strip, arm->nstrip, edge_m, arm->pin, &gives);
+    const fw_verdict_arm *from = arm->nstrip > 0 ? &gives : arm;
+    for (int k = 0; k < 6; k++) {
+        to->give[k] = cube * from->give[k], to->bend[k] = one * from->bend[k];
+        to->twist[k] = one * from->twist[k], to->twist3[k] = cube * from->twist3[k];
+    }
+    to->slide = one * from->slide;
+    to->softer = most_softer(arm, to->give, edge_m);
+}
+
+fw_status fw_verdict_body_cut(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                              double edge_m, double flare_m, const char **why) {
+    fw_mechanism_load_end *end;
+    int nload;
+    *why = NULL;
+    if (!arm || !(edge_m < 0 || flare_m != 0)) return FW_OK;
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &nload));
+    for (int i = 0; i < 2 * m->nhinge + nload; i++) {
+        const fw_mechanism_pin *pin = i < 2 * m->nhinge ? &m->pin[m->hinge[i / 2].pin] : NULL;
+        const int body = !pin ? end[i - 2 * m->nhinge].body : i % 2 ? pin->body_b : pin->body_a;
+        const double left = arm[i].narrow_m + 2 * edge_m - fabs(flare_m);
+        char was[32], now[32], x[32], y[32];
+        if (!arm[i].known || arm[i].nstrip == 0 || left > 0) continue;
+        FW_NEED(*why = fw_arena_printf(
+                    arena,
+                    "%s%s, %s um wide at (%s, %s) um as drawn, may be cut through there (%s um are "
+                    "left): make it wider",
+                    FW_NAMED("body", fw_text_name(m->body[body].id)),
+                    fw_number_text(was, sizeof was, 1e6 * arm[i].narrow_m, 3),
+                    fw_number_text(x, sizeof x, 1e6 * arm[i].narrow.x, 4),
+                    fw_number_text(y, sizeof y, 1e6 * arm[i].narrow.y, 4),
+                    fw_number_text(now, sizeof now, 1e6 * left, 2)));
+        return FW_OK;
+    }
+    return FW_OK;
+}
+
+static fw_status shared_made(fw_arena *arena, const fw_verdict_shared *shared, double edge_m,
+                             const fw_verdict_shared **made) {
+    fw_verdict_shared *to = fw_arena_one(arena, fw_verdict_shared);
+    FW_NEED(to);
+    *to = *shared, *made = to;
+    const size_t n = (size_t)shared->n;
+    FW_NEED(to->trunk = fw_arena_grow(arena, shared->trunk, n, n, sizeof *to->trunk));
+    for (int k = 0; k < to->n; k++) {
+        fw_verdict_arm gives = {.narrow_m = HUGE_VAL};
+        strips_give(to->trunk[k].strip, to->trunk[k].nstrip, edge_m, to->about, &gives);
+        memcpy(to->trunk[k].give, gives.give, sizeof gives.give);
+    }
+    return FW_OK;
+}
+
+/* of a body the most of what hinges put on it, and of all that acts on it */
+static void softer_of_body(const fw_mechanism *m, int body, const fw_mechanism_load_end *end, int n,
+                           fw_verdict_arm *arm) {
+    const int hinges = 2 * m->nhinge;
+    fw_geometry_vec2 pin, root;
+    double most = 1;
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < hinges; i++) {
+            if (!fw_mechanism_hinge_end(m, body, i, &pin, &root)) continue;
+            most = fmax(most, arm[i].softer);
+            if (pass > 0) arm[i].softer = most;
+        }
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = 0; k < n; k++) {
+            if (end[k].body != body) continue;
+            most = fmax(most, arm[hinges + k].softer);
+            if (pass > 0) arm[hinges + k].softer = most;
+        }
+}
+
+void fw_verdict_softer(const fw_mechanism *m, const fw_verdict_arm *arm,
+                       const fw_verdict_bending *b, int body, double to[2]) {
+    to[0] = 1;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        if ((i % 2 ? pin->body_b : pin->body_a) == body) to[0] = fmax(to[0], arm[i].softer);
+    }
+    to[1] = to[0];
+    for (int i = 0; i < b->nplace; i++)
+        if (b->place[i].body == body && b->place[i].arm)
+            to[1] = fmax(to[1], b->place[i].arm->softer);
+}
+
+fw_status fw_verdict_arms_made(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
+                               double edge_m, const fw_verdict_arm **made) {
+    fw_mechanism_load_end *end;
+    fw_verdict_arm *to;
+    int nload;
+    *made = arm;
+    if (!arm || !(edge_m < 0)) return FW_OK;
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &nload));
+    const int n = 2 * m->nhinge + nload;
+    FW_NEED(to = fw_arena_grow(arena, arm, (size_t)n, (size_t)n, sizeof *to));
+    *made = to;
+    for (int i = 0; i < n; i++) {
+        int like = 0;
+        while (like < i && arm[like].shared != arm[i].shared)
+            like++;
+        arm_made(&arm[i], edge_m, &to[i]);
+        if (like < i)
+            to[i].shared = to[like].shared;
+        else if (arm[i].shared)
+            FW_TRY(shared_made(arena, arm[i].shared, edge_m, &to[i].shared));
+    }
+    for (int b = 0; b < m->nbody; b++)
+        softer_of_body(m, b, end, nload, to);
+    return FW_OK;
+}
+
 /* ---- a body as beams with all that acts on it where it does ---- */
 
 /* Solids of bars with corners, junctions and heads give up to that much more than strips of inscribed circles */
@@ -223,99 +397,6 @@ double fw_verdict_beams_J(const fw_mechanism *m, const fw_verdict_arm *arm, doub
     }
     const double all = shared ? trunks_J(shared, stiff_N, end, p->nend) : sum + *aside_J;
     return (1 + strips_less) * all;
-}
-
-/* ---- how near electrodes come ----
-   By the place of every rotor in each row: across the fingers and by its tilt, of a plate along; of fingers that are nearly
-   at the roots of the others along, too. Error: between rows. Test: test_near_pull_in.py, Motions */
-
-typedef struct near_to { /* m: least gap, and farthest along */
-    double gap, along;
-} near_to;
-
-static near_to nearest(const fw_dynamics_motion *x, int element) {
-    const fw_effects_force_element *e = &x->loads->element[element];
-    const fw_effects_comb_element *c = fw_effects_comb_of(e);
-    near_to n = {HUGE_VAL, -HUGE_VAL};
-    fw_dynamics_motion_rows(x, 0, x->nsample);
-    for (int row = 0; row < x->nsample; row++) {
-        double p[6], w[6], at[3];
-        fw_effects_element_place_ports(e, x->q + (size_t)row * 3 * (size_t)x->nbody, NULL, p, w);
-        fw_effects_comb_place(e, p, at);
-        const bool comb = c->kind == FW_ELECTRODES_COMB;
-        const double half = 0.5 * (comb ? c->overlap_m + at[0] : c->length_m);
-        n.gap = fmin(n.gap, c->gap_m - fabs(c->lean_m) - (comb ? fabs(at[1]) : at[0]) -
-                                fabs(at[2]) * half);
-        n.along = fmax(n.along, at[0]);
-    }
-    return n;
-}
-
-double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dynamics_motion *now,
-                                    double *kept) {
-    double nearer = 0;
-    *kept = 1;
-    for (int i = 0; i < was->loads->nelement && i < now->loads->nelement; i++) {
-        const fw_effects_comb_element *c = fw_effects_comb_of(&was->loads->element[i]);
-        if (!c || !fw_effects_comb_of(&now->loads->element[i])) continue;
-        const near_to a = nearest(was, i), b = nearest(now, i);
-        const double length = isnan(c->length_m) ? 2 * c->overlap_m : c->length_m;
-        *kept = fmin(*kept, a.gap / c->gap_m);
-        nearer = fmax(nearer, a.gap - b.gap);
-        if (c->kind == FW_ELECTRODES_COMB && length - c->overlap_m - b.along < 2 * b.gap)
-            nearer = fmax(nearer, b.along - a.along);
-    }
-    return nearer;
-}
-
-/* ---- and in series with electrodes ----
-   Pull-in comes where the field takes the stiffness k that holds its rotor; where a place of the rotor's body gives c that is
-   k/(1 + c k), and k is what the field takes there: the largest eigenvalue of -df/dp at the pull-in voltage and pose. Test:
-   test_effects.py SlenderArms */
-
-static double field_takes(const fw_effects_force_element *e, const fw_statics_pull_in *p,
-                          double duration_s) {
-    enum { TIMES = 64, ROTOR = 1 };
-    double at[6], w[6], stiff[36], damp[36], most = 0;
-    if (!e->class_->electrodes || e->ports != 2 || e->switches > 0) return 0;
-    fw_effects_element_place_ports(e, p->q, NULL, at, w);
-    for (int i = 0; i <= TIMES; i++) { /* wherever its law is largest */
-        const double t_s = duration_s * i / TIMES;
-        const fw_effects_port_state seen = {.t_s = t_s,
-                                            .piece_s = t_s,
-                                            .load = p->margin * p->margin,
-                                            .p = at,
-                                            .w = w,
-                                            .still = true};
-        e->class_->tangent(e, &seen, stiff, damp);
-        const double *row = stiff + 3 * ROTOR * 6 + 3 * ROTOR;
-        const double a = -row[0], b = -0.5 * (row[1] + row[6]), c = -row[7];
-        most = fmax(most, 0.5 * (a + c) + hypot(0.5 * (a - c), b));
-    }
-    return most;
-}
-
-fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                   const fw_statics_pull_in *p, double *gives) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_dynamics_motion *motion = v->motion[scene];
-    fw_mechanism_load_end *end;
-    int n;
-    *gives = 0;
-    if (!v->arm || v->straight || !p->q || !motion || !motion->loads) return FW_OK;
-    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *arm = &v->arm[2 * m->nhinge + k];
-        if (end[k].scene != scene || !end[k].id || !arm->known) continue;
-        const double goes = fw_verdict_arm_goes(arm);
-        for (int i = 0; i < motion->loads->nelement; i++)
-            if (motion->loads->element[i].id &&
-                strcmp(motion->loads->element[i].id, end[k].id) == 0)
-                *gives +=
-                    goes / (m->variant->material.youngs.value * m->variant->thickness_m) *
-                    field_takes(&motion->loads->element[i], p, m->device->scene[scene].duration_s);
-    }
-    return FW_OK;
 }
 
 /* ---- what bodies bear in the course of a scene that is repeated ----

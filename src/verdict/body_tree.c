@@ -5,7 +5,8 @@
    before it. So bars that lie side by side are parts of their own, a serpentine is as long as it is, and a ring is cut where
    its halves meet, which makes nothing stiffer. A part is a beam; its width is its area over its length.
 
-   In: outlines of the layout, SI. Range: a gap below a fifth of a cell parts nothing. Error: widths are known to a
+   As a flow makes it (fw_layout.edge_m) a part is narrower by what edges stand in on either side, and lighter, as drawn where they
+   stand out. In: outlines of the layout, SI. Range: a gap below a fifth of a cell parts nothing. Error: widths are known to a
    sixteenth of a cell, which they are less. Cost: of a cell some 100 operations. What such beams do: body_hung.c.
    Theory: docs/theory/effects/out-of-plane.md (4a). Test: test_body_arms.c what_hangs_over_bends, folded_bars */
 #include "base/constants.h"
@@ -13,7 +14,7 @@
 #include "geometry/segment.h"
 #include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <limits.h>
 #include <math.h>
@@ -31,7 +32,7 @@ typedef enum tree_cell { EMPTY, BEARS, AT_EDGE, IN_GAP } tree_cell;
 static fw_status find_holes(const fw_device *d, fw_verdict_tree *t) {
     const double pitch = d ? d->release_pitch_m : 0,
                  hole_m = pitch > 0 && d->release_hole_m > 0 ? d->release_hole_m : 0.3 * pitch,
-                 share = pitch > 0 ? fmin(hole_m / pitch, 0.9) : 0;
+                 share = pitch > 0 ? fmin((hole_m - 2 * t->edge_m) / pitch, 0.9) : 0;
     FW_NEED(t->hole = fw_arena_array(t->arena, bool, (size_t)t->nline));
     t->left = 1;
     for (int first = 0, last; pitch > 0 && first < t->nline; first = last) {
@@ -150,7 +151,7 @@ static void gather(fw_verdict_tree *t, const beside *b, int first, int *room) {
     const int *step = t->step, near = t->near;
     int *part = t->part, n = 0, most = 0;
     const int own = t->n++, level = level_of(step[first], near);
-    t->at[own] = (fw_verdict_tree_part){.level = level, .before = FW_NONE};
+    t->at[own] = (fw_verdict_tree_part){.level = level, .before = FW_NONE, .keeps = 1};
     part[first] = own, room[n++] = first;
     for (int i = 0; i < n; i++) {
         const int at = room[i];
@@ -233,8 +234,9 @@ static fw_status measure_parts(fw_verdict_tree *t) {
                      count = (before > 0.5 * step) + (after > 0.5 * step),
                      sum = (before > 0.5 * step ? before : 0) + (after > 0.5 * step ? after : 0);
         p->long_m = count > 0 ? fmin(fmax(sum / count, step), most) : most;
-        p->wide_m = fmax(t->left * (p->area_m2 / p->long_m - t->cell / FW_MECHANISM_SUBROWS),
-                         1e-3 * t->cell);
+        const double drawn_m = p->area_m2 / p->long_m - t->cell / FW_MECHANISM_SUBROWS;
+        if (drawn_m > 0) p->keeps = fw_verdict_made_m(drawn_m, t->edge_m) / drawn_m;
+        p->wide_m = fmax(t->left * drawn_m * p->keeps, 1e-3 * t->cell);
         if ((held || b->spreads) && p->wide_m - b->wide_m >= p->long_m) {
             p->spreads = true, p->long_m = 0;
             continue;
@@ -246,6 +248,10 @@ static fw_status measure_parts(fw_verdict_tree *t) {
         p->root_m[0] = p->wide_m * fmax(0.5, 1.07 + 0.215 * log(t->depth_m / p->wide_m));
         p->root_m[1] = 0.5 * p->wide_m;
     }
+    t->made_m2 = 0;
+    for (int i = 0; i < t->n; i++)
+        t->at[i].mass_m2 *= t->at[i].keeps, t->made_m2 += t->at[i].mass_m2;
+    if (!(t->edge_m < 0)) t->made_m2 = t->reached_m2;
     return FW_OK;
 }
 
@@ -356,7 +362,7 @@ fw_status fw_verdict_tree_grow(fw_verdict_tree *t, bool whole_ways) {
 fw_status fw_verdict_tree_new(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
                               int body, const fw_verdict_arm *arm, fw_verdict_tree *t) {
     fw_mechanism_line *line;
-    t->arena = arena;
+    t->arena = arena, t->edge_m = fmin(layout->edge_m, 0);
     FW_TRY(fw_mechanism_body_lines(arena, layout, body, &line, &t->nline));
     t->line = line;
     if (t->nline == 0) return FW_OK;

@@ -3,6 +3,7 @@
    and what of it is kept. Called a corner here, as in the tables of results, even where only one
    input is off its nominal value.
    Theory: docs/theory/as-fabricated.md. */
+#include "verdict/body.h"
 #include "verdict/verdict_fabrication.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -296,6 +297,9 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
                                const fw_verdict_fabricated_device *device, const fw_mechanism *m,
                                fw_diags *diags, fw_verdict_variant_verdict *now) {
     const fw_dynamics_motion *const *like = (const fw_dynamics_motion *const *)s->v->motion;
+    const double edge_m = device->drawn ? device->drawn->edge_m : 0;
+    const fw_verdict_arm *arm;
+    FW_TRY(fw_verdict_arms_made(scratch, s->v->mechanism, s->v->arm, edge_m, &arm));
     fw_verdict_options options = s->options;
     fw_dynamics_motion_options *motion = &options.motion;
     options.values = s->nearest;
@@ -307,7 +311,8 @@ static fw_status judge_closely(const fw_verdict_search *s, fw_arena *scratch,
                                             .like = like,
                                             .corner = true,
                                             .tipping = s->tipping,
-                                            .arm = s->v->arm,
+                                            .bends_m = s->v->bends_m,
+                                            .arm = arm,
                                             .solid = s->v->solid};
         FW_TRY(
             fw_verdict_variant(scratch, &device->device, device->drawn, m, &options, diags, now));
@@ -339,6 +344,12 @@ static fw_status judge_point(const fw_verdict_search *s, fw_arena *scratch, cons
     corner->decision = FW_REJECT;
     if (device->gone) {
         FW_NEED(corner->why = fw_arena_strdup(s->arena, device->gone));
+        return FW_OK;
+    }
+    FW_TRY(fw_verdict_body_cut(s->arena, s->v->mechanism, s->v->arm, fabricated.edge_m,
+                               fabricated.flare_m, &corner->why));
+    if (corner->why) {
+        corner->decision = FW_INCONCLUSIVE;
         return FW_OK;
     }
     fw_status status =

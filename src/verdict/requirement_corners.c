@@ -253,9 +253,10 @@ const char *fw_verdict_ends_why(fw_verdict_search *s, int corner) {
     const fw_verdict_fabricated_corner *c = &f->corner[corner];
     for (int k = 0; c->why && f->requirement && c->requirement && k < s->v->nrequirement; k++) {
         if (f->requirement_corner[k] != corner) continue;
-        const char *own = fw_verdict_requirement_text(s->arena, &c->requirement[k]);
-        if (!own || fw_text_same(own, c->why))
-            return own ? fw_verdict_requirement_text(s->arena, &f->requirement[k]) : NULL;
+        const char *own = fw_verdict_requirement_text(s->arena, &c->requirement[k]), *made;
+        if (own && strncmp(own, c->why, strlen(own)) != 0) continue;
+        made = own ? fw_verdict_requirement_text(s->arena, &f->requirement[k]) : NULL;
+        return made ? fw_arena_printf(s->arena, "%s%s", made, c->why + strlen(own)) : NULL;
     }
     return c->why ? c->why : "it is not accepted";
 }

@@ -15,6 +15,10 @@
 /* ---- how bodies give between their hinges: an upper bound from their outlines, as beams ----
    Theory: docs/theory/verdict.md. */
 
+typedef struct fw_verdict_strip { /* a piece of a way, as fw_verdict_arm_add has it */
+    fw_geometry_vec2 at, from, until;
+    double w;
+} fw_verdict_strip;
 /* From where a flexure begins in a body to the body's middle, its centroid or what is nearest to it.
    Energy of a wrench w = (M, Fx, Fy) about the pin, world axes of the drawn pose: w.give.w/(2 E h). */
 typedef struct fw_verdict_arm {
@@ -48,6 +52,11 @@ typedef struct fw_verdict_arm {
     fw_geometry_vec2 rim;
     fw_geometry_vec2 *way; /* (nway) of a hinge: cells from its root to the middle */
     int nway;
+    fw_verdict_strip *strip; /* (nstrip) as drawn; none of a straight way */
+    int nstrip;
+    fw_geometry_vec2 pin; /* about which `give` is, world */
+    double
+        softer; /* as made: how many times as much as drawn its body gives at most (fw_verdict_softer); 0: as drawn */
 } fw_verdict_arm;
 
 /* body_loads.c: how large load `at` of those (n) becomes: of one that follows from the motion what hinges put on the body
@@ -108,9 +117,9 @@ void fw_verdict_arm_out_of_plane(const fw_verdict_arm *arm, double youngs_Pa, do
                                  double thickness_m, double *c);
 /* body_tree.c: a body beyond the ways between its hinges and its middle, as a tree of beams: a part hangs on the one before */
 typedef struct fw_verdict_tree_part {
-    fw_geometry_vec2 at, along;       /* its middle; {0, 0}: it has no direction */
-    double area_m2, mass_m2;          /* mass_m2: with what is too thin to bear anything */
-    double far_m;                     /* what of it is farthest from its middle */
+    fw_geometry_vec2 at, along; /* its middle; {0, 0}: it has no direction */
+    double area_m2, mass_m2;    /* mass_m2: with what is too thin to bear anything, as made */
+    double keeps, far_m;        /* of its width as made; what of it is farthest from its middle */
     double long_m, wide_m, root_m[2]; /* root_m: longer by that across the plane and in it */
     int level, before, bears;         /* before: FW_NONE is held; bears: how many hang on it */
     bool spreads;                     /* around what holds it: in what a flexure's root gives */
@@ -121,11 +130,11 @@ typedef struct fw_verdict_tree {
     bool *hole;  /* (nline) lines of release holes */
     bool thrown; /* a scene shakes it across the plane */
     struct fw_verdict_held *held;
-    fw_geometry_box box;                       /* of its lines; once cells are laid, of these */
-    int nline, nx, ny, nlist, n, nhinge, near; /* near: steps to what is held, level_of */
-    double cell, left;                         /* left: what release holes leave of a width */
-    double whole_m2, reached_m2;
-    double depth_m, youngs_Pa, shear_Pa;
+    fw_geometry_box box;                         /* of its lines; once cells are laid, of these */
+    int nline, nx, ny, nlist, n, nhinge, near;   /* near: steps to what is held, level_of */
+    double cell, left;                           /* left: what release holes leave of a width */
+    double whole_m2, reached_m2, made_m2;        /* made_m2: of what is reached, as made */
+    double edge_m, depth_m, youngs_Pa, shear_Pa; /* edge_m: edges stand out by that, not above 0 */
     float *full;
     unsigned char *kind;
     int *step, *came, *part, *list;
@@ -183,8 +192,10 @@ typedef struct fw_verdict_hung {
 fw_status fw_verdict_overhang(fw_arena *arena, const fw_mechanism *mechanism,
                               const fw_layout *layout, int body, const fw_verdict_arm *arm,
                               fw_verdict_hung *hung);
+/* across: what they do across the plane, too */
 fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *mechanism,
-                               const fw_verdict_arm *arm, fw_verdict_hung **hung); /* (nbody) */
+                               const fw_verdict_arm *arm, bool across,
+                               fw_verdict_hung **hung); /* (nbody) */
 fw_status fw_verdict_hung_says(fw_arena *arena, const fw_mechanism *mechanism, bool *says);
 /* how far a shock across the plane, once over, throws anything of it at most; infinite: that bounds nothing */
 struct fw_mechanism_plates;
@@ -402,14 +413,6 @@ double fw_verdict_bending_all_J(const fw_verdict_bending *bending);
 double fw_verdict_places_error(const fw_dynamics_motion *motion, const fw_device_probe *probe);
 bool fw_verdict_places_lower(const fw_dynamics_motion *motion, const fw_device_probe *probe,
                              fw_device_measure measure, double *low_N, double *high_N);
-/* body_loads.c: a stated force on the very place of a displacement that is asked for; by how much that may be less and more for
-   what hangs over by such forces, m */
-bool fw_verdict_bends_own(const fw_mechanism_load_end *end, int scene,
-                          const fw_device_probe *probe);
-struct fw_verdict_variant_verdict;
-fw_status fw_verdict_bends_asked(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
-                                 int scene, const fw_device_probe *probe, double *down, double *up,
-                                 double *rings_m);
 /* body_loads.c: how far the end of a way goes at most, for a force of E h, whichever way that acts */
 double fw_verdict_arm_goes(const fw_verdict_arm *arm);
 /* what the body of a probed stiffness or compliance gives at its place along its direction at most, m/N; 0: not known */

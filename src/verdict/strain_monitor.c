@@ -453,7 +453,8 @@ static fw_status shaken_lasts(fw_arena *arena, const fw_mechanism *m, const fw_d
     return FW_OK;
 }
 
-fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene) {
+fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v,
+                                  const fw_verdict_hung *every, int scene) {
     const fw_mechanism *m = v->mechanism;
     const fw_device_scene *s = &m->device->scene[scene];
     const double corners = 3;
@@ -462,9 +463,9 @@ fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v
     double worst = 1;
     int body = FW_NONE;
     bool tires = false;
-    const bool counts = limit && v->motion[scene] && v->out_of_plane->hung;
+    const bool counts = limit && v->motion[scene] && every;
     for (int i = 0; counts && i < m->nbody; i++) {
-        const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
+        const fw_verdict_hung *hung = &every[i];
         double again, share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
                               (limit->allowable_Pa / m->device->safety_factor);
         FW_TRY(shaken_lasts(arena, m, s, hung, &again));

@@ -563,7 +563,8 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
     fw_verdict_bent_leaves_open(v, first);
     FW_TRY(fw_verdict_clearance_boxes(arena, device, layout,
                                       is_brief(options, v) || options->bounded, v));
-    if (!brief) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
+    const bool banded = v->corner && !(options->decision_only || options->hinges_only);
+    if (!brief || banded) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
     FW_TRY(judge_hinges(arena, device, layout, monitor, diags, v));
     if (!brief) FW_TRY(fw_verdict_tell_still(arena, diags, v));
     FW_TRY(fw_verdict_tell_repeated(arena, monitor, v));

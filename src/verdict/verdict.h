@@ -306,8 +306,8 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_clearance_things *things;      /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;        /* (nclearance) none of what is not drawn */
     int nclearance;
-    fw_wiring_moved
-        *stator; /* (nstator) every stator in every scene, as drawn; low_m: at all corners */
+    double bends_m; /* what bodies bend beside hinges may take of distances at a corner */
+    fw_wiring_moved *stator; /* (nstator) of every scene, as drawn; low_m: at all corners */
     int nstator;
     fw_probe_result *probed;             /* (nscene x nprobe); NULL: no probe has a course */
     fw_verdict_requirement *requirement; /* (nrequirement) the same at every corner */

@@ -355,7 +355,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     if (!isfinite(off)) off = 1;
     FW_TRY(w->status);
     w->wish.off = w->parts ? fmax(off, fw_off_at_most) : off;
-    w->wish.enough_m = brief ? w->wish.needed_m : HUGE_VAL;
+    w->wish.enough_m = brief ? w->wish.needed_m + v->bends_m : HUGE_VAL;
     if (w->path.njump > 0) warn_jump(scene, &w->path, diags);
     FW_TRY(consume(w));
     const double more = w->parts ? fmax(0, off - fw_off_at_most) : 0;

@@ -230,7 +230,7 @@ static fw_status prepare(fw_arena *arena, const fw_mechanism *m, const fw_verdic
     fw_verdict_arm *shared;
     bool asked = !lean || fw_verdict_out_of_plane_asked(m);
     if (!asked) FW_TRY(fw_verdict_hung_says(arena, m, &asked));
-    if (asked) FW_TRY(fw_verdict_overhangs(arena, m, arm, &to->hung));
+    if (asked) FW_TRY(fw_verdict_overhangs(arena, m, arm, true, &to->hung));
     for (int b = 0; asked && b < m->nbody; b++) {
         to->hangs = fmax(to->hangs, to->hung[b].across_s2);
         to->hangs_mode = fmax(to->hangs_mode, to->hung[b].across_mode_s2);

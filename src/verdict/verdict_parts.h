@@ -130,9 +130,11 @@ double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dyna
                                     double *kept);
 /* to (nbody): how far what hangs over bends in a scene at most, m, without stated forces at a probe's place; apart: beyond the middle */
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                    const fw_device_probe *but, double *to, double *apart_m);
+                                    const struct fw_verdict_hung *hung, const fw_device_probe *but,
+                                    double *to, double *apart_m);
 /* strain_monitor.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
-fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene);
+fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v,
+                                  const struct fw_verdict_hung *hung, int scene);
 
 /* ---- verdict_stiction.c: what a liquid pulls, and what adhesion holds ---- */
 

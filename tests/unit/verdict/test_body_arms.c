@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How bodies give between their hinges, against beams in closed form. */
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "geometry/segment.h"
 #include "verdict/verdict_parts.h"
 #include "test.h"
@@ -464,6 +464,90 @@ static void what_hangs_over_bends(void **state) {
     }
 }
 
+/* What a flow leaves of half a bar: moments bend it by the cube of its width, forces along it pull it by the width, piece by piece, and
+   as a solid it counts as much softer as the worst of what acts; a bar that is cut through is told, and wider ones count as drawn */
+static void arms_as_made(void **state) {
+    (void)state;
+    const double wide[] = {0.1, 0.03, 0.012}, edge_m = -1.2e-6;
+    for (int i = 0; i < 3 * 4; i++) {
+        const double turn = 0.4 * (i % 4), w = 1e-3 * wide[i / 4], left = w / (w + 2 * edge_m), cube = left * left * left;
+        const double corner[4][2] = {{0, 0}, {1, 0}, {1, wide[i / 4]}, {0, wide[i / 4]}};
+        scene s = body(4, corner, 1u << 1 | 1u << 3, turn);
+        const fw_verdict_arm *made, *same;
+        const char *why;
+        assert_int_equal(fw_verdict_arms_made(s.arena, &s.m, s.arm, edge_m, &made), FW_OK);
+        assert_int_equal(fw_verdict_arms_made(s.arena, &s.m, s.arm, 1e-6, &same), FW_OK);
+        assert_ptr_equal(same, s.arm);
+        for (int k = 1; k < 4; k += 2) {
+            const double *g = made[k].give, *of = s.arm[k].give;
+            const double along = fw_verdict_arm_energy_J(&made[k], 1, 0, cos(turn), sin(turn), &still) /
+                                 fw_verdict_arm_energy_J(&s.arm[k], 1, 0, cos(turn), sin(turn), &still),
+                         across = fw_verdict_arm_energy_J(&made[k], 1, 0, -sin(turn), cos(turn), &still) /
+                                  fw_verdict_arm_energy_J(&s.arm[k], 1, 0, -sin(turn), cos(turn), &still);
+            assert_true(fabs(g[0] / of[0] / cube - 1) < 0.02);
+            assert_true(along > 0.98 * left && across < 1.01 * cube && across > 1.01 * left);
+            assert_true(made[k].softer > 0.98 * cube && made[k].softer < 1.05 * cube);
+            assert_true(made[k].narrow_m == s.arm[k].narrow_m && s.arm[k].softer == 0);
+            assert_true(fabs(made[k].slide / s.arm[k].slide / left - 1) < 0.02);
+        }
+        assert_int_equal(fw_verdict_body_cut(s.arena, &s.m, s.arm, edge_m, 0.9e-6, &why), FW_OK);
+        assert_null(why);
+        s.m.body = &(fw_mechanism_mass){.id = "bar"};
+        assert_int_equal(fw_verdict_body_cut(s.arena, &s.m, s.arm, -0.51 * w, 0, &why), FW_OK);
+        assert_non_null(strstr(why, "may be cut through"));
+        fw_arena_free(s.arena);
+    }
+}
+
+/* of a bar of two widths the solid counts as much softer as the narrow part may make it by any wrench: more than by what a moment alone or a
+   force alone does */
+static void a_solid_by_its_softest_wrench(void **state) {
+    (void)state;
+    const double corner[8][2] = {{0, 0}, {0.4, 0}, {0.4, -0.03}, {1, -0.03}, {1, 0.07}, {0.4, 0.07}, {0.4, 0.04}, {0, 0.04}};
+    const double edge_m = -1e-6;
+    scene s = body(8, corner, 1u << 3 | 1u << 7, 0);
+    const fw_verdict_arm *made;
+    assert_int_equal(fw_verdict_arms_made(s.arena, &s.m, s.arm, edge_m, &made), FW_OK);
+    double most[2] = {1, 1};
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 20000; k++) { /* moments and forces in all proportions */
+            const double turn = 0.01 * k, *g = made[2 * i + 1].give, *of = s.arm[2 * i + 1].give;
+            const double w[3] = {cos(0.37 * turn), 1e-3 * sin(0.37 * turn) * cos(turn), 1e-3 * sin(0.37 * turn) * sin(turn) * 3};
+            double up = 0, down = 0;
+            for (int a = 0, n = 0; a < 3; a++)
+                for (int b = a; b < 3; b++, n++)
+                    up += (a == b ? 1 : 2) * g[n] * w[a] * w[b] * (a ? 1e6 : 1) * (b ? 1e6 : 1), down += (a == b ? 1 : 2) * of[n] * w[a] * w[b] * (a ? 1e6 : 1) * (b ? 1e6 : 1);
+            most[i] = fmax(most[i], up / down);
+        }
+    const double q = made[1].softer, all = fmax(most[0], most[1]);
+    assert_true(q >= all * 0.9998 && q <= pow(0.04 / 0.038, 3) * 1.02);
+    assert_true(q < all * 1.02 && made[3].softer == q); /* one of the body */
+    fw_arena_free(s.arena);
+}
+
+/* a bar that hangs over, with edges as made in the layout, droops as one that is drawn so */
+static void what_hangs_over_as_made(void **state) {
+    (void)state;
+    const double l = 1, edge = 0.0015, h = 20e-6; /* mm */
+    double goes[2], mode[2];
+    for (int made = 0; made < 2; made++) {
+        const double y = made ? 0 : edge, w = 0.03 - y, x = l - y; /* as it is drawn */
+        const double corner[8][2] = {{-x, y}, {-0.02, y}, {-0.01, y - 0.01}, {0.01, y - 0.01}, {0.02, y}, {x, y}, {x, w}, {-x, w}};
+        scene s = body(8, corner, 1u << 1 | 1u << 3, 0.3);
+        fw_mechanism_variant variant = {.thickness_m = h, .material.youngs.value = 150e9};
+        fw_mechanism_shape shape = {.area_m2 = 1};
+        fw_mechanism_mass mass = {.mass_kg = 2330 * h * 2 * (l - edge) * (0.03 - 2 * edge) * 1e-6};
+        s.m.variant = &variant, s.m.shape = &shape, s.m.body = &mass;
+        s.layout.edge_m = made ? -1e-3 * edge : 0;
+        fw_verdict_hung hung;
+        assert_int_equal(fw_verdict_overhang(s.arena, &s.m, &s.layout, 0, s.arm, &hung), FW_OK);
+        goes[made] = hung.in_plane_s2, mode[made] = hung.in_plane_mode_s2;
+        fw_arena_free(s.arena);
+    }
+    assert_true(goes[1] > 0.98 * goes[0] && goes[1] < 1.06 * goes[0]);
+    assert_true(mode[1] > 0.98 * mode[0] && mode[1] < 1.06 * mode[0]);
+}
+
 /* a place at s along a way of n corners, and how it runs there */
 static fw_geometry_vec2 along_the_way(const double (*way)[2], int n, double s, fw_geometry_vec2 *to) {
     for (int i = 0; i + 1 < n; i++) {
@@ -543,6 +627,9 @@ int main(void) {
         cmocka_unit_test(a_neck_before_a_load_is_seen),
         cmocka_unit_test(a_bar_is_a_beam),
         cmocka_unit_test(what_hangs_over_bends),
+        cmocka_unit_test(arms_as_made),
+        cmocka_unit_test(a_solid_by_its_softest_wrench),
+        cmocka_unit_test(what_hangs_over_as_made),
         cmocka_unit_test(folded_bars),
         cmocka_unit_test(plain_ways_are_bounds),
         cmocka_unit_test(forces_turn_with_the_body),
