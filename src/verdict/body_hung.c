@@ -372,142 +372,6 @@ double fw_verdict_hung_pulled(const fw_verdict_hung *hung, double gap_m, double 
     return own < times * bodies_N_per_m ? 1 / (1 / own + 1 / bodies_N_per_m) : HUGE_VAL;
 }
 
-/* ---- what hangs over bends in the plane ----
-   Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
-   displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
-   turns by for F = E h, r how far the body reaches beyond; twice that, since a sudden load does twice what it does at rest.
-   What shaking and weight do to what reaches farther: body_tree.c. Test: test_out_of_plane.py */
-
-static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
-                                const fw_mechanism_load_end *end, double *beyond_m) {
-    const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
-                           off = vec_sub(end->at, middle);
-    fw_mechanism_line *line;
-    int n;
-    *beyond_m = 0;
-    if (!(vec_length(off) > 0)) return FW_OK;
-    const fw_geometry_vec2 along = vec_unit(off);
-    FW_TRY(fw_mechanism_body_lines(arena, m->layout, end->body, &line, &n));
-    for (int i = 0; i < n; i++)
-        *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
-    return FW_OK;
-}
-
-/* on the same side of a body's middle */
-static bool on_same_side(const fw_mechanism *m, const fw_mechanism_load_end *a,
-                         const fw_mechanism_load_end *b) {
-    const fw_geometry_vec2 middle = {m->drawn[a->body].x_m, m->drawn[a->body].y_m};
-    return a->body == b->body && vec_dot(vec_sub(a->at, middle), vec_sub(b->at, middle)) >= 0;
-}
-
-/* what all loads bend that act on the same side as this one */
-static double on_one_side(const fw_mechanism *m, const fw_mechanism_load_end *end, const double *by,
-                          int n, int k) {
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        if (on_same_side(m, &end[i], &end[k])) sum += by[i];
-    return sum;
-}
-
-fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                                    const fw_device_probe *but, double *to, double *apart_m) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
-    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
-    const fw_device_scene *s = &m->device->scene[scene];
-    const fw_verdict_hung *hung = v->out_of_plane->hung;
-    const double sudden = 2, hardly_m = 1e-9;
-    double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
-    fw_mechanism_load_end *end;
-    int n, own = FW_NONE;
-    *apart_m = 0;
-    for (int i = 0; i < m->nbody; i++)
-        to[i] = 0;
-    if (!b || !b->arm || !b->rest_N) return FW_OK;
-    for (int i = 0; i < s->nbase; i++)
-        shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
-                  fw_quantity_law_largest(s->base[i].law, s->duration_s);
-    for (int i = 0; i < m->nbody; i++)
-        to[i] = shaken > 0 && hung ? hung[i].in_plane_s2 * shaken : 0;
-    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
-    FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
-    FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
-    for (int k = 0; k < n; k++) {
-        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
-        const double *g = arm->give;
-        if (end[k].scene != scene || !arm->known) continue;
-        if (but && fw_verdict_bends_own(&end[k], scene, but)) {
-            own = k;
-            continue;
-        }
-        const double load_N =
-            isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
-        const double unit = sudden * load_N / b->stiff_N, goes = fw_verdict_arm_goes(arm);
-        if (!(unit * goes > hardly_m)) continue;
-        FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
-        by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
-    }
-    for (int k = 0; k < n; k++) {
-        const double side = on_one_side(m, end, by, n, k);
-        if (own != FW_NONE && end[k].body == end[own].body && !on_same_side(m, &end[k], &end[own]))
-            *apart_m = fmax(*apart_m, side);
-        else
-            most[end[k].body] = fmax(most[end[k].body], side);
-    }
-    if (but) *apart_m += to[but->body];
-    for (int i = 0; i < m->nbody; i++)
-        to[i] += most[i];
-    return FW_OK;
-}
-
-/* ---- and bears what shakes it ---- */
-
-/* Where a mode swings that what hangs over may lower, its own ways are left (resonance.c). Here is what it bears as it is
-   shaken itself: its own mode is computed, and lies between these times 1/sqrt(droop per acceleration), from a load at its end to
-   one all along, where it is a bar. */
-static double shaken_by(const fw_device_scene *s, const fw_verdict_hung *hung) {
-    const double lowest = 0.95, highest = 1.4, root = sqrt(hung->in_plane_s2),
-                 own = sqrt(hung->in_plane_mode_s2);
-    double most = hypot(s->gx_m_per_s2, s->gy_m_per_s2);
-    for (int i = 0; i < s->nbase && root > 0; i++) {
-        const double size = hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2);
-        if (size > 0)
-            most += size * fw_quantity_law_answer(s->base[i].law, s->duration_s,
-                                                  lowest / fmax(root, own),
-                                                  fmax(highest / root, 1 / own));
-    }
-    return most;
-}
-
-fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v, int scene) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_device_scene *s = &m->device->scene[scene];
-    const double corners = 3;
-    const fw_flexure_limit *limit =
-        m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
-    double worst = 1;
-    int body = FW_NONE;
-    const bool counts = limit && v->motion[scene] && v->out_of_plane->hung;
-    for (int i = 0; counts && i < m->nbody; i++) {
-        const fw_verdict_hung *hung = &v->out_of_plane->hung[i];
-        const double share = corners * shaken_by(s, hung) * hung->Pa_per_m_s2 /
-                             (limit->allowable_Pa / m->device->safety_factor);
-        if (share > worst) worst = share, body = i;
-    }
-    if (body == FW_NONE) return FW_OK;
-    char high[32];
-    const char *text = fw_arena_printf(
-        arena,
-        "in %s%s %s%s is not known to bear its own weight as it is shaken, where it reaches beyond "
-        "its hinges and "
-        "its middle: at most %s %% of what is allowed, corners counted three times; make it wider "
-        "or shorter there",
-        FW_NAMED("scene", s->name), FW_NAMED("body", fw_text_name(m->body[body].id)),
-        isfinite(worst) ? fw_number_text(high, sizeof high, 100 * worst, 3) : "any number of");
-    FW_NEED(text);
-    return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
-}
-
 /* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
 
 /* Of a displacement along a direction, with its sign, only what its own body does counts; and of any what hinges and loads do
@@ -591,6 +455,133 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
             else
                 other = fmax(other, to[b]);
         FW_TRY(opens(arena, i, by + other, body, v));
+    }
+    return FW_OK;
+}
+
+/* ---- what flexures weigh (flexure_swing.c), judged: what is required to move, and what may meet ---- */
+
+static fw_status flexures_open(fw_arena *arena, const char *scene, const char *what, double by_m,
+                               fw_verdict_variant_verdict *v) {
+    char text[32];
+    FW_NEED(what);
+    FW_NEED(what = fw_arena_printf(
+                arena,
+                "%s, and with what flexures weigh themselves, which is in no motion, it may be up "
+                "to %s um otherwise: state masses of bodies with the halves of their flexures, and "
+                "keep the frequencies of loads from those of the device and of its flexures",
+                what, fw_number_text(text, sizeof text, 1e6 * by_m, 3)));
+    return fw_verdict_hangs_open(v, scene, 725, what);
+}
+
+/* how much farther the corners of two bodies go together at most */
+static double corners_more(const fw_mechanism *m, const fw_verdict_flexed *both) {
+    double first = 0, second = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const fw_mechanism_shape *shape = m->shape ? &m->shape[b] : NULL;
+        const double reach =
+            shape && shape->area_m2 > 0 ? sqrt(3 * shape->polar_m4 / shape->area_m2) : 0;
+        double far = 0, x[2], y[2];
+        for (int i = 0; i < 8; i++) {
+            const fw_geometry_vec2 at = {m->drawn[b].x_m + reach * cos(FW_PI * i / 4),
+                                         m->drawn[b].y_m + reach * sin(FW_PI * i / 4)};
+            fw_verdict_flexed_way(both, b, at, 0, x);
+            fw_verdict_flexed_way(both, b, at, 0.5 * FW_PI, y);
+            far = fmax(far, hypot(x[0], y[0]));
+        }
+        second = fmax(second, fmin(far, first)), first = fmax(first, far);
+    }
+    return first + second;
+}
+
+/* by[0]: farther, by[1]: less far; of a gap both bodies */
+static void asked_more(const fw_mechanism *m, const fw_verdict_requirement *r,
+                       const fw_verdict_flexed *both, double by[2]) {
+    const fw_device_probe *p = &m->device->probe[m->device->requirement[r->asked].probe];
+    const bool any = isnan(p->direction_rad) || strcmp(r->measure, "parasitic") == 0;
+    double other[2];
+    if (p->row != FW_PROBE_IS_displacement || p->body == FW_GROUND) return;
+    const fw_geometry_vec2 at = fw_mechanism_local_place(m, p->body, p->x_m, p->y_m);
+    fw_verdict_flexed_way(both, p->body, at, any ? 0 : p->direction_rad, by);
+    if (any) {
+        fw_verdict_flexed_way(both, p->body, at, 0.5 * FW_PI, other);
+        by[0] = hypot(by[0], other[0]), by[1] = hypot(by[1], other[1]);
+    }
+    if (strcmp(r->measure, "peak-to-peak") == 0) by[0] *= 2, by[1] *= 2;
+    if (!isnan(r->origin)) by[0] = by[1] = fmax(by[0], by[1]); /* either way */
+}
+
+static fw_status flexed_open(fw_arena *arena, int scene, const fw_verdict_flexed *both,
+                             fw_verdict_variant_verdict *v) {
+    const char *name = v->mechanism->device->scene[scene].name;
+    const double hardly = 1e-4, /* of a value: its band is as it was */
+        near = corners_more(v->mechanism, both);
+    for (int k = 0; near > 0 && k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
+        if (c->low_m - near > c->required_m) continue;
+        c->decision = FW_INCONCLUSIVE;
+        FW_TRY(flexures_open(
+            arena, name, "a distance between parts is kept as computed, and only just", near, v));
+        break;
+    }
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        const fw_verdict_decision was = r->decision;
+        double by[2] = {near, near};
+        if (r->scene_index != scene || r->why || !r->measure ||
+            strcmp(r->measure, "settling-time") == 0 ||
+            !fw_words_hold("displacement gap distance opening", " ", r->kind))
+            continue;
+        asked_more(v->mechanism, r, both, by);
+        if (!(fmax(by[0], by[1]) > hardly * fabs(r->value))) continue;
+        fw_verdict_requirement_widen(by[1], by[0], r);
+        if (was != FW_INCONCLUSIVE && r->decision == FW_INCONCLUSIVE)
+            FW_TRY(flexures_open(arena, name, fw_verdict_requirement_text(arena, r),
+                                 fmax(by[0], by[1]), v));
+    }
+    return FW_OK;
+}
+
+static bool shakes_in_plane(const fw_device_scene *s) {
+    for (int i = 0; i < s->nbase; i++)
+        if (s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0) return true;
+    return false;
+}
+
+static fw_status tell_flexed(const fw_mechanism *m, int scene, double by, const char *hinge,
+                             fw_diags *diags) {
+    const double told = 1.05;
+    char text[32];
+    if (!(by > told)) return FW_OK;
+    fw_diag_warning(diags, 726, m->device->scene[scene].place,
+                    "%s%s shakes flexures by their own mass, which is in no motion: %s%s may be "
+                    "strained up to %s times as much, which its band holds",
+                    FW_NAMED("scene", m->device->scene[scene].name), FW_NAMED("hinge", hinge),
+                    fw_number_text(text, sizeof text, by, 3));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_verdict_flexures_shaken(fw_arena *arena, bool brief, fw_diags *diags,
+                                     fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    fw_verdict_flexed *both = NULL;
+    for (int i = 0; i < m->device->nscene; i++) {
+        if (!v->motion[i] || !v->shaken || !shakes_in_plane(&m->device->scene[i])) continue;
+        if (!both) FW_TRY(fw_verdict_flexed_new(arena, m, &both));
+        if (!both) return FW_OK;
+        const fw_verdict_strain_monitor *saw = v->motion[i]->observed;
+        double *to, most = 1;
+        const char *worst = NULL;
+        FW_NEED(to = v->shaken[i].flexed = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
+        FW_TRY(fw_verdict_flexed_by(arena, v, i, both));
+        for (int h = 0; h < m->nhinge; h++) {
+            fw_verdict_flexed_strain(both, h, to + 2 * h);
+            const double had = saw ? saw->hinge[h].strain.value : 0, by = 1 + to[2 * h] / had;
+            if (had > 0 && by > most) most = by, worst = m->pin[m->hinge[h].pin].id;
+        }
+        FW_TRY(flexed_open(arena, i, both, v));
+        if (!brief && worst) FW_TRY(tell_flexed(m, i, most, worst, diags));
     }
     return FW_OK;
 }

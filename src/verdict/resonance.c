@@ -530,6 +530,7 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
                      rows = bodies + reach;
         KEEP(of->factor, 2 * h);
         KEEP(of->grown, 2 * h);
+        KEEP(of->flexed, 2 * h - 2);
         KEEP(of->each, rows);
         KEEP(of->most, rows);
         KEEP(of->reach, reach);
