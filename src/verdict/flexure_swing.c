@@ -21,14 +21,13 @@
 #include "geometry/segment.h"
 #include "maths/dense.h"
 #include "mechanism/mechanism_plates.h"
-#include "quantity/law_kind.h"
 #include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
 
-enum { WAYS = 2, SWUNG_POINTS = 40, SWUNG_STEPS = 20000 };
+enum { WAYS = 2 };
 
 typedef struct weighed { /* a device in the plane, or across it */
     const fw_mechanism *m;
@@ -77,6 +76,24 @@ static void of_place(const weighed *d, const fw_flexure_own *own, int part, int 
                              : way[0] * at[1][k] + way[1] * at[2][k];
 }
 
+/* its bodies, that at the strip's first end first: where it is not drawn, by where they lie */
+static void ends_of(const fw_mechanism *m, int k, int body[2]) {
+    const fw_mechanism_hinge *h = &m->hinge[k];
+    const fw_mechanism_pin *pin = &m->pin[h->pin];
+    const int is[2] = {pin->body_a, pin->body_b};
+    double far[2] = {0};
+    bool first = h->first_is_a;
+    for (int i = 0; i < 2; i++)
+        if (is[i] != FW_GROUND) {
+            const fw_geometry_vec2 at = fw_mechanism_pin_place(m, pin, i);
+            far[i] = (m->drawn[is[i]].y_m - at.y) * cos(h->axis_rad) -
+                     (m->drawn[is[i]].x_m - at.x) * sin(h->axis_rad);
+        }
+    if (!m->layout || !m->layout->drawn || !m->layout->hinge[h->pin].drawn)
+        first = far[1] >= far[0];
+    body[0] = is[!first], body[1] = is[first];
+}
+
 static void row_of(const weighed *d, int k, int part, int which, part_row *to) {
     const fw_mechanism *m = d->m;
     const fw_mechanism_hinge *h = &m->hinge[k];
@@ -88,8 +105,7 @@ static void row_of(const weighed *d, int k, int part, int which, part_row *to) {
                                   own->at_m[part][1] - h->closed_form.offset_m[1]},
                            at = vec_add(at_pin, fw_geometry_vec_rotate(off, h->axis_rad));
     double place[3][3], ends[2][3][3];
-    to->body[0] = h->first_is_a ? pin->body_a : pin->body_b;
-    to->body[1] = h->first_is_a ? pin->body_b : pin->body_a;
+    ends_of(m, k, to->body);
     to->mass = own->mass[part][which];
     to->way[0] = !d->across ? (which ? -sin(h->axis_rad) : cos(h->axis_rad)) : which == 0;
     to->way[1] = d->across ? 0 : which ? cos(h->axis_rad) : sin(h->axis_rad);
@@ -293,38 +309,6 @@ typedef struct
     double *most, *least;
 } swung;
 
-/* largest answer; of what is so fast that steps are too many that of a slower one, still far beyond the law's own frequencies */
-static double swing_of(const fw_quantity_law *law, double end_s, double omega, double damping) {
-    const double fast = 8;
-    if (!law) return 2; /* at once */
-    const double most = fmax(FW_TURN * SWUNG_STEPS / (24 * end_s),
-                             fast * FW_TURN * fw_quantity_law_wave_of(law).fastest_Hz),
-                 q = fw_quantity_law_swing(law, FW_LAW_OF_LOAD, end_s, fmin(omega, most),
-                                           fmin(damping, 0.99));
-    return q >= 0 ? q : 2 * fw_quantity_law_largest(law, end_s);
-}
-
-static void swings_within(const fw_quantity_law *law, double end_s, double low, double high,
-                          double damping, double to[2]) {
-    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
-    const double own = wave.rad_per_s,
-                 beyond = wave.fastest_Hz > 0 ? 1.5 * FW_TURN * wave.fastest_Hz
-                          : fw_quantity_law_goes_to_and_fro(law, end_s) ? HUGE_VAL
-                                                                        : 0,
-                 rings_s = damping > 0 ? fmin(end_s, 4 / (damping * high)) : end_s,
-                 fine = fmin(ceil((high - low) * rings_s / 0.5) + 1, SWUNG_POINTS),
-                 n = !(high > low)  ? 0
-                     : low > beyond ? 2
-                                    : fine;
-    to[0] = 0, to[1] = HUGE_VAL;
-    for (double k = 0; k <= n; k++) {
-        const double at = k < n || n < 1 ? low + (high - low) * k / fmax(n - 1, 1)
-                                         : fmin(fmax(own, low), high),
-                     now = swing_of(law, end_s, at, damping);
-        to[0] = fmax(to[0], now), to[1] = fmin(to[1], now);
-    }
-}
-
 static double pushed_by(const weighed *d, const fw_device_base_motion *b, int k) {
     const double *push = d->push + k * WAYS, along = d->across ? b->az_m_per_s2 : b->ax_m_per_s2,
                  up = d->across ? 0 : b->ay_m_per_s2;
@@ -375,13 +359,17 @@ static const fw_verdict_shaken_mode *nearest_mode(const fw_verdict_variant_verdi
     return best;
 }
 
-/* critical share: of that mode, or, of flexures alone, of their material */
+/* Critical share of damping: of that mode; of flexures alone, and of one that moved away from there, of the material, since a
+   damper for it that is right for the lowest mode grows with the frequency, and the material's loss hardly does */
 static double damping_of_mode(const fw_verdict_variant_verdict *v, const fw_device_scene *s,
-                              const fw_verdict_shaken_mode *near, bool flexures) {
+                              const fw_verdict_shaken_mode *near, bool flexures, bool away) {
     const fw_quantity *loss = &v->mechanism->variant->material.loss;
     const double of_it = loss->unknown ? 0 : loss->value,
-                 says = s->ndamping > 0 ? s->damping[s->ndamping - 1].loss_factor : 0;
-    return fmax(near && !flexures ? near->damping : 0.5 * (isnan(says) ? of_it : says), 0);
+                 says = s->ndamping > 0 ? s->damping[s->ndamping - 1].loss_factor : 0,
+                 own = fmax(0.5 * (isnan(says) ? of_it : says), 0);
+    if (!near || flexures) return own;
+    return fmax(away && s->ndamping > 0 && s->nair == 0 ? fmin(near->damping, own) : near->damping,
+                0);
 }
 
 /* in: (rows) what each mode is of account; what hardly is has one answer for all */
@@ -414,8 +402,10 @@ static fw_status swing_modes(fw_arena *arena, const fw_verdict_variant_verdict *
                                      fmax(omega, was) < near->high;
                     const double at = has ? was : omega,
                                  about = !light ? 0 : fmin(off * omega, fabs(at - was));
-                    swings_within(b->law, s->duration_s, at - about, fmax(at + about, was),
-                                  d->across ? 0 : damping_of_mode(v, s, near, flexures), swings);
+                    fw_quantity_law_swings_within(
+                        b->law, s->duration_s, at - about, fmax(at + about, was),
+                        d->across ? 0 : damping_of_mode(v, s, near, flexures, light && !has),
+                        swings);
                 }
                 to->most[k] += far * swings[0], to->least[k] += far * swings[1];
             }
@@ -430,10 +420,10 @@ static void mode_strains(const weighed *d, const fw_flexure_own *const *own, int
         const fw_mechanism_hinge *hinge = &d->m->hinge[h];
         const fw_mechanism_pin *pin = &d->m->pin[hinge->pin];
         const fw_flexure_own *o = own[h];
-        const int body[2] = {hinge->first_is_a ? pin->body_a : pin->body_b,
-                             hinge->first_is_a ? pin->body_b : pin->body_a};
         const fw_geometry_vec2 at = fw_mechanism_pin_place(d->m, pin, 0);
         double apart[3] = {0}, f[FW_OWN_LOADS] = {0}, end[3][3];
+        int body[2];
+        ends_of(d->m, h, body);
         for (int side = 0; side < 2; side++) {
             at_place(d, body[side], at, hinge->axis_rad, end);
             for (int i = 0; i < 9 && body[side] != FW_GROUND; i++)
