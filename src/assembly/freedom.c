@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can still move: degrees of freedom, rows of G that say nothing new, and coordinates that can be given freely. */
 #include "assembly/closure.h"
-#include "assembly/kinematics.h"
+#include "assembly/assembly.h"
 #include "maths/dense.h"
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Given motion: velocities, accelerations, joint forces and what drives it. */
-#include "assembly/kinematics.h"
 #include "assembly/assembly.h"
 #include "multibody/system.h"
 #include <float.h>

@@ -89,6 +89,34 @@ fw_status fw_flexure_across_strain(fw_arena *arena, const fw_flexure_input *in,
 double fw_flexure_torsion_m4(double a_m, double b_m);
 double fw_flexure_tall_arc(double curvature_per_m, double width_m, double depth_m, double poisson);
 
+/* A strip with its own mass: parts of it along the way, how they go with its second body, and how it swings between its ends.
+   In the plane coordinates of a part are (x, y) and those of the body's wrench (turn, x, y); across it (z, turn about the
+   strip) and (z, turns about x, y), about the pin, in the flexure's frame. */
+enum {
+    FW_OWN_PARTS = 12,
+    FW_OWN_MODES = 2,
+    FW_OWN_LOOKS = FW_OWN_PARTS + 1,
+    FW_OWN_LOADS = 2 * FW_OWN_PARTS + 3
+};
+typedef struct fw_flexure_own {
+    double at_m[FW_OWN_PARTS][2];    /* in the flexure's frame */
+    double way[FW_OWN_PARTS][2];     /* of the strip there, a unit vector */
+    double mass[FW_OWN_PARTS][2];    /* of both coordinates: kg, and kg m2 of a turn */
+    double goes[FW_OWN_PARTS][2][3]; /* by the second body's place about the pin, the first held */
+    double back[3][3];               /* what that asks for there: a wrench */
+    /* clamped at both ends: modes of mass 1, slowest first, 1/omega^2 of each, and of all others at most */
+    double mode[FW_OWN_MODES][FW_OWN_PARTS][2], s2[FW_OWN_MODES], rest_s2;
+    /* at places along it, both roots first and last, by unit loads on the parts, then by that wrench: moment, and pull in
+       the plane or torque across it; and strain by either, at most */
+    double moment[FW_OWN_LOOKS][FW_OWN_LOADS], other[FW_OWN_LOOKS][FW_OWN_LOADS];
+    double by_moment[FW_OWN_LOOKS], by_other[FW_OWN_LOOKS];
+} fw_flexure_own;
+typedef struct fw_flexure_path_strain fw_flexure_path_strain;
+fw_status fw_flexure_own_of(fw_arena *arena, const fw_flexure_input *in,
+                            const fw_flexure_result *closed_form,
+                            const fw_flexure_path_strain *section, bool across, double kg_per_m2,
+                            fw_flexure_own *own);
+
 /* ---- strain of a flexure under rotation and force ----
 
    Bending and tension with their own concentrations, on both faces, largest along the strip.
@@ -107,7 +135,7 @@ typedef struct fw_flexure_path_point {
 
 enum { FW_STRIP_PLACES = 33 * FW_STRIP_MOST, FW_STRIP_ROWS = 7 };
 
-typedef struct fw_flexure_path_strain {
+struct fw_flexure_path_strain {
     fw_flexure_path_point *point; /* (n) along the strip, roots first and last */
     int n;                        /* at most FW_STRIP_PLACES */
     double length_m;              /* of the centre line */
@@ -121,7 +149,7 @@ typedef struct fw_flexure_path_strain {
     double
         *row; /* (FW_STRIP_ROWS x wide) the points once more, a number after the other; NULL: not */
     int wide; /* n, rounded up to whole vectors of 4 */
-} fw_flexure_path_strain;
+};
 
 /* stress over N/(t h) at a root in tension */
 double fw_flexure_tension_concentration(double width_m, double fillet_m);

@@ -6,7 +6,7 @@
    fw_plan_write. Every stage returns FW_OK or what went wrong; diagnostics are in its `diags`. */
 #ifndef FW_PLAN_PLAN_H
 #define FW_PLAN_PLAN_H
-#include "assembly/kinematics.h"
+#include "assembly/assembly.h"
 #include "statics/statics.h"
 #include "measuring/measuring.h"
 #include "wafer/wafer.h"

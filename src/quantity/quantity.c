@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers with a dimension, in words: the names of dimensions, the unit that a misspelt one was meant to be, and
-   what is known of a quantity beside its value. */
+   what is known of a quantity beside its value; and what a law does to oscillators between two frequencies. */
+#include "base/constants.h"
+#include "quantity/law_kind.h"
 #include "quantity/quantity.h"
 #include "base/text.h"
 #include "quantity/program.h"
+#include <math.h>
 #include <string.h>
 
 /* ---- dimensions ---- */
@@ -272,4 +275,40 @@ bool fw_quantity_date_parse(const char *text, long *day) {
     *day = day_of(part[0], part[1], part[2]);
     fw_quantity_civil(*day, civil); /* the 30th of February is another day */
     return civil[0] == part[0] && civil[1] == part[1] && civil[2] == part[2];
+}
+
+/* ---- what a law does to an oscillator of any frequency between two ---- */
+
+enum { SWUNG_POINTS = 40, SWUNG_STEPS = 20000 };
+
+/* largest answer; of what is so fast that steps are too many that of a slower one, still far beyond the law's own frequencies */
+static double swing_of(const fw_quantity_law *law, double end_s, double omega, double damping) {
+    const double fast = 8;
+    if (!law) return 2; /* at once */
+    const double most = fmax(FW_TURN * SWUNG_STEPS / (24 * end_s),
+                             fast * FW_TURN * fw_quantity_law_wave_of(law).fastest_Hz),
+                 q = fw_quantity_law_swing(law, FW_LAW_OF_LOAD, end_s, fmin(omega, most),
+                                           fmin(damping, 0.99));
+    return q >= 0 ? q : 2 * fw_quantity_law_largest(law, end_s);
+}
+
+void fw_quantity_law_swings_within(const fw_quantity_law *law, double end_s, double low,
+                                   double high, double damping, double to[2]) {
+    const fw_quantity_law_wave wave = fw_quantity_law_wave_of(law);
+    const double own = wave.rad_per_s,
+                 beyond = wave.fastest_Hz > 0 ? 1.5 * FW_TURN * wave.fastest_Hz
+                          : fw_quantity_law_goes_to_and_fro(law, end_s) ? HUGE_VAL
+                                                                        : 0,
+                 rings_s = damping > 0 ? fmin(end_s, 4 / (damping * high)) : end_s,
+                 fine = fmin(ceil((high - low) * rings_s / 0.5) + 1, SWUNG_POINTS),
+                 n = !(high > low)  ? 0
+                     : low > beyond ? 2
+                                    : fine;
+    to[0] = 0, to[1] = HUGE_VAL;
+    for (double k = 0; k <= n; k++) {
+        const double at = k < n || n < 1 ? low + (high - low) * k / fmax(n - 1, 1)
+                                         : fmin(fmax(own, low), high),
+                     now = swing_of(law, end_s, at, damping);
+        to[0] = fmax(to[0], now), to[1] = fmin(to[1], now);
+    }
 }

@@ -140,6 +140,12 @@ typedef enum fw_quantity_law_acts {
 } fw_quantity_law_acts;
 double fw_quantity_law_swing(const fw_quantity_law *law, fw_quantity_law_acts as, double end_s,
                              double omega_per_s, double damping);
+/* Its largest and its least (FW_LAW_OF_LOAD) at any frequency between two: to[0], to[1]. Half a radian apart at the end of what
+   rings, at most 40 of them, and where the law's own lies between; behind one and a half times the fastest of these, or of a law that
+   does not go to and fro, at both ends. Of an oscillator so fast that steps are too many that of a slower one, eight times as
+   fast as the law */
+void fw_quantity_law_swings_within(const fw_quantity_law *law, double end_s, double low_per_s,
+                                   double high_per_s, double damping, double to[2]);
 /* It goes to and fro more often than once: what it varies by beyond one way there and back is more than a quarter of its
    range, by 2001 samples of it. True of a law whose variation nothing bounds */
 bool fw_quantity_law_goes_to_and_fro(const fw_quantity_law *law, double end_s);

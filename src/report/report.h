@@ -5,7 +5,6 @@
 #ifndef FW_REPORT_REPORT_H
 #define FW_REPORT_REPORT_H
 #include "assembly/assembly.h"
-#include "assembly/kinematics.h"
 #include "base/json.h"
 #include "base/text.h"
 #include "device/device.h"

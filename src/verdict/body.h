@@ -255,4 +255,31 @@ void fw_verdict_swung_there(const fw_verdict_swung *swung, int k, int body, fw_g
 /* body_farther.c: ways to what may be met and electrodes have it; a warning (FW-D741) */
 fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diags *diags,
                                  struct fw_verdict_variant_verdict *v);
+
+/* ---- flexure_swing.c: what flexures weigh ---- */
+
+/* 1/omega^2 (count) at most of the modes across the plane, or in it, with the mass of flexures, the slowest first; 0: it is not
+   known */
+struct fw_mechanism_plates;
+fw_status fw_verdict_heavy(fw_arena *arena, const struct fw_mechanism_plates *plates, bool across,
+                           int count, double *s2);
+/* In the plane without that mass and with it; *both NULL: it is not known. By what shakes the base in a scene, how much more, and
+   less, a hinge is strained, and a place goes along a direction */
+typedef struct fw_verdict_flexed fw_verdict_flexed;
+fw_status fw_verdict_flexed_new(fw_arena *arena, const fw_mechanism *mechanism,
+                                fw_verdict_flexed **both);
+fw_status fw_verdict_flexed_by(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
+                               int scene, fw_verdict_flexed *both);
+void fw_verdict_flexed_strain(const fw_verdict_flexed *both, int hinge, double to[2]);
+void fw_verdict_flexed_way(const fw_verdict_flexed *both, int body, fw_geometry_vec2 at,
+                           double direction_rad, double to[2]);
+/* body_shaken.c: in scenes whose base moves in the plane v->shaken[].flexed, bands of what is required to move, and reasons
+   (FW-D725) */
+fw_status fw_verdict_flexures_shaken(fw_arena *arena, bool brief, fw_diags *diags,
+                                     struct fw_verdict_variant_verdict *v);
+/* across the plane: by how much a shock strains each hinge (nhinge) more, and throws bodies farther, at most */
+fw_status fw_verdict_flexures_across(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
+                                     const struct fw_mechanism_plates *plates, int scene,
+                                     double *strain, double *far_m);
+
 #endif

@@ -346,3 +346,121 @@ bool fw_verdict_asks_hung(const fw_verdict_variant_verdict *v) {
     }
     return any;
 }
+
+/* ---- what hinges bear across the plane ---- */
+
+fw_status fw_verdict_across_strained(fw_arena *arena, const fw_device_scene *s, double in,
+                                     fw_verdict_variant_verdict *v, fw_verdict_across *to) {
+    char used[32], plane[32];
+    const bool sure = to->strained_sure > 1;
+    if (!(to->strained > 1)) return FW_OK;
+    const fw_verdict_decision decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
+    to->decision = fw_verdict_worse(to->decision, decision);
+    fw_percent_text(used, sizeof used, sure ? to->strained_sure : to->strained);
+    fw_percent_text(plane, sizeof plane, in);
+    if (!isfinite(to->strained) && !sure)
+        return fw_verdict_scene_reason(
+            v, s, 641, decision, FW_VERDICT_KEEP_HALF,
+            fw_arena_printf(arena,
+                            "what hinges bear across the plane in %s%s is not known: "
+                            "nothing bounds the law of its shock; state it as a table, "
+                            "or by a law that has a largest value",
+                            FW_NAMED("scene", s->name)));
+    return fw_verdict_scene_reason(
+        v, s, 641, decision, 0.95 / (sure ? to->strained_sure : to->strained),
+        fw_arena_printf(arena,
+                        "%s%s bends across the plane in %s%s, and uses %s%s %% of its "
+                        "limit there (in the plane at most %s %%); a thicker layer, "
+                        "shorter or wider flexures, lighter bodies or a weaker shock "
+                        "relieve it",
+                        FW_NAMED("hinge", to->strained_hinge), FW_NAMED("scene", s->name),
+                        sure ? "" : "up to ", used, plane));
+}
+
+/* ---- what hangs over bends in the plane ----
+   Bodies are rigid in the motion, and what they give between their hinges is in every band. What a load beside these
+   displaces, by the way from it to the middle (body_arms.c), is at most F (d + c r)/(E h), d and c what its place goes and
+   turns by for F = E h, r how far the body reaches beyond; twice that, since a sudden load does twice what it does at rest.
+   What shaking and weight do to what reaches farther: body_tree.c. Test: test_out_of_plane.py */
+
+static fw_status reaches_beyond(fw_arena *arena, const fw_mechanism *m,
+                                const fw_mechanism_load_end *end, double *beyond_m) {
+    const fw_geometry_vec2 middle = {m->drawn[end->body].x_m, m->drawn[end->body].y_m},
+                           off = vec_sub(end->at, middle);
+    fw_mechanism_line *line;
+    int n;
+    *beyond_m = 0;
+    if (!(vec_length(off) > 0)) return FW_OK;
+    const fw_geometry_vec2 along = vec_unit(off);
+    FW_TRY(fw_mechanism_body_lines(arena, m->layout, end->body, &line, &n));
+    for (int i = 0; i < n; i++)
+        *beyond_m = fmax(*beyond_m, vec_dot(vec_sub(line[i].a, end->at), along));
+    return FW_OK;
+}
+
+/* on the same side of a body's middle */
+static bool on_same_side(const fw_mechanism *m, const fw_mechanism_load_end *a,
+                         const fw_mechanism_load_end *b) {
+    const fw_geometry_vec2 middle = {m->drawn[a->body].x_m, m->drawn[a->body].y_m};
+    return a->body == b->body && vec_dot(vec_sub(a->at, middle), vec_sub(b->at, middle)) >= 0;
+}
+
+/* what all loads bend that act on the same side as this one */
+static double on_one_side(const fw_mechanism *m, const fw_mechanism_load_end *end, const double *by,
+                          int n, int k) {
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        if (on_same_side(m, &end[i], &end[k])) sum += by[i];
+    return sum;
+}
+
+fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                    const fw_verdict_hung *hung, const fw_device_probe *but,
+                                    double *to, double *apart_m) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_verdict_strain_monitor *saw = v->motion[scene] ? v->motion[scene]->observed : NULL;
+    const fw_verdict_bending *b = saw ? &saw->bending : NULL;
+    const fw_device_scene *s = &m->device->scene[scene];
+    const double sudden = 2, hardly_m = 1e-9;
+    double shaken = hypot(s->gx_m_per_s2, s->gy_m_per_s2), beyond_m, *by, *most;
+    fw_mechanism_load_end *end;
+    int n, own = FW_NONE;
+    *apart_m = 0;
+    for (int i = 0; i < m->nbody; i++)
+        to[i] = 0;
+    if (!b || !b->arm || !b->rest_N) return FW_OK;
+    for (int i = 0; i < s->nbase; i++)
+        shaken += sudden * hypot(s->base[i].ax_m_per_s2, s->base[i].ay_m_per_s2) *
+                  fw_quantity_law_largest(s->base[i].law, s->duration_s);
+    for (int i = 0; i < m->nbody; i++)
+        to[i] = shaken > 0 && hung ? hung[i].in_plane_s2 * shaken : 0;
+    FW_TRY(fw_mechanism_load_ends(arena, m, &end, &n));
+    FW_NEED(by = fw_arena_array(arena, double, (size_t)n));
+    FW_NEED(most = fw_arena_array(arena, double, (size_t)m->nbody));
+    for (int k = 0; k < n; k++) {
+        const fw_verdict_arm *arm = &b->arm[2 * m->nhinge + k];
+        const double *g = arm->give;
+        if (end[k].scene != scene || !arm->known) continue;
+        if (but && fw_verdict_bends_own(&end[k], scene, but)) {
+            own = k;
+            continue;
+        }
+        const double load_N =
+            isfinite(end[k].known_N) ? end[k].known_N : fw_verdict_load_N(end, n, k, b->rest_N);
+        const double unit = sudden * load_N / b->stiff_N, goes = fw_verdict_arm_goes(arm);
+        if (!(unit * goes > hardly_m)) continue;
+        FW_TRY(reaches_beyond(arena, m, &end[k], &beyond_m));
+        by[k] = unit * (goes + hypot(g[1], g[2]) * beyond_m);
+    }
+    for (int k = 0; k < n; k++) {
+        const double side = on_one_side(m, end, by, n, k);
+        if (own != FW_NONE && end[k].body == end[own].body && !on_same_side(m, &end[k], &end[own]))
+            *apart_m = fmax(*apart_m, side);
+        else
+            most[end[k].body] = fmax(most[end[k].body], side);
+    }
+    if (but) *apart_m += to[but->body];
+    for (int i = 0; i < m->nbody; i++)
+        to[i] += most[i];
+    return FW_OK;
+}

@@ -4,6 +4,7 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "maths/dense.h"
+#include "mechanism/mechanism_plates.h"
 #include "statics/statics.h"
 #include "verdict/body.h"
 #include "verdict/verdict_parts.h"
@@ -498,10 +499,15 @@ fw_status fw_verdict_soft_swings(fw_arena *arena, const fw_verdict_soft *soft,
            "what "
            "these do by their own mass is not known";
     if (!soft->modes) return FW_OK;
+    double *heavy = fw_arena_array(arena, double, (size_t)count);
+    fw_mechanism_plates p;
+    FW_NEED(heavy);
     FW_TRY(fw_verdict_slowest_swings(arena, v->mechanism, v->arm, count, to, why));
+    FW_TRY(fw_mechanism_plates_new(arena, v->mechanism, NULL, &p));
+    FW_TRY(fw_verdict_heavy(arena, &p, false, count, heavy)); /* flexures between their ends */
     for (int k = 0; k < count; k++) {
         const double rigid = k < soft->modes->count ? 1 / soft->modes->mode[k].stiffness_per_s2 : 0;
-        to[k] = (1 + crystal) * fmax(0, to[k] - rigid);
+        to[k] = fmax((1 + crystal) * fmax(0, to[k] - rigid), heavy[k] - rigid);
     }
     return FW_OK;
 }

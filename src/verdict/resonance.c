@@ -472,7 +472,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
     for (int i = 0; i < d->nscene; i++) {
         double *f, most, least = 1;
         char up[32], down[32];
-        bool may;
+        bool may, shaken;
         FW_NEED(f = v->shaken[i].factor = fw_arena_array(arena, double, 2 * (size_t)nh + 2));
         for (int h = 0; h < 2 * nh + 2; h++)
             f[h] = 1;
@@ -502,7 +502,6 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
             least = fmin(least, f[2 * h + 1]);
-        bool shaken;
         FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
         fw_diag_warning(diags, 642, d->scene[i].place,
                         "%s%s %s a mode whose frequency is known to some per cent: "
@@ -535,6 +534,7 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
                      rows = bodies + reach;
         KEEP(of->factor, 2 * h);
         KEEP(of->grown, 2 * h);
+        KEEP(of->flexed, 2 * h - 2);
         KEEP(of->each, rows);
         KEEP(of->most, rows);
         KEEP(of->reach, reach);

@@ -405,6 +405,13 @@ static void widen(const double factor[2], fw_verdict_hinge_verdict *h) {
         h->decision = decide(h->utilisation_low, h->utilisation_high);
 }
 
+/* and by what flexures weigh (flexure_swing.c): strains */
+static void weigh_on(const double strain[2], fw_verdict_hinge_verdict *h) {
+    const double share = h->peak_strain > 0 ? 1 / h->peak_strain : 0,
+                 by[2] = {1 + strain[0] * share, fmax(1 - strain[1] * share, 0)};
+    widen(by, h);
+}
+
 static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const judged *by, int k,
                              const fw_verdict_strain_monitor *monitor, fw_diags *diags,
                              fw_verdict_variant_verdict *v) {
@@ -422,6 +429,7 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
                            device->scene[i].name, &now));
         widen(shaken ? shaken->factor + 2 * k : NULL, &now);
         widen(shaken && shaken->grown ? shaken->grown + 2 * k : NULL, &now);
+        if (shaken && shaken->flexed) weigh_on(shaken->flexed + 2 * k, &now);
         if (now.touches) warn_touching(device, by->drawn, &now, diags);
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
@@ -565,6 +573,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
                                       is_brief(options, v) || options->bounded, v));
     const bool banded = v->corner && !(options->decision_only || options->hinges_only);
     if (!brief || banded) FW_TRY(fw_verdict_hangs_in_plane(arena, v));
+    FW_TRY(fw_verdict_flexures_shaken(arena, brief, diags, v));
     FW_TRY(judge_hinges(arena, device, layout, monitor, diags, v));
     if (!brief) FW_TRY(fw_verdict_tell_still(arena, diags, v));
     FW_TRY(fw_verdict_tell_repeated(arena, monitor, v));

@@ -7,6 +7,7 @@
 #include "effects/effects.h"
 #include "mechanism/mechanism_plates.h"
 #include "quantity/quantity_law.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <string.h>
@@ -42,14 +43,18 @@ bool fw_verdict_out_of_plane_asked(const fw_mechanism *m) {
 
 static fw_status put_modes(fw_arena *arena, const both *is, fw_verdict_out_of_plane *out) {
     const fw_mechanism_plates *p = &is->rigid;
+    double *heavy;
     out->nmode = p->n;
+    FW_NEED(heavy = fw_arena_array(arena, double, (size_t)p->n));
+    FW_TRY(fw_verdict_heavy(arena, is->soft.why ? p : &is->soft, true, p->n, heavy));
     FW_NEED(out->mode = fw_arena_array(arena, fw_verdict_plate_mode, (size_t)p->n));
     for (int k = 0; k < p->n; k++) {
         fw_verdict_plate_mode *mode = &out->mode[k];
         double f = p->f_Hz[k], soft = is->soft.why ? f : is->soft.f_Hz[k], error = 0.5 * p->error;
         mode->f_Hz = f;
         /* 1/omega^2 of both add up at most (Weyl) */
-        soft = fmin(f, soft) / sqrt(1 + is->hangs_mode * pow(2 * FW_PI * fmin(f, soft), 2));
+        const double s2 = fmax(pow(FW_TURN * fmin(f, soft), -2), heavy[k]) + is->hangs_mode;
+        soft = 1 / (FW_TURN * sqrt(s2));
         mode->low_Hz = soft * (1 - error), mode->high_Hz = f * (1 + error);
         int b = fw_mechanism_plates_mover(p, k, &mode->tilts);
         mode->body = fw_text_name(p->mechanism->body[b].id);
@@ -176,8 +181,9 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
     const double left = fmax(1 - fw_verdict_across_softened(to), 1e-9);
     const fw_mechanism_plates *p = is->soft.why ? &is->rigid : &is->soft;
     fw_mechanism_plates_reach r, still;
-    double rings, thrown;
+    double rings, thrown, weighed, *strain;
     to->asked = true;
+    FW_NEED(strain = fw_arena_array(arena, double, (size_t)m->nhinge));
     load_scene(is, &is->rigid, s, 1, curvature, false, &middle, &to->dynamic);
     r = fw_mechanism_plates_reached(&is->rigid, is->x, NULL, curvature, middle);
     to->sure_m = r.lowest_m, to->highest_m = r.highest_m; /* of rigid bodies */
@@ -186,6 +192,8 @@ static fw_status judge_sag(fw_arena *arena, const both *is, const fw_device_scen
     still = fw_mechanism_plates_reached(p, is->x, NULL, curvature, middle);
     FW_TRY(hang_over(arena, is, p, s, left, &rings));
     FW_TRY(fw_verdict_thrown_across(arena, p, is->hung, s, &thrown));
+    FW_TRY(fw_verdict_flexures_across(arena, v, p, to->scene_index, strain, &weighed));
+    rings += weighed;
     const double more = (1 + is->rigid.error) / left, weighs = is->hangs * s->gz_m_per_s2,
                  far = thrown / sqrt(more); /* it goes by the root of what gives */
     const double low = fmin(to->sure_m, fmax(r.lowest_m - rings, still.lowest_m - far)),
@@ -274,34 +282,6 @@ static double in_the_plane(const fw_verdict_variant_verdict *v, int k, int i) {
     return h->utilisation > 0 ? used * h->utilisation_high / h->utilisation : used;
 }
 
-static fw_status tell_strained(fw_arena *arena, const fw_device_scene *s, double in,
-                               fw_verdict_variant_verdict *v, fw_verdict_across *to) {
-    char used[32], plane[32];
-    const bool sure = to->strained_sure > 1;
-    if (!(to->strained > 1)) return FW_OK;
-    const fw_verdict_decision decision = sure ? FW_REJECT : FW_INCONCLUSIVE;
-    to->decision = fw_verdict_worse(to->decision, decision);
-    fw_percent_text(used, sizeof used, sure ? to->strained_sure : to->strained);
-    fw_percent_text(plane, sizeof plane, in);
-    if (!isfinite(to->strained) && !sure)
-        return fw_verdict_scene_reason(
-            v, s, 641, decision, FW_VERDICT_KEEP_HALF,
-            fw_arena_printf(arena,
-                            "what hinges bear across the plane in %s%s is not known: "
-                            "nothing bounds the law of its shock; state it as a table, "
-                            "or by a law that has a largest value",
-                            FW_NAMED("scene", s->name)));
-    return fw_verdict_scene_reason(
-        v, s, 641, decision, 0.95 / (sure ? to->strained_sure : to->strained),
-        fw_arena_printf(arena,
-                        "%s%s bends across the plane in %s%s, and uses %s%s %% of its "
-                        "limit there (in the plane at most %s %%); a thicker layer, "
-                        "shorter or wider flexures, lighter bodies or a weaker shock "
-                        "relieve it",
-                        FW_NAMED("hinge", to->strained_hinge), FW_NAMED("scene", s->name),
-                        sure ? "" : "up to ", used, plane));
-}
-
 /* ---- what hinges last across the plane ---- */
 
 /* cycles of a hinge in one repetition of the scene: of the fastest mode that makes a hundredth of what rings, from the
@@ -385,12 +365,15 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
     const fw_device_scene *s = &m->device->scene[to->scene_index];
     const int n = 1 + is->rigid.n;
     fw_geometry_vec2 middle;
-    double(*wrench)[3] = fw_arena_alloc(arena, (size_t)n, sizeof *wrench), worst_in = 0, dynamic;
+    double(*wrench)[3] = fw_arena_alloc(arena, (size_t)n, sizeof *wrench), worst_in = 0, dynamic,
+    *weighed, far_m;
     const double curvature = fw_mechanism_plates_curvature(m, s),
                  left = fmax(1 - fw_verdict_across_softened(to), 1e-9);
     double lasts = 0;
     const char *tires = NULL;
     FW_NEED(wrench);
+    FW_NEED(weighed = fw_arena_array(arena, double, (size_t)m->nhinge));
+    FW_TRY(fw_verdict_flexures_across(arena, v, &is->rigid, to->scene_index, weighed, &far_m));
     load_scene(is, &is->rigid, s, left, curvature, true, &middle, &dynamic);
     to->strained = to->strained_sure = 0;
     for (int k = 0; k < m->nhinge; k++) {
@@ -400,6 +383,7 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
         put_wrenches(is, k, curvature, wrench);
         FW_TRY(fw_flexure_across_strain(arena, &h->input, &h->closed_form,
                                         (const double(*)[3])wrench, n, strain));
+        strain[1] += weighed[k];
         if (!(limit > 0)) continue;
         FW_TRY(
             lasted(arena, is, v, k, s, (const double(*)[3])wrench, in, strain[1] / left, &share));
@@ -413,7 +397,7 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
         to->strained = isnan(most) ? (double)INFINITY : most, worst_in = in;
         to->strained_hinge = m->pin[h->pin].id;
     }
-    FW_TRY(tell_strained(arena, s, worst_in, v, to));
+    FW_TRY(fw_verdict_across_strained(arena, s, worst_in, v, to));
     return tell_lasted(arena, s, lasts, tires, v, to);
 }
 

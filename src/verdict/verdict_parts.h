@@ -90,6 +90,9 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *mec
                                         bool lean, fw_diags *diags, fw_verdict_variant_verdict *v);
 /* once hinges were judged in the plane: what they bear across it by weight and shocks */
 fw_status fw_verdict_out_of_plane_strain(fw_arena *arena, fw_verdict_variant_verdict *v);
+/* flexure_swing.c: a reason where hinges use more than their limit there, `in` of it in the plane */
+fw_status fw_verdict_across_strained(fw_arena *arena, const fw_device_scene *s, double in,
+                                     fw_verdict_variant_verdict *v, fw_verdict_across *to);
 /* Across the plane as checks of a search over what a flow makes: ln of what tips in each scene, and of what hinges bear
    there, which are 1 at their limits; NaN: none. ln (2 nscene) */
 void fw_verdict_across_checks(const fw_verdict_variant_verdict *v, int nscene, double *ln);
@@ -216,6 +219,8 @@ struct fw_verdict_shaken {
     /* (2 x (nhinge + 1)) likewise where the layer's own strain presses or pulls flexures, last on what moves: requirements
        have their own there (fw_verdict_grown_again); NULL: it does not */
     double *grown;
+    double *
+        flexed; /* (2 nhinge) strain that flexures' own mass makes more, and less; NULL: nothing shakes it */
     /* the same on what is required, by the most of them, without what the motions of `other` have */
     double required[2], required_late;
     double nearer_m, kept; /* of electrodes, in these; share of a gap as computed, 0: not asked */

@@ -697,5 +697,93 @@ class OutOfPlane(unittest.TestCase):
         self.assertIn("out of the plane, of rigid bodies", done.stdout)
 
 
+LONG_LEAF = """<device xmlns="urn:flexwright:device:1" name="long-leaf"><material ref="silicon-100" thickness="50 um" youngs-modulus="150 GPa"/>
+<limits safety-factor="1.5"/><flow ref="al-masked-rie"/><flexure id="leaf" kind="leaf" length="2.4 mm" width="24 um" fillet="12 um"/><mechanism>
+<body id="head" x="0 mm" y="1.45 mm" plate-width="0.2 mm" plate-height="0.3 mm" mass="8e-3 mg" inertia="1e-4 mg mm^2"/>
+<revolute id="A" a="ground" b="head" b-y="-1.45 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<probe id="way" kind="displacement" on="head" direction="0 deg"/>%s<scene name="shaken" duration="%s"><base-motion %s/>
+<material-damping loss-factor="0.02"/></scene><die clearance="900 um"/></device>"""
+TWO_LEAVES = """<device xmlns="urn:flexwright:device:1" name="two-leaves"><material ref="silicon-100" thickness="50 um" youngs-modulus="150 GPa"/>
+<limits safety-factor="1.5"/><flow ref="al-masked-rie"/><flexure id="leaf" kind="leaf" length="%s" width="8 um" fillet="8 um"/><mechanism>
+<body id="stage" x="0 mm" y="2.4 mm" plate-width="2.6 mm" plate-height="0.3 mm"/>
+<revolute id="A" a="ground" a-x="-1.2 mm" a-y="1 mm" b="stage" b-x="-1.2 mm" b-y="-1.4 mm" hinge="leaf" axis="0 deg"/>
+<revolute id="B" a="ground" a-x="1.2 mm" a-y="1 mm" b="stage" b-x="1.2 mm" b-y="-1.4 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<scene name="shake" duration="20 ms"><base-motion ax="12000 m/s^2" law="sine" frequency="%s"/>
+<material-damping loss-factor="%s"/></scene><die clearance="600 um"/></device>"""
+
+
+TWO_STAGES = """<device xmlns="urn:flexwright:device:1" name="two-stages"><material ref="silicon-100" thickness="50 um" youngs-modulus="150 GPa"/>
+<limits safety-factor="1.5"/><flow ref="al-masked-rie"/><flexure id="la" kind="leaf" length="1.5 mm" width="12 um" fillet="6 um"/>
+<flexure id="lb" kind="leaf" length="1.2 mm" width="10 um" fillet="5 um"/><mechanism>
+<body id="one" x="0 mm" y="1.7 mm" plate-width="0.36 mm" plate-height="0.36 mm" mass="2e-2 mg" inertia="4e-4 mg mm^2"/>
+<body id="two" x="1.6 mm" y="1.7 mm" plate-width="0.36 mm" plate-height="0.36 mm" mass="1e-2 mg" inertia="2e-4 mg mm^2"/>
+<revolute id="A" a="ground" a-y="0.75 mm" b="one" b-y="-0.95 mm" hinge="la" axis="0 deg"/>
+<revolute id="B" a="one" a-x="0.8 mm" b="two" b-x="-0.8 mm" hinge="lb" axis="90 deg"/></mechanism>
+<scene name="s" duration="10 ms"><base-motion ax="%s m/s^2" law="sine" frequency="%s Hz"/><material-damping loss-factor="0.02"/></scene>
+<die clearance="900 um"/></device>"""
+
+
+class FlexuresWeigh(unittest.TestCase):
+    """Flexures' own mass, which no motion has, in the bands: against frames of beams with their mass (Euler and Bernoulli, 24 elements of
+    cubics a leaf, the head or stage rigid with what the file states)"""
+    def check(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "device.xml"
+            file.write_text(text)
+            done = run("check", file, "--json", *QUICK)
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        whole = json.loads(done.stdout)
+        self.said = done.stderr
+        return whole, whole["hinges"][0], {r["probe"]: r for r in whole["requirements"]}
+
+    def test_modes_across_the_plane(self):
+        """a leaf of 6.7e-9 kg with a head of 8e-9: 4.03 kHz, and 41.3 kHz, which is the leaf; without its mass 4.31 and 129"""
+        whole, _, asked = self.check(LONG_LEAF % (
+            '<require frequency="1" plane="across" min="4.06 kHz"/><require frequency="2" plane="across" min="60 kHz"/>',
+            "10 ms", 'ax="1 m/s^2" law="half-sine" rise="4 ms"'))
+        for name, truth, at_least in (("frequency-1", 4030, 0.97), ("frequency-2", 41300, 0.93)):
+            low, high = asked[name]["band"]
+            self.assertLess(low, truth, name)
+            self.assertGreater(low, at_least * truth, name)
+            self.assertEqual(asked[name]["verdict"], "inconclusive", name)
+
+    def test_a_shock_and_a_shaker(self):
+        """the same leaf: 95000 m/s^2 for 4 ms strain it by 112 % where its mass is counted; shaken by 1900 Hz the head goes 1188 um,
+        since its mode lies at 1960 Hz, and not at 2095"""
+        whole, hinge, _ = self.check(LONG_LEAF % ("", "10 ms", 'ax="95000 m/s^2" law="half-sine" rise="4 ms"'))
+        self.assertEqual(whole["verdict"], "inconclusive")
+        self.assertGreater(hinge["utilisation_band"][1], 1.12)
+        self.assertLess(hinge["utilisation_band"][1], 1.2)
+        _, _, asked = self.check(LONG_LEAF % ('<require probe="way" measure="peak" max="500 um" scene="shaken"/>', "20 ms",
+                                              'ax="7500 m/s^2" law="sine" frequency="1900 Hz"'))
+        way = asked["way"]
+        self.assertEqual(way["verdict"], "inconclusive")
+        self.assertGreater(way["band"][1], 1188e-6)
+        self.assertLess(way["band"][1], 1188e-6 * 1.6)
+
+    def test_two_stages_in_a_row(self):
+        """shaken at the third to fifth mode of the device with its leaves' mass (without it the third is 15.6 kHz): leaves bear 1.25
+        times what frames of beams have beside the fillets, in % of what is allowed"""
+        for hertz, size, truth in ((3000, 5000, (11.8, 11.0)), (12204, 5000, (9.6, 8.2)), (21953, 5000, (2.8, 4.7)), (48588, 20000, (12.9, 4.1))):
+            whole, _, _ = self.check(TWO_STAGES % (size, hertz))
+            for hinge, is_ in zip(whole["hinges"], truth):
+                low, high = hinge["utilisation_band"]
+                self.assertLess(low, 0.0125 * is_, (hertz, hinge["id"]))
+                self.assertGreater(high, 0.0125 * is_, (hertz, hinge["id"]))
+                self.assertLess(high, 2 * 0.0125 * is_, (hertz, hinge["id"]))
+
+    def test_a_leaf_swings_between_its_ends(self):
+        """two leaves at their own 16.5 kHz, while the stage hardly moves: 300 MPa beside the fillets with a loss of 0.01 and 844 with
+        0.001, of 667 that are allowed; at 4 kHz hardly more than without their mass"""
+        whole, hinge, _ = self.check(TWO_LEAVES % ("2 mm", "16.5 kHz", "0.01"))
+        self.assertGreater(hinge["utilisation_band"][1], 300 / 667)
+        self.assertLess(hinge["utilisation_band"][1], 2 * 300 / 667)
+        self.assertIn("FW-D726", self.said)
+        whole, hinge, _ = self.check(TWO_LEAVES % ("2 mm", "16.5 kHz", "0.001"))
+        self.assertEqual(whole["verdict"], "inconclusive")
+        _, hinge, _ = self.check(TWO_LEAVES % ("2 mm", "4 kHz", "0.01"))
+        self.assertLess(hinge["utilisation_band"][1], 1.1 * hinge["utilisation"])
+
+
 if __name__ == "__main__":
     unittest.main()

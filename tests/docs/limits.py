@@ -32,6 +32,7 @@ CASES = {
                                       r"out of the plane.*not known: joint slide is no flexure"),
     "Bending of links": (LEAF, None, "check --corners none --advice none --set body[crank]/@width=17um "
                          "--set body[coupler]/@width=17um --set body[rocker]/@width=17um", "FW-D510"),
+    "Mass of flexures in motions": (f"{THEORY}/long-leaf.xml", None, "check --corners none --advice none", "FW-D725.*FW-D726|FW-D726.*FW-D725"),
     "Strength of bodies": (f"{THEORY}/neck.xml", None, "check --corners none --advice none",
                            r"neck: INCONCLUSIVE.*body arm is not known to bear what force brings.*where it is [67]"),
     "Notching at the foot": ("tests/data/swept-holes.xml", None, "check --corners none --advice none -v", "over-etch at the oxide may notch the foot of narrow lines"),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "quantity/law_kind.h"
-#include "assembly/kinematics.h"
+#include "assembly/assembly.h"
 #include "dynamics/models.h"
 
 static const fw_assembly_kinematics_options everything = {.effects = {.mode = FW_EFFECTS_ALL}};

@@ -295,11 +295,57 @@ static void solids_that_were_not_fitted(void **state) {
     fw_arena_free(arena);
 }
 
+/* Strips with their own mass between ends that are held: 22.373 (EI/(m L^3))^(1/2) of a clamped bar, in the plane and across it,
+   and 61.673; what goes with one end, 13/35 and 11/210 of a bar's mass; m a L/12 at a root, 0.89 of it by the first mode. An arc that
+   is nearly straight is a bar. Source: Blevins, Formulas for Natural Frequency and Mode Shape, table 8-1 */
+static void strips_that_swing(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    const double L = 2e-3, w = 8e-6, h = 12e-6, E = 100e9, sigma = 2330 * h;
+    const double kg = sigma * w * L, first = 22.3733, second = 61.6728;
+    for (int kind = 0; kind < 2; kind++)
+        for (int across = 0; across < 2; across++) {
+            const fw_flexure_input in = strip(L, kind ? 3000 * L : 0, w, h);
+            fw_flexure_result closed;
+            fw_flexure_path_strain strained;
+            fw_flexure_own own;
+            fw_flexure_closed_form(&in, &closed);
+            assert_int_equal(fw_flexure_path_strain_new(arena, &in, &closed, &strained), FW_OK);
+            assert_int_equal(
+                fw_flexure_own_of(arena, &in, &closed, &strained, across, sigma, &own), FW_OK);
+            const double EI = E * (across ? w * h * h * h : h * w * w * w) / 12,
+                         s2 = kg * L * L * L / EI;
+            assert_relative(own.s2[0], s2 / (first * first), 5e-3);
+            assert_relative(own.s2[1], s2 / (second * second), 0.02);
+            assert_true(own.rest_s2 < 0.3 * own.s2[1]);
+            /* z, or x, of the second body where its end is, the pin at the middle: without a turn */
+            double all = 0, moves = 0, load = 0, moment = 0;
+            const int to = across ? 0 : 1;
+            for (int i = 0; i < FW_OWN_PARTS; i++) {
+                const double goes = own.goes[i][0][to], *mass = own.mass[i];
+                all += mass[0], moves += mass[0] * goes * goes;
+                load += mass[0] * own.mode[0][i][0];
+            }
+            assert_relative(all, kg, 1e-9);
+            assert_relative(moves, 13.0 / 35 * kg, 5e-3);
+            for (int i = 0; i < FW_OWN_PARTS; i++) { /* held at both ends: what the second bears is -goes */
+                moment += own.mass[i][0] * own.mode[0][i][0] * own.moment[0][2 * i];
+                for (int k = 0; k < 3; k++)
+                    moment -= own.mass[i][0] * own.mode[0][i][0] * own.goes[i][0][k] *
+                              own.moment[0][2 * FW_OWN_PARTS + k];
+            }
+            assert_relative(fabs(load * moment), 0.892 / 12 * kg * L, 0.02);
+            assert_relative(own.by_moment[0], (across ? 2 : 1) * 6 / (E * (across ? w * h * h : h * w * w)), 0.03);
+        }
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(torsion_of_rectangles),
         cmocka_unit_test(straight_leaf),
         cmocka_unit_test(strain_of_a_cantilever),
+        cmocka_unit_test(strips_that_swing),
         cmocka_unit_test(warping_of_rectangles),
         cmocka_unit_test(circular_cantilever),
         cmocka_unit_test(a_tall_arc_gives_way),

@@ -2,7 +2,7 @@
 /* Devices whose substrate expands otherwise than they do: equilibria, motions and given motions
    against elementary geometry, and a temperature with a law against a constant one. */
 #include "quantity/law_kind.h"
-#include "assembly/kinematics.h"
+#include "assembly/assembly.h"
 #include "rest_rigs.h"
 #include "statics/statics.h"
 
