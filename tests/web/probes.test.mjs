@@ -3,11 +3,11 @@
 // bounds beside the angles, or how fast it changes, where points go and how fast, what was left out. A device without
 // probes has the points.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, finish, open, program, serve, setText, SMALL, verdict } from "./helper.mjs";
+import { answered, close, finish, open, program, serve, setText, SMALL, source, verdict } from "./helper.mjs";
 
 after(finish);
 
@@ -26,9 +26,50 @@ describe("probes", () => {
 
     test("requirements stand beside the verdict, with value and bound", async () => {
         await verdict(page, "accept");
+        await page.waitForFunction(() => globalThis.flexwright.parts.verdict.judged === null);
         const said = await page.locator(".purpose").innerText();
-        for (const word of ["stroke (final, draw)", "at least 40 µm: accepted", "frequency-1", "at least 400 Hz"]) assert.ok(said.includes(word), `${word} in ${said}`);
-        assert.match(said, /tension \(peak, draw\)\s+115 µN/);
+        for (const word of ["stroke (final, draw)", "at least 40 µm: accepted as drawn", "frequency-1", "at least 400 Hz"]) assert.ok(said.includes(word), `${word} in ${said}`);
+        assert.match(said, /tension \(peak, draw\)\s+115 µN as drawn, at a first look/);
+        assert.equal(await page.locator(".purpose dd.accept").count(), 0, "a first look accepts nothing, and nothing is green");
+        assert.match(said, /tilt \(peak, draw\)\s+not known with hinges as pins/, "rounding noise is no result");
+    });
+
+    test("what only flexing hinges do is not drawn as a curve of a look with pins", async () => {
+        const box = page.locator('.plots select[aria-label="What is plotted"]');
+        for (const id of ["tilt", ":rate tilt"]) {
+            await box.selectOption(id);
+            await page.locator(".course-unknown", { hasText: "tilt is not known with hinges as pins" }).waitFor();
+            assert.match(await page.evaluate(() => globalThis.flexwright.parts.motion.course.csv()), /^t_ms,tilt.*\n# tilt is not known.*\n$/);
+        }
+        await box.selectOption("stroke");
+        assert.match(await page.locator(".plots .plot").last().locator(".plot-unit").innerText(), /µm, hinges as pins/);
+    });
+
+    test("as soon as the verdict is there, each number, band and decision of the card is the verdict's", async () => {
+        await page.waitForFunction(() => globalThis.flexwright.parts.verdict.judged, null, { timeout: 60000 });
+        const done = spawnSync(program, ["check", server.file, "--json"], { cwd: source, maxBuffer: 64 << 20 });
+        const told = JSON.parse(done.stdout);
+        const said = (await page.locator(".purpose").innerText()).replaceAll("\u2212", "-");
+        const si = (x, unit) => {
+            const [prefix, size] = [["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9]].find(([, f]) => Math.abs(x) >= f * 0.9995);
+            return `${Number((x / size).toPrecision(4))} ${prefix}${unit}`;
+        };
+        for (const r of told.requirements) {
+            const made = r.as_fabricated;
+            for (const x of [`${si(made.value, r.unit)} (${si(made.band[0], r.unit)} to ${si(made.band[1], r.unit)}) as made`, `to ${si(made.all_corners_band[1], r.unit)} over all corners`, `${si(r.value, r.unit)} (`]) assert.ok(said.includes(x), `${x} in ${said}`);
+        }
+        const tilt = told.probes.find((x) => x.id === "tilt");
+        assert.ok(said.includes(si(tilt.peak, "rad")), `${tilt.peak} in ${said}`);
+        assert.equal(await page.locator(".purpose dd.accept").count(), told.requirements.length);
+    });
+
+    test("a requirement that some devices of the flow do not hold is undecided on its card, as the verdict is", async () => {
+        await answered(page, () => setText(page, ['frequency="1" min="400 Hz"', 'frequency="1" min="700 Hz"']));
+        await page.waitForFunction(() => globalThis.flexwright.parts.verdict.judged, null, { timeout: 60000 });
+        await verdict(page, "inconclusive");
+        const row = page.locator(".purpose dd.inconclusive");
+        assert.match(await row.innerText(), /^652\.1 Hz .* as made . at least 700 Hz: undecided/);
+        await answered(page, () => setText(page, ['frequency="1" min="700 Hz"', 'frequency="1" min="400 Hz"']));
     });
 
     test("a probe is plotted with its bounds, and another can be chosen", async () => {

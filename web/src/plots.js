@@ -82,7 +82,7 @@ export class Plot {
 
     csv() {
         if (this.files) return this.files.csv();
-        return csvOf(this.data, this.unitWords.replace(", over ms", ""));
+        return csvOf(this.data, this.unitWords.replace(/, (over ms|hinges as pins)$/, ""));
     }
     svg() {
         if (this.files) return this.files.svg();

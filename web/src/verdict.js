@@ -8,6 +8,7 @@ import { askAgain, edit, isPresent } from "./design.js";
 import { announce, become, button, h, icon, refill, select, setOptions } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
+import { probesOf, requirementsOf, whyUnknown, withBand } from "./purpose.js";
 import { emit, lookAt, on, state } from "./store.js";
 
 const QUIET_MS = 900; // without a change, after which the same is judged as it will be made
@@ -17,8 +18,6 @@ const MOST_LINES = 5; // of the banner
 const WORDS = {
     accept: ["Accepted", "check"], reject: ["Rejected", "cross"], inconclusive: ["Inconclusive", "question"],
 };
-
-const ROUNDING_RAD = 1e-12; // a turn below it is none
 
 export class Verdict {
     constructor(holder) {
@@ -41,7 +40,8 @@ export class Verdict {
         const use = card("use", "Share of the limit that rules", this.whose, this.bars);
         const cards = [use, this.required, card("flows", "Flows", this.flows)];
         const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost, this.left)];
-        this.compare = new Compare(() => this.judged);
+        state.judged = () => this.judged;
+        this.compare = new Compare(state.judged);
         this.made = card("full", "As fabricated", full);
         holder.append(this.old, this.banner, this.problems, this.compare.card, ...cards, this.made, ...last, this.notes);
         this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
@@ -53,7 +53,7 @@ export class Verdict {
             quiet: () => Math.min(Math.max(QUIET_MS, 1e3 * (this.full?.job?.seconds ?? 0)), QUIET_MOST_MS), // what takes long waits longer for the last change
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
-        this.ofFull = [this.banner, use].map((element) => new Shown(element, () => this.full.key));
+        this.ofFull = [this.banner, use, this.required].map((element) => new Shown(element, () => this.full.key));
         this.full.show(true);
         on("preview", () => this.show());
         on("answer", () => this.#answer());
@@ -178,7 +178,7 @@ export class Verdict {
             lines.length ? this.#more() : "");
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
-        this.#required(v);
+        this.#required(v, full);
         this.#flows(v);
         this.#effects();
         this.#cost();
@@ -196,17 +196,24 @@ export class Verdict {
         return more;
     }
 
-    /** Requirements with their values, and what the probes of the other scenes say at most. */
-    #required(v) {
-        const asked = v.requirements ?? [];
-        const probes = (v.probes ?? []).filter((x) => !asked.some((r) => r.probe === x.id && r.scene === x.scene && r.flow === x.flow));
+    /** Requirements and probes: of the verdict where it is there, of the first look until then. */
+    #required(v, full) {
+        const judged = full ?? v;
+        const look = !full && state.preview.provisional;
+        const [asked, probes] = [requirementsOf(judged, look), probesOf(judged)];
         become(this.required, { hidden: asked.length + probes.length === 0 });
-        const bound = (r) => [r.min === null ? "" : `at least ${si(r.min, r.unit)}`, r.max === null ? "" : `at most ${si(r.max, r.unit)}`].filter(Boolean).join(", ");
-        const where = (x) => [x.scene ?? "at rest", v.flows.length > 1 ? x.flow : null].filter(Boolean).join(", ");
-        refill(this.required, this.required.firstChild, h("dl", { class: "facts-list purpose" },
-            asked.flatMap((r) => [h("dt", { title: r.why ?? "" }, `${r.probe} (${r.measure ?? r.kind}, ${where(r)})`),
-                h("dd", { class: r.verdict }, r.why ? "not known" : `${si(r.value, r.unit)} \u2013 ${bound(r)}: ${WORDS[r.verdict][0].toLowerCase()}`)]),
-            probes.flatMap((x) => [h("dt", {}, `${x.id} (peak, ${where(x)})`), h("dd", {}, si(x.unit === "rad" && Math.abs(x.peak) < ROUNDING_RAD ? 0 : x.peak, x.unit))])));
+        const bound = (r) => [r.min === null ? "" : `at least ${si(r.min, r.unit, 4)}`, r.max === null ? "" : `at most ${si(r.max, r.unit, 4)}`].filter(Boolean).join(", ");
+        const where = (x) => [x.scene ?? "at rest", judged.flows.length > 1 ? x.flow : null].filter(Boolean).join(", ");
+        const word = (row) => (row.decision !== "inconclusive" ? WORDS[row.decision][0].toLowerCase() : row.at && row.r.verdict === "accept" ? "undecided, as some devices of its flow may not hold it" : "inconclusive");
+        const said = (row) => (row.only ? `${si(row.band[0], row.r.unit, 4)} to ${si(row.band[1], row.r.unit, 4)}` : withBand(row.value, row.band, row.r.unit));
+        refill(this.required, this.required.firstChild,
+            look ? h("p", { class: "doc" }, "Of a first look at the drawing: it accepts nothing yet.") : "",
+            h("dl", { class: "facts-list purpose" },
+                asked.flatMap((row) => [h("dt", { title: row.why ?? "" }, `${row.r.probe} (${row.r.measure ?? row.r.kind}, ${where(row.r)})`),
+                    h("dd", { class: row.first && row.decision === "accept" ? "first" : row.decision, title: row.at ? `with ${row.at}` : "" }, row.known ? `${said(row)} ${row.basis} \u2013 ${bound(row.r)}: ${word(row)}${row.first ? " as drawn" : ""}` : `not known: ${row.why ?? ""}`),
+                    row.all ? h("dd", { class: "beside" }, `${si(row.all[0], row.r.unit, 4)} to ${si(row.all[1], row.r.unit, 4)} over all corners; ${withBand(row.r.value, row.r.band, row.r.unit)} as drawn`) : null]),
+                probes.flatMap(({ x, band, known, zero }) => [h("dt", {}, `${x.id} (peak, ${where(x)})`),
+                    h("dd", {}, known ? `${zero ? `0 ${x.unit}, within ${si(x.error, x.unit, 1)}` : withBand(x.peak, band, x.unit)} as drawn${look ? ", at a first look" : ""}` : whyUnknown(full ? { hinge_model: state.options.hinge_model } : state.preview))])));
     }
 
     /** The same for those who compare. */
@@ -216,7 +223,7 @@ export class Verdict {
 
     /** The full judgement, while it is of the present text. */
     #full() {
-        return this.full.job && !this.full.stale ? this.full.job.result ?? null : null;
+        return this.full?.job && !this.full.stale ? this.full.job.result ?? null : null;
     }
 
     /** What the banner speaks of. */
