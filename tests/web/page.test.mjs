@@ -174,6 +174,11 @@ describe("the six-bar", () => {
         await computed(page, "modes");
         assert.equal(await page.locator(".mode").count(), 3);
         assert.match(await page.locator(".mode").first().textContent(), /510\.8 Hz/);
+        const said = await page.textContent("#panel-modes .job-content");
+        assert.match(said, /Lowest of all: 510\.8 Hz, in the plane\./);
+        assert.match(said, /These frequencies are off by up to 0\.86 %/);
+        assert.match(said, /Out of the plane521\.7 Hz CD goes up and down/);
+        assert.match(await page.textContent("#right .across"), /swings out of the plane from 521\.7 Hz on \(.*Drying: /s);
         await view(page, "assembly");
         await computed(page, "assembly");
         assert.match(await page.textContent("#panel-assembly .job-content"), /3: 15 coordinates, 12 conditions/);

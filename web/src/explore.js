@@ -499,7 +499,7 @@ function point(p, n) {
     const v = p.values.map((x) => (x === null ? NaN : x * n.factor));
     const first = (list) => list.find(Number.isFinite) ?? NaN;
     const [a, b] = [n.value.length, n.value.length + n.low.length];
-    return { state: p.state, why: p.why, used: p.limit_used, value: first(v.slice(0, a)), low: first(v.slice(a, b)), high: first(v.slice(b, b + n.high.length)) };
+    return { state: p.state, why: p.why, used: p.limit_used, value: n.least ? Math.min(...v.slice(0, a)) : first(v.slice(0, a)), low: first(v.slice(a, b)), high: first(v.slice(b, b + n.high.length)) };
 }
 
 function group(list) {

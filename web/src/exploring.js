@@ -93,7 +93,8 @@ export function endOf(text, unit, units) {
 const SHARE = { unit: "%", factor: 100, limits: [1] };
 
 /**
- * [{id, label, unit, factor (from SI), value, low, high: paths of the documents, also: of a hinge as made, limits (SI)}] of
+ * [{id, label, unit, factor (from SI), value, low, high: paths of the documents, also: of a hinge as made, least: the least of all values and not the first that
+ *  is known, and none where one of them is not, limits (SI)}] of
  * a verdict; made: as the flows make it.
  */
 export function numbersToLookAt(v, made) {
@@ -112,7 +113,11 @@ export function numbersToLookAt(v, made) {
         const [prefix, size] = prefixOf(Math.max(...[r.min, r.max, r.value].map((x) => Math.abs(x ?? 0))));
         out.push({ id: `require ${words}`, label: `${r.probe} (${[r.measure ?? r.kind, r.scene].filter(Boolean).join(", ")})`, unit: `${prefix}${r.unit}`, factor: 1 / size, limits: [r.min, r.max].filter((x) => x !== null), value: path("value"), low: path("band[0]"), high: path("band[1]") });
     }
-    out.push({ id: "frequency", label: "Lowest natural frequency, at rest", unit: "Hz", factor: 1, limits: [], value: ["modes:modes[0].f_Hz"], low: [], high: [] });
+    const frequency = (id, label, value, least = false) => out.push({ id, label, unit: "Hz", factor: 1, limits: [], value, low: [], high: [], least });
+    const [inPlane, across] = ["modes:modes[0].f_Hz", "modes:out_of_plane.modes[0].f_Hz"];
+    frequency("frequency", "Lowest natural frequency, in or out of the plane, at rest", [inPlane, across], true);
+    frequency("frequency-in", "Lowest natural frequency in the plane, at rest", [inPlane]);
+    frequency("frequency-out", "Lowest natural frequency out of the plane, of rigid bodies, at rest", [across]);
     return out;
 }
 

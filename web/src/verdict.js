@@ -31,6 +31,7 @@ export class Verdict {
         });
         this.required = h("section", { class: "card", "aria-labelledby": "h-required", hidden: true }, h("h2", { id: "h-required" }, "What it is for"));
         this.old = h("div", { class: "old-note", id: "old-note", hidden: true });
+        this.across = h("section", { class: "card across", "aria-labelledby": "h-across", hidden: true }, h("h2", { id: "h-across" }, "Out of the plane, drying"));
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
@@ -38,7 +39,7 @@ export class Verdict {
         const full = h("div", { class: "full-check" });
         const card = (id, title, ...content) => h("section", { class: "card", "aria-labelledby": `h-${id}` }, h("h2", { id: `h-${id}` }, title), content);
         const use = card("use", "Share of the limit that rules", this.whose, this.bars);
-        const cards = [use, this.required, card("flows", "Flows", this.flows)];
+        const cards = [use, this.required, this.across, card("flows", "Flows", this.flows)];
         const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost, this.left)];
         state.judged = () => this.judged;
         this.compare = new Compare(state.judged);
@@ -53,7 +54,7 @@ export class Verdict {
             quiet: () => Math.min(Math.max(QUIET_MS, 1e3 * (this.full?.job?.seconds ?? 0)), QUIET_MOST_MS), // what takes long waits longer for the last change
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
-        this.ofFull = [this.banner, use, this.required].map((element) => new Shown(element, () => this.full.key));
+        this.ofFull = [this.banner, use, this.required, this.across].map((element) => new Shown(element, () => this.full.key));
         this.full.show(true);
         on("preview", () => this.show());
         on("answer", () => this.#answer());
@@ -66,8 +67,8 @@ export class Verdict {
     #wait() {
         this.#decided(null);
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
-        this.required.hidden = true; // what was reached before says nothing of this device
-        this.required.replaceChildren(this.required.firstChild);
+        for (const box of [this.required, this.across]) box.hidden = true; // what was reached before says nothing of this device
+        for (const box of [this.required, this.across]) box.replaceChildren(box.firstChild);
         if (state.preview?.status === "failed") return this.#cannot();
         this.banner.replaceChildren(h("p", { class: "empty" }, !state.preview ? "No verdict yet."
             : (state.preview.diagnostics ?? []).some((d) => d.severity === "error") ? "Nothing is judged: the mistakes below stand in the way."
@@ -179,6 +180,7 @@ export class Verdict {
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
         this.#required(v, full);
+        this.#across(full ?? v);
         this.#flows(v);
         this.#effects();
         this.#cost();
@@ -214,6 +216,22 @@ export class Verdict {
                     row.all ? h("dd", { class: "beside" }, `${si(row.all[0], row.r.unit, 4)} to ${si(row.all[1], row.r.unit, 4)} over all corners; ${withBand(row.r.value, row.r.band, row.r.unit)} as drawn`) : null]),
                 probes.flatMap(({ x, band, known, zero }) => [h("dt", {}, `${x.id} (peak, ${where(x)})`),
                     h("dd", {}, known ? `${zero ? `0 ${x.unit}, within ${si(x.error, x.unit, 1)}` : withBand(x.peak, band, x.unit)} as drawn${look ? ", at a first look" : ""}` : whyUnknown(full ? { hinge_model: state.options.hinge_model } : state.preview))])));
+    }
+
+    /** What the terminal says of the ways out of the plane, and of how the device may be dried. */
+    #across(v) {
+        const named = (x, words) => `${v.flows.length > 1 && x.flow ? `${x.flow}: ` : ""}${words}`;
+        const tips = (s) => (s.tips_at === null ? "" : `${s.scene}: does not tip below ${number(s.tips_at / (1 + s.tips_error), 4)} times its forces.`);
+        const scene = (s) => [s.lowest_m === undefined ? "" : `${s.scene}: ${s.lowest_m === null ? "how far down is not known" : `down by up to ${si(-s.lowest_m, "m", 4)}, tilted by up to ${degrees(s.tilt_rad)}`}.`, tips(s)].filter(Boolean).join(" ");
+        const out = (v.out_of_plane ?? []).flatMap((o) => {
+            const [low] = o.modes;
+            if (!o.known || !low) return o.scenes.length || !o.known ? [named(o, `Out of the plane: not known: ${o.why ?? ""}`)] : [];
+            const stiff = o.stiffness_over_in_plane === null ? "" : ` Its stiffness is ${number(o.stiffness_over_in_plane)} of that in the plane.`;
+            return [named(o, `As drawn it swings out of the plane from ${number(low.f_Hz, 4)} Hz on (${number(low.band_Hz[0], 4)} to ${number(low.band_Hz[1], 4)} Hz; ${low.body} ${low.kind === "tilt" ? "tilts" : "goes up and down"}).${stiff} Its weight lowers it by ${si(o.weight_sag_m, "m")} on a table; below it: ${o.below.words}.`), ...o.scenes.map(scene).filter(Boolean)];
+        });
+        const dry = (v.stiction ?? []).filter((s) => s.needs && s.drying.how !== "never wet").map((s) => named(s, `Drying: ${s.drying.words}; ${s.needs}.`));
+        become(this.across, { hidden: out.length + dry.length === 0 });
+        refill(this.across, this.across.firstChild, [...out, ...dry].map((x) => h("p", {}, x)));
     }
 
     /** The same for those who compare. */
