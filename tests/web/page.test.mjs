@@ -185,7 +185,11 @@ describe("the six-bar", () => {
         assert.ok(await page.locator("#panel-assembly .ghost g").count() >= 5);
     });
 
-    test("masks: outlines lie on the layers, layers hide, the ruler measures", async () => {
+    test("masks: outlines lie on the layers, also where they were made while another tab was looked at; layers hide, the ruler measures", async () => {
+        await view(page, "masks");
+        await page.waitForFunction(() => globalThis.flexwright.parts.masks.job.control !== null);
+        await view(page, "motion");
+        await page.waitForFunction(() => globalThis.flexwright.parts.masks.job.control === null && globalThis.flexwright.parts.masks.done, null, { timeout: 60000 });
         await view(page, "masks");
         await computed(page, "masks");
         const off = await page.evaluate(() => {
