@@ -7,6 +7,7 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
+import { requirementsOf } from "../../web/src/purpose.js";
 import { answered, close, finish, open, program, serve, setText, SMALL, source, verdict } from "./helper.mjs";
 
 after(finish);
@@ -63,13 +64,13 @@ describe("probes", () => {
         assert.equal(await page.locator(".purpose dd.accept").count(), told.requirements.length);
     });
 
-    test("a requirement that some devices of the flow do not hold is undecided on its card, as the verdict is", async () => {
-        await answered(page, () => setText(page, ['frequency="1" min="400 Hz"', 'frequency="1" min="700 Hz"']));
-        await page.waitForFunction(() => globalThis.flexwright.parts.verdict.judged, null, { timeout: 60000 });
-        await verdict(page, "inconclusive");
-        const row = page.locator(".purpose dd.inconclusive");
-        assert.match(await row.innerText(), /^652\.1 Hz .* as made . at least 700 Hz: undecided/);
-        await answered(page, () => setText(page, ['frequency="1" min="700 Hz"', 'frequency="1" min="400 Hz"']));
+    test("a requirement that the worst device of the flow does not hold is undecided, not accepted as the drawing is", () => {
+        const one = (drawn, made) => requirementsOf({ requirements: [{ verdict: drawn, value: 114.3, band: [102.4, 117.9], as_fabricated: made && { verdict: made, value: 83.8, band: [75.83, 86.25], all_corners_band: [75.83, 153.1], corner: "thickness 8.1 um" } }] }, made === null)[0];
+        for (const [drawn, made, word] of [["accept", "accept", "accept"], ["accept", "reject", "inconclusive"], ["accept", "inconclusive", "inconclusive"], ["inconclusive", "accept", "inconclusive"], ["reject", "accept", "reject"]]) {
+            assert.equal(one(drawn, made).decision, word, `${drawn}, ${made}`);
+            assert.deepEqual([one(drawn, made).value, one(drawn, made).basis], [83.8, "as made"]);
+        }
+        assert.deepEqual([one("accept", null).value, one("accept", null).first], [114.3, true]);
     });
 
     test("a probe is plotted with its bounds, and another can be chosen", async () => {
@@ -130,6 +131,17 @@ describe("probes", () => {
         assert.deepEqual(drawn, ["svg", data.series.length + data.marks.length, 0]);
         figure(svg);
         await page.keyboard.press("Escape");
+    });
+
+    test("plots have the time of their scene when its length changes, zoomed or not", async () => {
+        const ends = () => page.evaluate(() => ["angles", "energy", "course"].map((k) => globalThis.flexwright.parts.motion[k].plot.scales.x.max));
+        for (const [was, is, zoomed] of [["40 ms", "60 ms", false], ["60 ms", "40 ms", true]]) {
+            if (zoomed) await page.evaluate(() => globalThis.flexwright.parts.motion.angles.onwindow([50, 60]));
+            await answered(page, () => setText(page, [`duration="${was}"`, `duration="${is}"`]));
+            await page.waitForFunction(() => globalThis.flexwright.settled(false));
+            await page.waitForTimeout(50);
+            assert.deepEqual(await ends(), Array(3).fill(parseFloat(is)));
+        }
     });
 
     test("paths of what moves are drawn where the motion takes it", async () => {

@@ -223,6 +223,8 @@ export class Motion {
         if (!p?.motion || this.plotted !== p) return;
         const m = p.motion;
         const ms = m.t_s.map((t) => t * 1e3);
+        if (this.lasts !== ms.at(-1)) for (const plot of [this.angles, this.energy, this.course]) plot.window = null; // what was looked at closely is of another length
+        this.lasts = ms.at(-1);
         const limits = p.pins.map(limitOf);
         const inDegrees = this.inDegrees.getAttribute("aria-pressed") === "true" || limits.every((x) => !x);
         const chosen = state.hinge !== null && p.pins.some((x) => x.id === state.hinge) ? state.hinge : null;

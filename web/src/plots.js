@@ -154,8 +154,7 @@ export class Plot {
         const shape = JSON.stringify([series.map((x) => x.name), chosen, marks.length, Boolean(range), this.log]);
         this.data = { t, series, marks, chosen, range };
         if (this.plot && shape === this.shape) {
-            this.plot.setData([t, ...series.map((x) => x.values)]);
-            this.plot.redraw();
+            this.plot.setData([t, ...series.map((x) => x.values)]); // draws; redraw() would put the former range back
         } else {
             this.shape = shape;
             this.#make();
