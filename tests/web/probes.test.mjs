@@ -102,6 +102,18 @@ describe("probes", () => {
             return data.series.map((x) => [x.name, x.values[i]]);
         }, t);
         for (const [name, v] of told) assert.ok(said.includes(`${name} ${String(Number(v.toPrecision(4))).replace("-", "\u2212")}`), `${name} ${v} in ${said}`);
+        const values = () => page.evaluate((at) => { // of the present answer, at the pointer that has not moved
+            const { data } = globalThis.flexwright.parts.motion.angles;
+            const i = data.t.reduce((best, x, k) => (Math.abs(x - at) < Math.abs(data.t[best] - at) ? k : best), 0);
+            return data.series.map((x) => `${x.name} ${String(Number(x.values[i].toPrecision(4))).replace("-", "\u2212")}`);
+        }, t);
+        const [former] = await values();
+        for (const [was, is] of [["115 uN", "90 uN"], ["90 uN", "115 uN"]]) {
+            await answered(page, () => setText(page, [`value="${was}"`, `value="${is}"`]));
+            await page.waitForTimeout(50);
+            for (const x of await values()) assert.ok((await look.innerText()).includes(x), `${x} in ${await look.innerText()}`);
+            assert.equal((await values())[0] === former, is === "115 uN");
+        }
         const whole = (await window())[0];
         await page.mouse.wheel(0, -400);
         const [one, other] = await window();
