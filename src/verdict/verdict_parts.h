@@ -83,6 +83,12 @@ fw_status fw_verdict_required_poses(fw_arena *arena, fw_verdict_variant_verdict 
 fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
                                       fw_verdict_decision decision, const char *text);
 
+/* strain_monitor.c, of a hinge whose drawn solids meet before its peak angle (FW-D204): a warning, or with `diags` NULL a reason of v
+   where that alone leaves it undecided */
+fw_status fw_verdict_touching(fw_arena *arena, const fw_layout_hinge_layout *drawn,
+                              const fw_verdict_hinge_verdict *h, fw_diags *diags,
+                              fw_verdict_variant_verdict *v);
+
 /* a scene acts across the plane, or a mode there is asked for */
 bool fw_verdict_out_of_plane_asked(const fw_mechanism *mechanism);
 /* v->out_of_plane, and reasons of v. brief: only where something asks. lean: nobody reads what hangs over (body_hung.c) */
