@@ -293,6 +293,8 @@ describe("what is there is dragged", () => {
         await drag(page, [-600, 0], [-700, 0], { release: false });
         await page.waitForFunction(() => /^700 um|^0.7 mm/.test(globalThis.flexwright.state.set.span ?? ""));
         assert.equal(await text(page), xml, "the text waits until it is let go");
+        const told = () => page.evaluate(() => Number(document.querySelector('#panel-draw .pose-fields input[aria-label="x, µm"]').value));
+        assert.equal(await told(), -700, "the panel tells where it is now");
         await page.waitForFunction(() => document.querySelector(".draw-stage").dataset.of === "present" && !document.querySelector(".draw-stage.old")); // the picture follows
         await changed(page, () => page.mouse.up());
         assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.7 mm"'));
@@ -300,6 +302,23 @@ describe("what is there is dragged", () => {
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {});
         await page.click("#undo");
         assert.equal(await text(page), xml);
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        assert.equal(await told(), -600);
+        // a mistake that was told of the text is none of what is dragged, until that is answered; then it is what the answer says
+        await answered(page, () => setText(page, ['<revolute id="A"', '<revolute id="A" stop-max="-400 deg"']));
+        const fault = () => page.evaluate(() => [...document.querySelectorAll("#panel-draw .pose-status.bad")].filter((e) => !e.hidden).map((e) => e.textContent).join());
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        assert.notEqual(await fault(), "");
+        await page.route("**/api/preview", async (route) => {
+            await new Promise((resolve) => setTimeout(resolve, 600));
+            await route.continue();
+        });
+        await drag(page, [-600, 0], [-650, 0], { release: false });
+        assert.equal(await fault(), "");
+        await page.waitForFunction(() => [...document.querySelectorAll("#panel-draw .pose-status.bad")].some((e) => !e.hidden), null, { timeout: 20000 });
+        await page.keyboard.press("Escape");
+        await page.mouse.up();
+        await page.unroute("**/api/preview");
     });
 
     test("a drag is the same in however many moves the pointer does it: what is asked for, what is written, and what undo takes back", async () => {

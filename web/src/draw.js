@@ -117,7 +117,9 @@ export class Draw {
     }
 
     #refresh() {
-        if (!this.visible || !this.table || this.drag?.handle) return;
+        if (!this.visible || !this.table) return;
+        if (this.drag?.handle) return this.#values(); // of what is said of it as it is now
+        this.live = null;
         this.#read();
         if (!this.places) return;
         this.list = this.#handlesOf(this.places);
@@ -455,7 +457,9 @@ export class Draw {
         holdTogether(now.changes, d.held.keys());
         d.held = now.changes;
         const list = this.#handlesOf(now.places);
+        this.live = { places: now.places, list };
         this.#paint(now.places, list);
+        this.#values();
         const at = list.find((x) => x.id === d.handle.id)?.at ?? now.target;
         const [dx, dy] = [at[0] - d.handle.at[0], at[1] - d.handle.at[1]];
         const lines = d.handle.look === "tip" || d.handle.look === "side" || d.handle.part === "corner" ? this.#sizes(d.handle, now.places) : [`x ${um(at[0])}, y ${um(at[1])}`, `moved ${um(dx)}, ${um(dy)}`];
@@ -480,6 +484,7 @@ export class Draw {
         }
         const d = this.drag;
         this.drag = null;
+        this.live = null;
         if (!d?.handle) return;
         this.#clear();
         if (d.held.size && ![...d.held.keys()].some((path) => path in state.set)) return this.#refresh(); // it was taken while it was held
@@ -669,7 +674,12 @@ export class Draw {
             this.fields = [];
             this.side.replaceChildren(...(this.tool ? this.#toolPanel() : handle ? this.#handlePanel(handle) : this.#partsPanel()));
         }
-        for (const f of this.fields) f();
+        this.#values();
+    }
+
+    /** What the panel tells of the chosen part; while it is dragged, where it is now. */
+    #values() {
+        for (const f of this.fields ?? []) f();
     }
 
     /** path: where it changes the text, and commit returns the promise of why not, or of null. */
@@ -754,7 +764,7 @@ export class Draw {
     }
 
     #handlePanel(handle) {
-        const now = () => this.list.find((x) => x.id === handle.id) ?? handle;
+        const now = () => (this.live?.list ?? this.list).find((x) => x.id === handle.id) ?? handle;
         const sized = ["side", "tip"].includes(handle.look) || handle.part === "corner";
         const places = h("div", { class: "pose-fields" }, sized ? [] : [0, 1].map((k) => this.#number("xy"[k], "µm", () => Number(now().at[k].toFixed(3)), (v) => this.#goto(now(), now().at.map((w, i) => (i === k ? v : w))), `${DRAWN}${handle.id} ${"xy"[k]}`)));
         const facts = this.#facts(handle).map(([e, attribute]) => {
@@ -763,7 +773,7 @@ export class Draw {
             const label = `${attribute}${other ? ` of ${e.name} ${e.id ?? ""}` : ""}`;
             input.setAttribute("aria-label", label);
             const path = `${e.path}/@${attribute}`;
-            const present = () => this.places.text([...walk(this.root)].find((x) => x.path === e.path) ?? e, attribute) ?? "";
+            const present = () => (this.live?.places ?? this.places).text([...walk(this.root)].find((x) => x.path === e.path) ?? e, attribute) ?? "";
             enter(input, path, present, (value) => edit([{ path, value }], `${label} is ${value}`));
             this.fields.push(() => show(input, path, present()));
             return h("label", { class: "pose-field" }, h("span", {}, label), input);
