@@ -323,6 +323,14 @@ test("a slider below what can be made says why at its place, and from which valu
     assert.notEqual(decision(from - 0.1), 0);
     await slide("10");
     await box.waitFor({ state: "hidden" });
+    // a hinge alone rejects it
+    await answered(page, () => setText(page, ['safety-factor="2"', 'safety-factor="4.8"']));
+    await slide("6");
+    await box.getByText(/At 6 um: hinge A uses 1\d\d\.\d % of its elastic limit/).waitFor();
+    await box.getByText(/accepted (from|at)/).first().waitFor();
+    await slide("10");
+    await answered(page, () => setText(page, ['safety-factor="4.8"', 'safety-factor="2"']));
+    await box.waitFor({ state: "hidden" });
     // in another unit than its ends: the value is the only mistake, all of its sentence is told, and what works is found
     const typed = page.locator('.slider[data-name="width"] input.value');
     await typed.fill("10 mm");
