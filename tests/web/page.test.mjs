@@ -420,6 +420,22 @@ describe("the six-bar", () => {
         await page.unroute("**/api/jobs/*");
     });
 
+    test("a run of keys on a slider is one step of the history; what another page has ended can be ended again", async () => {
+        const slider = page.locator('[data-parameter="link"]');
+        const before = await page.evaluate(() => [globalThis.flexwright.parts.editor.depths[0], globalThis.flexwright.state.text]);
+        await slider.focus();
+        for (let i = 0; i < 4; i++) await page.keyboard.press("ArrowRight");
+        await page.waitForFunction((t) => globalThis.flexwright.state.text !== t && globalThis.flexwright.settled(false), before[1]);
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.editor.depths[0]), before[0] + 1);
+        await answered(page, () => page.click("#undo"));
+        assert.equal(await text(page), before[1]);
+        const gone = await page.evaluate(async () => {
+            const answer = await fetch("/api/jobs/999999", { method: "DELETE", credentials: "same-origin", headers: { "X-Flexwright-Token": globalThis.flexwright.state.session.token } });
+            return [answer.status, await answer.json()];
+        });
+        assert.deepEqual(gone, [200, { id: 999999, state: "gone" }]);
+    });
+
     test("the slider: how long until the new motion is seen", async (t) => {
         await view(page, "motion");
         const slider = page.locator('[data-parameter="arc"]');

@@ -196,6 +196,15 @@ describe("probes", () => {
 
     test("velocities of probes and points are the program's, and what was left out has its bounds; each is saved", async () => {
         await page.setViewportSize(SMALL);
+        // of the hinge that is looked at the heading tells what is plotted
+        await page.evaluate(() => globalThis.flexwright.parts.motion.seek(0.02, true));
+        const heading = () => page.locator(".plots .plot").first().locator(".plot-value").innerText();
+        await page.locator('.bar[data-hinge="A"]').click();
+        assert.match(await heading(), /^A: [\d.]+ %$/);
+        await page.click('.plots button:has-text("degrees")');
+        assert.match(await heading(), /^A: .?[\d.]+°$/);
+        await page.click('.plots button:has-text("degrees")');
+        await page.locator('.bar[data-hinge="A"]').click();
         const box = page.locator('.plots select[aria-label="What is plotted"]');
         const chosen = async (id, rates) => {
             await box.selectOption(id);
@@ -224,6 +233,10 @@ describe("probes", () => {
         await chosen(":v stage", true);
         figure((await saved("Save as SVG"))[1]);
         await box.selectOption(":left");
+        assert.ok(await page.evaluate(() => { // nobody has asked the first look for pins
+            const { course } = globalThis.flexwright.parts.motion;
+            return /nonlinear-hinge,0,.*this first look takes hinges as pins/.test(course.csv()) && !/asked for \(--hinge-model revolute\)/.test(course.csv() + document.querySelector(".ledger").textContent);
+        }));
         const told = await page.locator(".leftout-row").evaluateAll((rows) => rows.map((r) => [r.querySelector(".leftout-name").textContent, r.classList.contains("active"), r.getAttribute("aria-label")]));
         const ledger = await page.evaluate(() => globalThis.flexwright.state.preview.ledger.filter((e) => e.called_for).map((e) => [e.id, e.active]));
         assert.deepEqual(told.map(([id, active]) => [id, active]).sort(), ledger.sort());

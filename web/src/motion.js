@@ -66,6 +66,7 @@ export class Motion {
         this.inDegrees = button("degrees", { class: "small toggle", "aria-pressed": "false" }, () => {
             this.inDegrees.setAttribute("aria-pressed", String(this.inDegrees.getAttribute("aria-pressed") !== "true"));
             this.#plotAll();
+            this.paint(); // and the heading tells what is plotted
         });
         this.angles.heading.append(this.inDegrees);
         on("options", () => this.picks?.forEach((refresh) => refresh()));
@@ -434,7 +435,9 @@ export class Motion {
         const k = state.hinge === null ? -1 : p.pins.findIndex((x) => x.id === state.hinge);
         const worst = [...shares].reduce((best, x) => (x[1] !== null && x[1] > (best?.[1] ?? -1) ? x : best), null);
         const ms = this.time * 1e3;
-        this.angles.at(ms, k >= 0 ? `${p.pins[k].id}: ${degrees(angles[k])}` : worst ? `${worst[0]}: ${percent(worst[1])}` : "");
+        const share = k >= 0 ? shares.get(p.pins[k].id) : null;
+        const asAngle = share === null || this.inDegrees.getAttribute("aria-pressed") === "true"; // what is plotted is told
+        this.angles.at(ms, k >= 0 ? `${p.pins[k].id}: ${asAngle ? degrees(angles[k]) : percent(share)}` : worst ? `${worst[0]}: ${percent(worst[1])}` : "");
         const energy = (key) => (m.energy?.[key] ? m.energy[key][i] : 0);
         this.energy.at(ms, si(energy("kinetic_J") + energy("potential_J"), "J"));
         const one = this.courseShown;

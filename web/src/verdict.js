@@ -8,6 +8,7 @@ import { askAgain, edit, isPresent } from "./design.js";
 import { announce, become, button, h, icon, refill, select, setOptions } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
+import { reasonOf } from "./leftout.js";
 import { probesOf, requirementsOf, whyUnknown, withBand } from "./purpose.js";
 import { emit, lookAt, on, state } from "./store.js";
 
@@ -332,7 +333,7 @@ export class Verdict {
                 h("summary", {}, h("span", { class: "effect-mark", "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", {}, e.id ?? e.name),
                     h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "no bound" : percent(e.bound, 2)),
                     h("span", { class: "state" }, e.active ? "computed" : "left out")),
-                h("p", {}, e.reason ?? ""))), last);
+                h("p", {}, reasonOf(e, state.preview) ?? ""))), last);
     }
 
     #cost() {
