@@ -430,7 +430,8 @@ describe("the six-bar", () => {
         await answered(page, () => page.click("#undo"));
         assert.equal(await text(page), before[1]);
         const gone = await page.evaluate(async () => {
-            const answer = await fetch("/api/jobs/999999", { method: "DELETE", credentials: "same-origin", headers: { "X-Flexwright-Token": globalThis.flexwright.state.session.token } });
+            const { token } = await (await fetch("/api/session", { credentials: "same-origin" })).json();
+            const answer = await fetch("/api/jobs/999999", { method: "DELETE", credentials: "same-origin", headers: { "X-Flexwright-Token": token } });
             return [answer.status, await answer.json()];
         });
         assert.deepEqual(gone, [200, { id: 999999, state: "gone" }]);
