@@ -491,6 +491,10 @@ fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v
 
 /* ---- solids of a hinge that meet before it has turned that far ---- */
 
+fw_verdict_decision fw_verdict_by_band(const fw_verdict_hinge_verdict *h) {
+    return h->touches && !h->open && h->utilisation_high < 1 ? FW_ACCEPT : h->decision;
+}
+
 fw_status fw_verdict_touching(fw_arena *arena, const fw_layout_hinge_layout *drawn,
                               const fw_verdict_hinge_verdict *h, fw_diags *diags,
                               fw_verdict_variant_verdict *v) {

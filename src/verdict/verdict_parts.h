@@ -83,6 +83,8 @@ fw_status fw_verdict_required_poses(fw_arena *arena, fw_verdict_variant_verdict 
 fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
                                       fw_verdict_decision decision, const char *text);
 
+/* its decision by its band alone, where that its solids meet stands among the reasons */
+fw_verdict_decision fw_verdict_by_band(const fw_verdict_hinge_verdict *h);
 /* strain_monitor.c, of a hinge whose drawn solids meet before its peak angle (FW-D204): a warning, or with `diags` NULL a reason of v
    where that alone leaves it undecided */
 fw_status fw_verdict_touching(fw_arena *arena, const fw_layout_hinge_layout *drawn,

@@ -419,11 +419,6 @@ static const char *limit_of(const fw_verdict_hinge_verdict *h) {
     return tires ? "its fatigue limit" : "its elastic limit";
 }
 
-/* that its solids meet stands among the reasons: here it is by its band */
-static fw_verdict_decision by_band(const fw_verdict_hinge_verdict *h) {
-    return h->touches && !h->open && h->utilisation_high < 1 ? FW_ACCEPT : h->decision;
-}
-
 static fw_verdict_check hinge_check(const fw_verdict_hinge_verdict *h, const char *flow,
                                     const char *corner) {
     return (fw_verdict_check){.of = limit_of(h),
@@ -435,7 +430,7 @@ static fw_verdict_check hinge_check(const fw_verdict_hinge_verdict *h, const cha
                               .corner = corner,
                               .t_s = h->t_s,
                               .most = (double)NAN,
-                              .decision = by_band(h),
+                              .decision = fw_verdict_by_band(h),
                               .hinge = h};
 }
 
