@@ -320,6 +320,10 @@ static void fill_lines(fw_process_flow *flow, const char *const id[3], double of
                        double high_m) {
     const double to = 1e8;
     const bool known = high_m > low_m;
+    for (int i = 0; i < 3; i++) {
+        fw_quantity *q = fw_process_flow_own_quantity(flow, id[i]);
+        if (q) q->range = FW_PROCESS_DIFFERENCE; /* above 0 or not */
+    }
     fill(flow, id[0], 2.0 * off_m, 0.0);
     fill(flow, id[1], known ? floor(2.0 * to * (off_m + low_m) + 1e-6) / to : (double)NAN, 0.0);
     fill(flow, id[2], known ? ceil(2.0 * to * (off_m + high_m) - 1e-6) / to : (double)NAN, 0.0);

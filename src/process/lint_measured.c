@@ -137,6 +137,15 @@ const fw_quantity *fw_process_limit_quantity(const fw_process_flow *f, const cha
     return NULL;
 }
 
+bool fw_process_is_difference(const fw_process_flow *flow, const fw_process_accept *a) {
+    const char *const *limit[] = {&a->low, &a->high, &a->planned};
+    for (size_t i = 0; i < sizeof limit / sizeof limit[0]; i++) {
+        const fw_quantity *q = fw_process_limit_quantity(flow, limit[i], NULL);
+        if (q && q->range && strcmp(q->range, FW_PROCESS_DIFFERENCE) == 0) return true;
+    }
+    return a->low[0] == '-';
+}
+
 static bool is_word_in(const char *text, const char *word) {
     const size_t n = strlen(word);
     for (const char *p = text; n > 0 && (p = strstr(p, word)); p++)

@@ -486,6 +486,9 @@ fw_status fw_process_flow_lint_values(fw_arena *arena, fw_process_flow *flow, fw
 /* false and FW-D278 where the value makes no sense: outside least and most of q, its named range, or that of its
    dimension */
 bool fw_process_quantity_in_range(const fw_quantity *q, fw_diags *diags);
+/* range of a difference of two widths, which may be below 0; one is accepted: by its limits, or what they name */
+#define FW_PROCESS_DIFFERENCE "difference"
+bool fw_process_is_difference(const fw_process_flow *flow, const fw_process_accept *accept);
 /* one reason more of the judgement. 0: the flow cannot make the device, said before all others; -1:
    not guaranteed, said behind them. `why` is kept. */
 fw_status fw_process_flow_add_reason(fw_arena *arena, fw_process_flow *flow, int manufacturable,

@@ -47,9 +47,10 @@ static int answers_of(const char *value) {
 }
 
 /* "no" or "none", once or for each site, of what is a number and may be 0: that number, in the unit of the sheet; else value */
-static const char *none_is_zero(fw_arena *arena, const fw_process_accept *a, const char *value) {
+static const char *none_is_zero(fw_arena *arena, const fw_process_flow *flow,
+                                const fw_process_accept *a, const char *value) {
     const bool number = a->low[0] || a->high[0],
-               may = !a->low[0] || a->low[0] == '-' || strcmp(a->low, "0") == 0;
+               may = !a->low[0] || fw_process_is_difference(flow, a) || strcmp(a->low, "0") == 0;
     fw_text zero = fw_text_new(arena);
     int n = 0;
     fw_word word;
@@ -92,7 +93,7 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
         return fw_recipe_asrun_unknown(
             r, fw_arena_printf(r->arena, "step %s measures no", e->step->id), name, known, n);
     }
-    FW_NEED(value = none_is_zero(r->arena, a, value));
+    FW_NEED(value = none_is_zero(r->arena, r->flow, a, value));
     fw_recipe_measured m = {.measure = a->measure, .value = value, .number = (double)NAN};
     for (int i = 0; i < FW_RECIPE_SITES; i++)
         m.site[i] = (double)NAN;
@@ -111,11 +112,13 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     }
     if (!word) {
         fw_recipe_asrun_values v;
-        /* A difference may be below 0 where its limits are, and as far off as a step that was badly overdone leaves it: what is
-           to be done then stands in the sheet. What lies far from its limits is asked after (asrun.c) */
-        const fw_quantity any = {.range = a->low[0] == '-' ? "difference" : NULL};
+        /* A difference may be below 0, and as far off as a step that was badly overdone leaves it: what is to be done then
+           stands in the sheet. What lies far from its limits is asked after (asrun.c). What stands in the log was looked at
+           when it was written */
+        const fw_quantity any = {
+            .range = fw_process_is_difference(r->flow, a) ? FW_PROCESS_DIFFERENCE : NULL};
         FW_TRY(fw_recipe_asrun_values_read(r, name, value, a->sites, &v));
-        FW_TRY(fw_recipe_asrun_values_in(r, name, a->unit, &any, &v));
+        FW_TRY(fw_recipe_asrun_values_in(r, name, a->unit, r->fresh ? &any : NULL, &v));
         memcpy(m.site, v.site, sizeof m.site);
         m.nsite = v.n;
         m.number = fw_recipe_asrun_mean(m.site);

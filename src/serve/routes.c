@@ -338,8 +338,26 @@ static void get_job(fw_serve_request *r) {
                              "of a job there are /files/PATH and /archive, nothing else");
 }
 
+/* what is to be gone and is: another page has ended it, or newer ones took its place */
+static bool deleted_before(fw_serve_request *r) {
+    const char *at = r->path + strlen("/api/jobs/");
+    const size_t n = strspn(at, "0123456789");
+    if (n < 1 || n > 9 || at[n]) return false;
+    const unsigned id = (unsigned)strtoul(at, NULL, 10);
+    if (fw_serve_jobs_find(r->server->jobs, id)) return false;
+    fw_text text = fw_text_new(r->arena);
+    fw_json json = fw_json_new(&text, FW_JSON_SPACED);
+    fw_json_object(&json, NULL);
+    fw_json_whole(&json, "id", id);
+    fw_json_text(&json, "state", "gone");
+    fw_json_end(&json);
+    fw_serve_reply_document(r, 200, &json, &text);
+    return true;
+}
+
 static void delete_job(fw_serve_request *r) {
     const char *rest;
+    if (deleted_before(r)) return;
     fw_serve_job *job = job_of(r, &rest);
     if (!job) return;
     if (*rest) {

@@ -273,7 +273,7 @@ fw_status fw_verdict_flexed_by(fw_arena *arena, const struct fw_verdict_variant_
 void fw_verdict_flexed_strain(const fw_verdict_flexed *both, int hinge, double to[2]);
 void fw_verdict_flexed_way(const fw_verdict_flexed *both, int body, fw_geometry_vec2 at,
                            double direction_rad, double to[2]);
-/* body_shaken.c: in scenes whose base moves in the plane v->shaken[].flexed, bands of what is required to move, and reasons
+/* body_hung.c: in scenes whose base moves in the plane v->shaken[].flexed, bands of what is required to move, and reasons
    (FW-D725) */
 fw_status fw_verdict_flexures_shaken(fw_arena *arena, bool brief, fw_diags *diags,
                                      struct fw_verdict_variant_verdict *v);
@@ -281,5 +281,10 @@ fw_status fw_verdict_flexures_shaken(fw_arena *arena, bool brief, fw_diags *diag
 fw_status fw_verdict_flexures_across(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
                                      const struct fw_mechanism_plates *plates, int scene,
                                      double *strain, double *far_m);
-
+/* body_farther.c: what bodies do by modes of their own in its scene, in low and high */
+void fw_verdict_swings_required(const struct fw_verdict_variant_verdict *v,
+                                struct fw_verdict_requirement *r);
+/* strain_monitor.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
+fw_status fw_verdict_shaken_bears(fw_arena *arena, struct fw_verdict_variant_verdict *v,
+                                  const fw_verdict_hung *hung, int scene);
 #endif

@@ -354,20 +354,6 @@ fw_status fw_verdict_overhangs(fw_arena *arena, const fw_mechanism *m, const fw_
     return status;
 }
 
-/* It is most of what a verdict costs out of the plane. Where nobody reads it, it still has a say by weight over a carrier, and where
-   scenes are shaken or weigh in the plane. */
-fw_status fw_verdict_hung_says(fw_arena *arena, const fw_mechanism *m, bool *says) {
-    const fw_device *d = m->device;
-    *says = m->variant->below.known && !m->variant->below.open;
-    for (int i = 0; i < d->nscene && !*says; i++) {
-        const fw_device_scene *s = &d->scene[i];
-        if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
-        *says = s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0 || s->nbase > 0;
-        if (!*says) FW_TRY(fw_verdict_is_shaken(arena, m, i, says));
-    }
-    return FW_OK;
-}
-
 fw_status fw_verdict_hung_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
                              const fw_verdict_hung **hung) {
     fw_verdict_hung *own = NULL;
@@ -375,16 +361,6 @@ fw_status fw_verdict_hung_of(fw_arena *arena, const fw_verdict_variant_verdict *
     if (!*hung) FW_TRY(fw_verdict_overhangs(arena, v->mechanism, v->arm, true, &own));
     if (own) *hung = own;
     return FW_OK;
-}
-
-/* What hangs over is pulled down by itself, over the gap that is left at rest, and goes with what bodies do as plates: shares
-   of the tension add up at most (Dunkerley). What bears more than ten times as much is left out. */
-double fw_verdict_hung_pulled(const fw_verdict_hung *hung, double gap_m, double down_m,
-                              double error, double bodies_N_per_m) {
-    const double times = 10,
-                 left = 1 - (down_m + hung->across_s2 * FW_STANDARD_GRAVITY_m_per_s2) / gap_m,
-                 own = 0.5 * hung->bears_N_per_m * pow(fmax(left, 1e-3), 2) / (1 + error);
-    return own < times * bodies_N_per_m ? 1 / (1 / own + 1 / bodies_N_per_m) : HUGE_VAL;
 }
 
 /* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
@@ -492,5 +468,132 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
         FW_TRY(opens(arena, i, by + other, body, hung, v));
     }
     if (!v->corner) v->bends_m = 2 * most + hardly_m;
+    return FW_OK;
+}
+
+/* ---- what flexures weigh (flexure_swing.c), judged: what is required to move, and what may meet ---- */
+
+static fw_status flexures_open(fw_arena *arena, const char *scene, const char *what, double by_m,
+                               fw_verdict_variant_verdict *v) {
+    char text[32];
+    FW_NEED(what);
+    FW_NEED(what = fw_arena_printf(
+                arena,
+                "%s, and with what flexures weigh themselves, which is in no motion, it may be up "
+                "to %s um otherwise: state masses of bodies with the halves of their flexures, and "
+                "keep the frequencies of loads from those of the device and of its flexures",
+                what, fw_number_text(text, sizeof text, 1e6 * by_m, 3)));
+    return fw_verdict_hangs_open(v, scene, 725, what);
+}
+
+/* how much farther the corners of two bodies go together at most */
+static double corners_more(const fw_mechanism *m, const fw_verdict_flexed *both) {
+    double first = 0, second = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const fw_mechanism_shape *shape = m->shape ? &m->shape[b] : NULL;
+        const double reach =
+            shape && shape->area_m2 > 0 ? sqrt(3 * shape->polar_m4 / shape->area_m2) : 0;
+        double far = 0, x[2], y[2];
+        for (int i = 0; i < 8; i++) {
+            const fw_geometry_vec2 at = {m->drawn[b].x_m + reach * cos(FW_PI * i / 4),
+                                         m->drawn[b].y_m + reach * sin(FW_PI * i / 4)};
+            fw_verdict_flexed_way(both, b, at, 0, x);
+            fw_verdict_flexed_way(both, b, at, 0.5 * FW_PI, y);
+            far = fmax(far, hypot(x[0], y[0]));
+        }
+        second = fmax(second, fmin(far, first)), first = fmax(first, far);
+    }
+    return first + second;
+}
+
+/* by[0]: farther, by[1]: less far; of a gap both bodies */
+static void asked_more(const fw_mechanism *m, const fw_verdict_requirement *r,
+                       const fw_verdict_flexed *both, double by[2]) {
+    const fw_device_probe *p = &m->device->probe[m->device->requirement[r->asked].probe];
+    const bool any = isnan(p->direction_rad) || strcmp(r->measure, "parasitic") == 0;
+    double other[2];
+    if (p->row != FW_PROBE_IS_displacement || p->body == FW_GROUND) return;
+    const fw_geometry_vec2 at = fw_mechanism_local_place(m, p->body, p->x_m, p->y_m);
+    fw_verdict_flexed_way(both, p->body, at, any ? 0 : p->direction_rad, by);
+    if (any) {
+        fw_verdict_flexed_way(both, p->body, at, 0.5 * FW_PI, other);
+        by[0] = hypot(by[0], other[0]), by[1] = hypot(by[1], other[1]);
+    }
+    if (strcmp(r->measure, "peak-to-peak") == 0) by[0] *= 2, by[1] *= 2;
+    if (!isnan(r->origin)) by[0] = by[1] = fmax(by[0], by[1]); /* either way */
+}
+
+static fw_status flexed_open(fw_arena *arena, int scene, const fw_verdict_flexed *both,
+                             fw_verdict_variant_verdict *v) {
+    const char *name = v->mechanism->device->scene[scene].name;
+    const double hardly = 1e-4, /* of a value: its band is as it was */
+        near = corners_more(v->mechanism, both);
+    for (int k = 0; near > 0 && k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
+        if (c->low_m - near > c->required_m) continue;
+        c->decision = FW_INCONCLUSIVE;
+        FW_TRY(flexures_open(
+            arena, name, "a distance between parts is kept as computed, and only just", near, v));
+        break;
+    }
+    for (int k = 0; k < v->nrequirement; k++) {
+        fw_verdict_requirement *r = &v->requirement[k];
+        const fw_verdict_decision was = r->decision;
+        double by[2] = {near, near};
+        if (r->scene_index != scene || r->why || !r->measure ||
+            strcmp(r->measure, "settling-time") == 0 ||
+            !fw_words_hold("displacement gap distance opening", " ", r->kind))
+            continue;
+        asked_more(v->mechanism, r, both, by);
+        if (!(fmax(by[0], by[1]) > hardly * fabs(r->value))) continue;
+        fw_verdict_requirement_widen(by[1], by[0], r);
+        if (was != FW_INCONCLUSIVE && r->decision == FW_INCONCLUSIVE)
+            FW_TRY(flexures_open(arena, name, fw_verdict_requirement_text(arena, r),
+                                 fmax(by[0], by[1]), v));
+    }
+    return FW_OK;
+}
+
+static bool shakes_in_plane(const fw_device_scene *s) {
+    for (int i = 0; i < s->nbase; i++)
+        if (s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0) return true;
+    return false;
+}
+
+static fw_status tell_flexed(const fw_mechanism *m, int scene, double by, const char *hinge,
+                             fw_diags *diags) {
+    const double told = 1.05;
+    char text[32];
+    if (!(by > told)) return FW_OK;
+    fw_diag_warning(diags, 726, m->device->scene[scene].place,
+                    "%s%s shakes flexures by their own mass, which is in no motion: %s%s may be "
+                    "strained up to %s times as much, which its band holds",
+                    FW_NAMED("scene", m->device->scene[scene].name), FW_NAMED("hinge", hinge),
+                    fw_number_text(text, sizeof text, by, 3));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_verdict_flexures_shaken(fw_arena *arena, bool brief, fw_diags *diags,
+                                     fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    fw_verdict_flexed *both = NULL;
+    for (int i = 0; i < m->device->nscene; i++) {
+        if (!v->motion[i] || !v->shaken || !shakes_in_plane(&m->device->scene[i])) continue;
+        if (!both) FW_TRY(fw_verdict_flexed_new(arena, m, &both));
+        if (!both) return FW_OK;
+        const fw_verdict_strain_monitor *saw = v->motion[i]->observed;
+        double *to, most = 1;
+        const char *worst = NULL;
+        FW_NEED(to = v->shaken[i].flexed = fw_arena_array(arena, double, 2 * (size_t)m->nhinge));
+        FW_TRY(fw_verdict_flexed_by(arena, v, i, both));
+        for (int h = 0; h < m->nhinge; h++) {
+            fw_verdict_flexed_strain(both, h, to + 2 * h);
+            const double had = saw ? saw->hinge[h].strain.value : 0, by = 1 + to[2 * h] / had;
+            if (had > 0 && by > most) most = by, worst = m->pin[m->hinge[h].pin].id;
+        }
+        FW_TRY(flexed_open(arena, i, both, v));
+        if (!brief && worst) FW_TRY(tell_flexed(m, i, most, worst, diags));
+    }
     return FW_OK;
 }

@@ -568,3 +568,13 @@ fw_status fw_verdict_tree_beams(fw_arena *arena, const fw_mechanism *m, const fw
     FW_TRY(add_loops(arena, t, (int)first, to));
     return FW_OK;
 }
+
+/* What hangs over is pulled down by itself, over the gap that is left at rest, and goes with what bodies do as plates: shares
+   of the tension add up at most (Dunkerley). What bears more than ten times as much is left out. */
+double fw_verdict_hung_pulled(const fw_verdict_hung *hung, double gap_m, double down_m,
+                              double error, double bodies_N_per_m) {
+    const double times = 10,
+                 left = 1 - (down_m + hung->across_s2 * FW_STANDARD_GRAVITY_m_per_s2) / gap_m,
+                 own = 0.5 * hung->bears_N_per_m * pow(fmax(left, 1e-3), 2) / (1 + error);
+    return own < times * bodies_N_per_m ? 1 / (1 / own + 1 / bodies_N_per_m) : HUGE_VAL;
+}

@@ -8,6 +8,7 @@
 #include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>

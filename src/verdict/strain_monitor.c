@@ -9,6 +9,7 @@
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
+#include <string.h>
 
 enum { FW_GLANCED = 64 }; /* hinges whose thirds are kept; of more all instants are taken */
 
@@ -487,4 +488,41 @@ fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v
         allowed);
     FW_NEED(text);
     return fw_verdict_scene_reason(v, s, FW_VERDICT_BODIES, FW_INCONCLUSIVE, 0.98 / worst, text);
+}
+
+/* ---- solids of a hinge that meet before it has turned that far ---- */
+
+fw_verdict_decision fw_verdict_by_band(const fw_verdict_hinge_verdict *h) {
+    return h->touches && !h->open && h->utilisation_high < 1 ? FW_ACCEPT : h->decision;
+}
+
+fw_status fw_verdict_touching(fw_arena *arena, const fw_layout_hinge_layout *drawn,
+                              const fw_verdict_hinge_verdict *h, fw_diags *diags,
+                              fw_verdict_variant_verdict *v) {
+    enum { FEW = 3, MOST = 9 }; /* digits: as many as tell the two angles apart */
+    char peak[32] = "", room[32] = "";
+    const char *text;
+    if (!h->touches || (!diags && h->decision != FW_INCONCLUSIVE)) return FW_OK;
+    for (int digits = FEW; digits <= MOST && strcmp(peak, room) == 0; digits++) {
+        fw_number_text(peak, sizeof peak, fabs(h->peak_angle_rad) * FW_DEG_PER_RAD, digits);
+        fw_number_text(room, sizeof room, drawn->free_rad * FW_DEG_PER_RAD, digits);
+    }
+    FW_NEED(text = fw_arena_printf(
+                arena,
+                "%s%s turns by %s%s deg in %s (%s), but its drawn solids touch at %s deg: use a "
+                "smaller subtended angle, a longer arc or a smaller load",
+                FW_NAMED("hinge", h->id), h->peak_angle_rad < 0 ? "-" : "", peak, h->scene,
+                h->flow ? h->flow : "the device's own material", room));
+    if (diags) {
+        fw_diag_warning(diags, 204, v->mechanism->device->revolute[h->joint].place, "%s", text);
+        return FW_OK;
+    }
+    const double keep = drawn->free_rad / fabs(h->peak_angle_rad);
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = h->scene,
+                                                  .flow = v->mechanism->variant->flow,
+                                                  .number = 204,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = keep,
+                                                  .text = text};
+    return FW_OK;
 }

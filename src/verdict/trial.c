@@ -100,7 +100,7 @@ static int scene_of(const fw_device *d, const char *name) {
 
 /* hinges, requirements and clearances have numbers of their own */
 static bool has_number(const fw_verdict_reason *r) {
-    static const int own[] = {237, 238, 294, 295, 330};
+    static const int own[] = {204, 237, 238, 294, 295, 330};
     for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
         if (r->number == own[i]) return true;
     return false;

@@ -362,19 +362,6 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     return FW_OK;
 }
 
-static void warn_touching(const fw_device *device, const fw_layout_hinge_layout *drawn,
-                          const fw_verdict_hinge_verdict *h, fw_diags *diags) {
-    char peak[32], free_turn[32];
-    double degrees = 180.0 / FW_PI;
-    fw_diag_warning(diags, 204, device->revolute[h->joint].place,
-                    "%s%s turns by %s deg in %s (%s), but its drawn solids touch at %s deg: "
-                    "use a smaller subtended angle, a longer arc or a smaller load",
-                    FW_NAMED("hinge", h->id),
-                    fw_number_text(peak, sizeof peak, h->peak_angle_rad * degrees, 3), h->scene,
-                    h->flow ? h->flow : "the device's own material",
-                    fw_number_text(free_turn, sizeof free_turn, drawn->free_rad * degrees, 3));
-}
-
 /* before anything was run */
 static fw_verdict_hinge_verdict blank_verdict(const judged *by) {
     const fw_flexure_limit *limit = fw_flexure_limits_governing(&by->hinge->limits);
@@ -430,7 +417,7 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         widen(shaken ? shaken->factor + 2 * k : NULL, &now);
         widen(shaken && shaken->grown ? shaken->grown + 2 * k : NULL, &now);
         if (shaken && shaken->flexed) weigh_on(shaken->flexed + 2 * k, &now);
-        if (now.touches) warn_touching(device, by->drawn, &now, diags);
+        if (now.touches) FW_TRY(fw_verdict_touching(arena, by->drawn, &now, diags, v));
         used[i] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
     }
@@ -438,11 +425,11 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
     if (v->workspace.required && v->workspace.reachable && by->hinge->pin < FW_SIX) {
         fw_verdict_hinge_verdict now = blank;
         judge_workspace(by, &v->workspace, &now);
-        if (now.touches) warn_touching(device, by->drawn, &now, diags);
+        if (now.touches) FW_TRY(fw_verdict_touching(arena, by->drawn, &now, diags, v));
         used[device->nscene] = now.utilisation;
         fw_verdict_keep_worst(&v->hinge[k], &now);
     }
-    return FW_OK;
+    return fw_verdict_touching(arena, by->drawn, &v->hinge[k], NULL, v);
 }
 
 /* ---- the share of a failure probability that each hinge may have ----

@@ -582,3 +582,17 @@ fw_status fw_verdict_out_of_plane_judge(fw_arena *arena, const fw_mechanism *m, 
     }
     return FW_OK;
 }
+
+/* It is most of what a verdict costs out of the plane. Where nobody reads it, it still has a say by weight over a carrier, and where
+   scenes are shaken or weigh in the plane. */
+fw_status fw_verdict_hung_says(fw_arena *arena, const fw_mechanism *m, bool *says) {
+    const fw_device *d = m->device;
+    *says = m->variant->below.known && !m->variant->below.open;
+    for (int i = 0; i < d->nscene && !*says; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        if (!fw_device_in_flow(s->flow, m->variant->flow)) continue;
+        *says = s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0 || s->nbase > 0;
+        if (!*says) FW_TRY(fw_verdict_is_shaken(arena, m, i, says));
+    }
+    return FW_OK;
+}

@@ -83,6 +83,14 @@ fw_status fw_verdict_required_poses(fw_arena *arena, fw_verdict_variant_verdict 
 fw_status fw_verdict_workspace_reason(fw_verdict_variant_verdict *v, int number,
                                       fw_verdict_decision decision, const char *text);
 
+/* its decision by its band alone, where that its solids meet stands among the reasons */
+fw_verdict_decision fw_verdict_by_band(const fw_verdict_hinge_verdict *h);
+/* strain_monitor.c, of a hinge whose drawn solids meet before its peak angle (FW-D204): a warning, or with `diags` NULL a reason of v
+   where that alone leaves it undecided */
+fw_status fw_verdict_touching(fw_arena *arena, const fw_layout_hinge_layout *drawn,
+                              const fw_verdict_hinge_verdict *h, fw_diags *diags,
+                              fw_verdict_variant_verdict *v);
+
 /* a scene acts across the plane, or a mode there is asked for */
 bool fw_verdict_out_of_plane_asked(const fw_mechanism *mechanism);
 /* v->out_of_plane, and reasons of v. brief: only where something asks. lean: nobody reads what hangs over (body_hung.c) */
@@ -135,9 +143,6 @@ double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dyna
 fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     const struct fw_verdict_hung *hung, const fw_device_probe *but,
                                     double *to, double *apart_m);
-/* strain_monitor.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
-fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v,
-                                  const struct fw_verdict_hung *hung, int scene);
 
 /* ---- verdict_stiction.c: what a liquid pulls, and what adhesion holds ---- */
 
@@ -228,8 +233,6 @@ struct fw_verdict_shaken {
         *own;                  /* what bodies do by modes of their own (body.h); NULL: nothing */
     fw_verdict_other other[2]; /* softer, with all of the pull, and stiffer, with the least of it */
 };
-/* body_farther.c: what bodies do by modes of their own in its scene, in low and high */
-void fw_verdict_swings_required(const fw_verdict_variant_verdict *v, fw_verdict_requirement *r);
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);

@@ -430,7 +430,7 @@ static fw_verdict_check hinge_check(const fw_verdict_hinge_verdict *h, const cha
                               .corner = corner,
                               .t_s = h->t_s,
                               .most = (double)NAN,
-                              .decision = h->decision,
+                              .decision = fw_verdict_by_band(h),
                               .hinge = h};
 }
 

@@ -240,6 +240,24 @@ class Flowback(unittest.TestCase):
                                         "resist width against the mask=-0.2 m", "--wafer", "1"), 3)
         self.assertIn("FW-D278", said.stderr)
 
+    def test_a_difference_is_one_wherever_its_limits_lie(self):
+        """a pack with a larger edge of the aluminium puts both limits of a line's width against the drawn one above 0; what was logged by
+        limits below 0 is read as it stands"""
+        lab = self.here / "lab.xml"
+        lab.write_text('<process xmlns="urn:flexwright:process:1" id="laboratory" version="1" title="x" flow="al-masked-rie">'
+                       '<source id="laboratory" kind="measured">x</source>'
+                       '<q id="made.al-edge" value="1.15" u="0.02" unit="um" status="measured" src="laboratory"/></process>')
+        entry = "S15; start=2026-11-02T10:00; end=2026-11-02T10:07; by=AB; line width in aluminium against the drawn one="
+        for number, (packs, width) in enumerate((((), "-1.9"), (("--lab", lab), "-0.05"), (("--lab", lab), "none"))):
+            self.log = self.here / f"difference{number}.log"
+            self.expect(self.command("--entry", f"{entry}{width}{'' if width == 'none' else ' um'}", "--wafers", "1", "-q", *packs))
+            done = json.loads(self.expect(self.command("--json", *packs)).stdout)
+            (measured,) = [s["measured"][0] for s in done["steps"] if s["id"] == "S15"]
+            self.assertEqual(measured["value"], 0 if width == "none" else float(width))
+            self.assertEqual(measured["accepted"], not packs)
+        self.log = self.here / "difference0.log"
+        self.expect(self.command("--entry", "plan; start=2026-11-03T08:00; by=AB; note=the edge was measured", "-q", "--lab", lab))
+
     def test_every_line_of_every_sheet_can_be_typed(self):
         """what has a cell for what was really set or measured, of all five flows, by the name that is printed"""
         for flow in ("al-masked-rie", "copper-on-porous-silicon", "soi-deep-rie", "silicon-on-glass", "soi-double-sided"):

@@ -140,6 +140,17 @@ class Plan(InTemporary):
         result = self.expect(run("check", GALLERY, "--set", "flexure[A]/@angle=330 deg", *QUIET), 1)
         self.assertIn("INCONCLUSIVE, but cannot be made in ", result.stdout)
         self.assertIn("FW-D204", result.stderr)
+        self.assertRegex(result.stdout, r"\ninconclusive because: hinge A turns by -[0-9.]+ deg in step-load .*, but its drawn solids touch at [0-9.]+ deg.* \[FW-D204\]\n")
+
+    def test_what_leaves_a_corner_undecided_is_named_and_the_worst_corner_is_the_worst(self):
+        """no hinge comes to its limit, but the solids of one of them meet before, in what the flow makes"""
+        data = json.loads(run("check", GALLERY, "--set", "link=150 um", "--set", "scene[step-load]/force/@fx=0.294 mN", "--advice", "none", "--json").stdout)
+        self.assertEqual((data["verdict"], data["drawn"]), ("inconclusive", "accept"))
+        self.assertLess(max(h["utilisation_band"][1] for h in data["hinges"]), 1)
+        because = [l["text"] for l in data["summary"] if l["label"] == "inconclusive because"]
+        self.assertRegex("\n".join(because), r"hinge F turns by ([0-9.]+) deg in step-load .*, but its drawn solids touch at (?!\1 )[0-9.]+ deg")
+        self.assertEqual(data["governing"]["id"], "A")
+        self.assertEqual(data["governing"]["utilisation"], max(h["as_fabricated"]["utilisation"] for f in data["flows"] for h in f["hinges"]))
 
     def test_required_poses_stay_off_the_frame(self):
         """an eyelet of the platform stands 70 um below the frame in the least pose of a box of +40 um, and meets it at +150 um"""

@@ -46,9 +46,16 @@ describe("commands as cards", () => {
         await page.click('#ladder button:has-text("Compare their models")');
         await ran("ladder");
         const told = print("hinge", server.file);
-        assert.equal(await page.locator("#ladder tbody tr").count(), told.hinges.reduce((n, x) => n + x.levels.length, 0));
+        assert.equal(await page.locator("#ladder tbody tr:not(.ladder-note)").count(), told.hinges.reduce((n, x) => n + x.levels.length, 0));
         const mine = await page.evaluate(() => globalThis.flexwright.parts.accuracy.ladder.view.job.result.hinges.map((x) => [x.id, x.levels.map((y) => y.stiffness_Nm_per_rad)]));
         assert.deepEqual(mine, told.hinges.map((x) => [x.id, x.levels.map((y) => y.stiffness_Nm_per_rad)]));
+        // the command's words about each: what is used, what the errors rest on, why one is enough
+        const notes = await page.locator("#ladder .ladder-note").allTextContents();
+        assert.equal(notes.length, told.hinges.length);
+        for (const [i, x] of told.hinges.entries()) {
+            assert.ok(notes[i].includes(x.picked.why) && /stiffness used: [\d.]+ .?N m\/rad/.test(notes[i]), notes[i]);
+            assert.equal(/outside of the shapes that were compared with finite elements: errors are guesses/.test(notes[i]), x.levels.some((y) => y.error?.outside));
+        }
         await clean("ladder");
     });
 

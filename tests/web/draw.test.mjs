@@ -271,6 +271,26 @@ describe("what is there is dragged", () => {
         assert.ok(seen.length > 25);
     });
 
+    test("at any scale the arrow of a load is as long, and ends inside of the fitted picture", async () => {
+        for (const size of [{ width: 1024, height: 768 }, { width: 1440, height: 900 }]) {
+            await page.setViewportSize(size);
+            await load("reference-six-bar");
+            const ends = () => page.evaluate(() => {
+                const r = globalThis.flexwright.parts.draw.stage.getBoundingClientRect();
+                return [...document.querySelectorAll("#panel-draw .draw-handle.tip .reach")].map((e) => {
+                    const q = e.getBoundingClientRect();
+                    const path = /M([-\d.]+) ([-\d.]+)L([-\d.]+) ([-\d.]+)/.exec(document.querySelector("#panel-draw .tip-stem").getAttribute("d")).slice(1).map(Number);
+                    return { inside: q.left > r.left && q.right < r.right && q.top > r.top && q.bottom < r.bottom, long: Math.hypot(path[2] - path[0], path[3] - path[1]) };
+                });
+            });
+            await page.evaluate(() => globalThis.flexwright.parts.draw.view.fit());
+            assert.ok((await ends()).length > 0 && (await ends()).every((x) => x.inside), JSON.stringify(await ends()));
+            const [{ long }] = await ends();
+            await page.evaluate(() => globalThis.flexwright.parts.draw.view.zoom(1.7));
+            assert.ok(Math.abs((await ends())[0].long - long) < 1 || long < 62, `${long}, ${(await ends())[0].long}`);
+        }
+    });
+
     test("expressions are read as the program reads them", async () => {
         const list = ["1 um", "-2^2", "2^-1 * 4", "3 um*2 + 4 um/2", "2*span", "-span", "span/3 - 5 um", "sqrt(9) * 1 mm", "min(1 um, 2 um, span)", "atan2(1, -1)", "30 deg", "1e-3 m", "2 N m/rad", "0.3 kg/A/s^2", "5 N/m^2", "pi*1 um", ".5 mm", "((1 um))", "1 um * cos(60 deg)", "2 m s^-1"];
         await load("free-form-gripper");
@@ -293,6 +313,8 @@ describe("what is there is dragged", () => {
         await drag(page, [-600, 0], [-700, 0], { release: false });
         await page.waitForFunction(() => /^700 um|^0.7 mm/.test(globalThis.flexwright.state.set.span ?? ""));
         assert.equal(await text(page), xml, "the text waits until it is let go");
+        const told = () => page.evaluate(() => Number(document.querySelector('#panel-draw .pose-fields input[aria-label="x, µm"]').value));
+        assert.equal(await told(), -700, "the panel tells where it is now");
         await page.waitForFunction(() => document.querySelector(".draw-stage").dataset.of === "present" && !document.querySelector(".draw-stage.old")); // the picture follows
         await changed(page, () => page.mouse.up());
         assert.equal(await text(page), xml.replace('name="span" value="0.6 mm"', 'name="span" value="0.7 mm"'));
@@ -300,6 +322,23 @@ describe("what is there is dragged", () => {
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.state.set), {});
         await page.click("#undo");
         assert.equal(await text(page), xml);
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        assert.equal(await told(), -600);
+        // a mistake that was told of the text is none of what is dragged, until that is answered; then it is what the answer says
+        await answered(page, () => setText(page, ['<revolute id="A"', '<revolute id="A" stop-max="-400 deg"']));
+        const fault = () => page.evaluate(() => [...document.querySelectorAll("#panel-draw .pose-status.bad")].filter((e) => !e.hidden).map((e) => e.textContent).join());
+        await page.waitForFunction(() => globalThis.flexwright.settled(false));
+        assert.notEqual(await fault(), "");
+        await page.route("**/api/preview", async (route) => {
+            await new Promise((resolve) => setTimeout(resolve, 600));
+            await route.continue().catch(() => {}); // it may be given up
+        });
+        await drag(page, [-600, 0], [-650, 0], { release: false });
+        assert.equal(await fault(), "");
+        await page.waitForFunction(() => [...document.querySelectorAll("#panel-draw .pose-status.bad")].some((e) => !e.hidden), null, { timeout: 20000 });
+        await page.keyboard.press("Escape");
+        await page.mouse.up();
+        await page.unrouteAll({ behavior: "wait" });
     });
 
     test("a drag is the same in however many moves the pointer does it: what is asked for, what is written, and what undo takes back", async () => {

@@ -6,6 +6,7 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { answered, axeSource, close, finish, open, program, ready, serve, setText, source, text, view, SMALL } from "./helper.mjs";
+import { stretches, told } from "../../web/src/exploring.js";
 
 after(finish);
 
@@ -24,6 +25,14 @@ const setRange = async (page, which, from, to) => {
     await page.fill(`[aria-label="${which} input, to"]`, to);
     await page.press(`[aria-label="${which} input, to"]`, "Tab");
 };
+
+test("what is told as accepted lies within what was accepted", () => {
+    const points = [[6, "reject"], [6.97951, "reject"], [6.98049, "accept"], [9, "accept"], [11.96751, "accept"], [11.96849, "reject"], [20, "reject"]].map(([x, state]) => ({ x, state }));
+    const list = told(stretches(points, true), points);
+    assert.deepEqual(list.map((r) => [r.state, r.from, r.to]), [["reject", "6", "6.981"], ["accept", "6.981", "11.96"], ["reject", "11.96", "20"]]);
+    const all = [{ x: 0, state: "accept" }, { x: 1 / 3, state: "accept" }];
+    assert.deepEqual(told(stretches(all, true), all).map((r) => [r.from, r.to]), [["0", "0.3333"]]);
+});
 
 describe("a range", () => {
     let server, page;
@@ -45,6 +54,9 @@ describe("a range", () => {
         assert.ok(list.length >= 51 && list.length <= 202, String(list.length));
         assert.ok(list.some((p) => p.x === 8) && list.some((p) => p.x === 6) && list.some((p) => p.x === 16));
         assert.match(await page.textContent(".explore-summary"), /^[A-Z].* from 6 to .* um/);
+        await page.emulateMedia({ forcedColors: "active" });
+        assert.equal(await page.evaluate(() => getComputedStyle(document.querySelector(".explore-band-key")).forcedColorAdjust), "none");
+        await page.emulateMedia({ forcedColors: null });
     });
 
     test("points are what check says of these devices", async () => {

@@ -150,6 +150,24 @@ describe("numbers of the laboratory", () => {
         await page.waitForFunction(() => /with your laboratory's numbers/.test(document.querySelector(".as-drawn").textContent));
     });
 
+    test("what is saved is what the table shows, and nothing that the command line would refuse", async () => {
+        const value = row("al.R").locator("input").first();
+        await value.fill("41.5");
+        const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#lab-save")]);
+        assert.match(readFileSync(await saved.path(), "utf8"), /<q id="al\.R" value="41\.5" u="1\.5"/);
+        assert.match(await page.evaluate((f) => globalThis.flexwright.state.lab[`entered-${f}.xml`], FLOW), /value="41\.5"/);
+        let downloads = 0;
+        page.on("download", () => downloads++);
+        await value.fill("-20");
+        await page.click("#lab-save");
+        await page.locator(".laboratory .messages li", { hasText: "Not saved: entered-" }).waitFor();
+        assert.match(await page.textContent(".laboratory .messages"), /FW-D278/);
+        assert.equal(downloads, 0);
+        await value.fill("38.5");
+        await page.click("#lab-use");
+        await page.waitForFunction(() => globalThis.flexwright.parts.recipe.body.dataset.of === "present", null, { timeout: 60000 });
+    });
+
     test("beside the table stands what is in use, and what is entered and not used yet", async () => {
         const used = () => row("al.R").locator(".lab-used").textContent();
         assert.match(await row("al.R").textContent(), /^sputter rate.*al\.R/); // as before it was used

@@ -174,13 +174,22 @@ describe("the six-bar", () => {
         await computed(page, "modes");
         assert.equal(await page.locator(".mode").count(), 3);
         assert.match(await page.locator(".mode").first().textContent(), /510\.8 Hz/);
+        const said = await page.textContent("#panel-modes .job-content");
+        assert.match(said, /Lowest of all: 510\.8 Hz, in the plane\./);
+        assert.match(said, /These frequencies are off by up to 0\.86 %/);
+        assert.match(said, /Out of the plane521\.7 Hz CD goes up and down/);
+        assert.match(await page.textContent("#right .across"), /swings out of the plane from 521\.7 Hz on \(.*Drying: /s);
         await view(page, "assembly");
         await computed(page, "assembly");
         assert.match(await page.textContent("#panel-assembly .job-content"), /3: 15 coordinates, 12 conditions/);
         assert.ok(await page.locator("#panel-assembly .ghost g").count() >= 5);
     });
 
-    test("masks: outlines lie on the layers, layers hide, the ruler measures", async () => {
+    test("masks: outlines lie on the layers, also where they were made while another tab was looked at; layers hide, the ruler measures", async () => {
+        await view(page, "masks");
+        await page.waitForFunction(() => globalThis.flexwright.parts.masks.job.control !== null);
+        await view(page, "motion");
+        await page.waitForFunction(() => globalThis.flexwright.parts.masks.job.control === null && globalThis.flexwright.parts.masks.done, null, { timeout: 60000 });
         await view(page, "masks");
         await computed(page, "masks");
         const off = await page.evaluate(() => {
@@ -409,6 +418,23 @@ describe("the six-bar", () => {
             assert.match(await page.locator("#banner strong").innerText(), /Accepted$/);
         }
         await page.unroute("**/api/jobs/*");
+    });
+
+    test("a run of keys on a slider is one step of the history; what another page has ended can be ended again", async () => {
+        const slider = page.locator('[data-parameter="link"]');
+        const before = await page.evaluate(() => [globalThis.flexwright.parts.editor.depths[0], globalThis.flexwright.state.text]);
+        await slider.focus();
+        for (let i = 0; i < 4; i++) await page.keyboard.press("ArrowRight");
+        await page.waitForFunction((t) => globalThis.flexwright.state.text !== t && globalThis.flexwright.settled(false), before[1]);
+        assert.equal(await page.evaluate(() => globalThis.flexwright.parts.editor.depths[0]), before[0] + 1);
+        await answered(page, () => page.click("#undo"));
+        assert.equal(await text(page), before[1]);
+        const gone = await page.evaluate(async () => {
+            const { token } = await (await fetch("/api/session", { credentials: "same-origin" })).json();
+            const answer = await fetch("/api/jobs/999999", { method: "DELETE", credentials: "same-origin", headers: { "X-Flexwright-Token": token } });
+            return [answer.status, await answer.json()];
+        });
+        assert.deepEqual(gone, [200, { id: 999999, state: "gone" }]);
     });
 
     test("the slider: how long until the new motion is seen", async (t) => {

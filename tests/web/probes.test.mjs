@@ -3,11 +3,12 @@
 // bounds beside the angles, or how fast it changes, where points go and how fast, what was left out. A device without
 // probes has the points.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, close, finish, open, program, serve, setText, SMALL, verdict } from "./helper.mjs";
+import { requirementsOf } from "../../web/src/purpose.js";
+import { answered, close, finish, open, program, serve, setText, SMALL, source, verdict } from "./helper.mjs";
 
 after(finish);
 
@@ -26,9 +27,50 @@ describe("probes", () => {
 
     test("requirements stand beside the verdict, with value and bound", async () => {
         await verdict(page, "accept");
+        await page.waitForFunction(() => globalThis.flexwright.parts.verdict.judged === null);
         const said = await page.locator(".purpose").innerText();
-        for (const word of ["stroke (final, draw)", "at least 40 µm: accepted", "frequency-1", "at least 400 Hz"]) assert.ok(said.includes(word), `${word} in ${said}`);
-        assert.match(said, /tension \(peak, draw\)\s+115 µN/);
+        for (const word of ["stroke (final, draw)", "at least 40 µm: accepted as drawn", "frequency-1", "at least 400 Hz"]) assert.ok(said.includes(word), `${word} in ${said}`);
+        assert.match(said, /tension \(peak, draw\)\s+115 µN as drawn, at a first look/);
+        assert.equal(await page.locator(".purpose dd.accept").count(), 0, "a first look accepts nothing, and nothing is green");
+        assert.match(said, /tilt \(peak, draw\)\s+not known with hinges as pins/, "rounding noise is no result");
+    });
+
+    test("what only flexing hinges do is not drawn as a curve of a look with pins", async () => {
+        const box = page.locator('.plots select[aria-label="What is plotted"]');
+        for (const id of ["tilt", ":rate tilt"]) {
+            await box.selectOption(id);
+            await page.locator(".course-unknown", { hasText: "tilt is not known with hinges as pins" }).waitFor();
+            assert.match(await page.evaluate(() => globalThis.flexwright.parts.motion.course.csv()), /^t_ms,tilt.*\n# tilt is not known.*\n$/);
+        }
+        await box.selectOption("stroke");
+        assert.match(await page.locator(".plots .plot").last().locator(".plot-unit").innerText(), /µm, hinges as pins/);
+    });
+
+    test("as soon as the verdict is there, each number, band and decision of the card is the verdict's", async () => {
+        await page.waitForFunction(() => globalThis.flexwright.parts.verdict.judged, null, { timeout: 60000 });
+        const done = spawnSync(program, ["check", server.file, "--json"], { cwd: source, maxBuffer: 64 << 20 });
+        const told = JSON.parse(done.stdout);
+        const said = (await page.locator(".purpose").innerText()).replaceAll("\u2212", "-");
+        const si = (x, unit) => {
+            const [prefix, size] = [["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9]].find(([, f]) => Math.abs(x) >= f * 0.9995);
+            return `${Number((x / size).toPrecision(4))} ${prefix}${unit}`;
+        };
+        for (const r of told.requirements) {
+            const made = r.as_fabricated;
+            for (const x of [`${si(made.value, r.unit)} (${si(made.band[0], r.unit)} to ${si(made.band[1], r.unit)}) as made`, `to ${si(made.all_corners_band[1], r.unit)} over all corners`, `${si(r.value, r.unit)} (`]) assert.ok(said.includes(x), `${x} in ${said}`);
+        }
+        const tilt = told.probes.find((x) => x.id === "tilt");
+        assert.ok(said.includes(si(tilt.peak, "rad")), `${tilt.peak} in ${said}`);
+        assert.equal(await page.locator(".purpose dd.accept").count(), told.requirements.length);
+    });
+
+    test("a requirement that the worst device of the flow does not hold is undecided, not accepted as the drawing is", () => {
+        const one = (drawn, made) => requirementsOf({ requirements: [{ verdict: drawn, value: 114.3, band: [102.4, 117.9], as_fabricated: made && { verdict: made, value: 83.8, band: [75.83, 86.25], all_corners_band: [75.83, 153.1], corner: "thickness 8.1 um" } }] }, made === null)[0];
+        for (const [drawn, made, word] of [["accept", "accept", "accept"], ["accept", "reject", "inconclusive"], ["accept", "inconclusive", "inconclusive"], ["inconclusive", "accept", "inconclusive"], ["reject", "accept", "reject"]]) {
+            assert.equal(one(drawn, made).decision, word, `${drawn}, ${made}`);
+            assert.deepEqual([one(drawn, made).value, one(drawn, made).basis], [83.8, "as made"]);
+        }
+        assert.deepEqual([one("accept", null).value, one("accept", null).first], [114.3, true]);
     });
 
     test("a probe is plotted with its bounds, and another can be chosen", async () => {
@@ -60,6 +102,18 @@ describe("probes", () => {
             return data.series.map((x) => [x.name, x.values[i]]);
         }, t);
         for (const [name, v] of told) assert.ok(said.includes(`${name} ${String(Number(v.toPrecision(4))).replace("-", "\u2212")}`), `${name} ${v} in ${said}`);
+        const values = () => page.evaluate((at) => { // of the present answer, at the pointer that has not moved
+            const { data } = globalThis.flexwright.parts.motion.angles;
+            const i = data.t.reduce((best, x, k) => (Math.abs(x - at) < Math.abs(data.t[best] - at) ? k : best), 0);
+            return data.series.map((x) => `${x.name} ${String(Number(x.values[i].toPrecision(4))).replace("-", "\u2212")}`);
+        }, t);
+        const [former] = await values();
+        for (const [was, is] of [["115 uN", "90 uN"], ["90 uN", "115 uN"]]) {
+            await answered(page, () => setText(page, [`value="${was}"`, `value="${is}"`]));
+            await page.waitForTimeout(50);
+            for (const x of await values()) assert.ok((await look.innerText()).includes(x), `${x} in ${await look.innerText()}`);
+            assert.equal((await values())[0] === former, is === "115 uN");
+        }
         const whole = (await window())[0];
         await page.mouse.wheel(0, -400);
         const [one, other] = await window();
@@ -89,6 +143,17 @@ describe("probes", () => {
         assert.deepEqual(drawn, ["svg", data.series.length + data.marks.length, 0]);
         figure(svg);
         await page.keyboard.press("Escape");
+    });
+
+    test("plots have the time of their scene when its length changes, zoomed or not", async () => {
+        const ends = () => page.evaluate(() => ["angles", "energy", "course"].map((k) => globalThis.flexwright.parts.motion[k].plot.scales.x.max));
+        for (const [was, is, zoomed] of [["40 ms", "60 ms", false], ["60 ms", "40 ms", true]]) {
+            if (zoomed) await page.evaluate(() => globalThis.flexwright.parts.motion.angles.onwindow([50, 60]));
+            await answered(page, () => setText(page, [`duration="${was}"`, `duration="${is}"`]));
+            await page.waitForFunction(() => globalThis.flexwright.settled(false));
+            await page.waitForTimeout(50);
+            assert.deepEqual(await ends(), Array(3).fill(parseFloat(is)));
+        }
     });
 
     test("paths of what moves are drawn where the motion takes it", async () => {
@@ -131,6 +196,15 @@ describe("probes", () => {
 
     test("velocities of probes and points are the program's, and what was left out has its bounds; each is saved", async () => {
         await page.setViewportSize(SMALL);
+        // of the hinge that is looked at the heading tells what is plotted
+        await page.evaluate(() => globalThis.flexwright.parts.motion.seek(0.02, true));
+        const heading = () => page.locator(".plots .plot").first().locator(".plot-value").innerText();
+        await page.locator('.bar[data-hinge="A"]').click();
+        assert.match(await heading(), /^A: [\d.]+ %$/);
+        await page.click('.plots button:has-text("degrees")');
+        assert.match(await heading(), /^A: .?[\d.]+°$/);
+        await page.click('.plots button:has-text("degrees")');
+        await page.locator('.bar[data-hinge="A"]').click();
         const box = page.locator('.plots select[aria-label="What is plotted"]');
         const chosen = async (id, rates) => {
             await box.selectOption(id);
@@ -159,6 +233,10 @@ describe("probes", () => {
         await chosen(":v stage", true);
         figure((await saved("Save as SVG"))[1]);
         await box.selectOption(":left");
+        assert.ok(await page.evaluate(() => { // nobody has asked the first look for pins
+            const { course } = globalThis.flexwright.parts.motion;
+            return /nonlinear-hinge,0,.*this first look takes hinges as pins/.test(course.csv()) && !/asked for \(--hinge-model revolute\)/.test(course.csv() + document.querySelector(".ledger").textContent);
+        }));
         const told = await page.locator(".leftout-row").evaluateAll((rows) => rows.map((r) => [r.querySelector(".leftout-name").textContent, r.classList.contains("active"), r.getAttribute("aria-label")]));
         const ledger = await page.evaluate(() => globalThis.flexwright.state.preview.ledger.filter((e) => e.called_for).map((e) => [e.id, e.active]));
         assert.deepEqual(told.map(([id, active]) => [id, active]).sort(), ledger.sort());

@@ -46,6 +46,28 @@ describe("a device that is rejected for fatigue", () => {
         assert.deepEqual(shown.limit, { y: 100, text: "fatigue limit" });
     });
 
+    test("the lowest frequency is that of check and modes, out of the plane too, in Modes and in Explore", async () => {
+        const done = spawnSync(program, ["modes", server.file, "--json"], { cwd: source, maxBuffer: 64 << 20 });
+        const told = JSON.parse(done.stdout);
+        const [inside, across] = [told.modes[0].f_Hz, told.out_of_plane.modes[0].f_Hz];
+        assert.ok(across < inside);
+        await view(page, "modes");
+        await computed(page, "modes");
+        assert.equal(await page.textContent("#panel-modes .mode-lowest strong"), `${Number(across.toPrecision(4))} Hz`);
+        await view(page, "explore");
+        for (const [id, f] of [["frequency", across], ["frequency-in", inside], ["frequency-out", across]]) {
+            await page.selectOption('select[aria-label="Number"]', id);
+            await page.waitForFunction((x) => globalThis.flexwright.parts.explore.spec.number.id === x && globalThis.flexwright.parts.explore.done.size > 2, id, { timeout: 60000 });
+            const now = await page.evaluate(() => {
+                const { done: all, spec } = globalThis.flexwright.parts.explore;
+                const [x] = spec.inputs;
+                return [...all.values()].reduce((a, b) => (Math.abs(b.x - x.now) < Math.abs(a.x - x.now) ? b : a)).value;
+            });
+            assert.ok(Math.abs(now / f - 1) < 0.02, `${id}: ${now}, ${f}`);
+        }
+        await view(page, "motion");
+    });
+
     test("masks and recipes of a rejected design say why there are none, and what was not checked", async () => {
         await view(page, "masks");
         const words = page.locator("#panel-masks .empty:visible", { hasText: "no rule was checked" });
@@ -300,6 +322,14 @@ test("a slider below what can be made says why at its place, and from which valu
     assert.equal(decision(from), 0);
     assert.notEqual(decision(from - 0.1), 0);
     await slide("10");
+    await box.waitFor({ state: "hidden" });
+    // a hinge alone rejects it
+    await answered(page, () => setText(page, ['safety-factor="2"', 'safety-factor="4.8"']));
+    await slide("6");
+    await box.getByText(/At 6 um: hinge A uses 1\d\d\.\d % of its elastic limit/).waitFor();
+    await box.getByText(/accepted (from|at)/).first().waitFor();
+    await slide("10");
+    await answered(page, () => setText(page, ['safety-factor="4.8"', 'safety-factor="2"']));
     await box.waitFor({ state: "hidden" });
     // in another unit than its ends: the value is the only mistake, all of its sentence is told, and what works is found
     const typed = page.locator('.slider[data-name="width"] input.value');

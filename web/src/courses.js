@@ -53,15 +53,15 @@ function ofPoints(p) {
 }
 
 /**
- * [{group, id (of a probe its own), label, unit, probe, rates: it needs a motion with velocities, log, curves(): [{name, values
+ * [{group, id (of a probe its own), label, unit, probe, of: the probe that it is about, rates: it needs a motion with velocities, log, curves(): [{name, values
  * in SI}]}]; curves only where motion.v is there, if rates.
  */
 export function coursesOf(p) {
     const m = p.motion;
     const probes = m.probes ?? [];
     return [
-        ...probes.map((x) => ({ group: "Probes", id: x.id, label: x.id, unit: x.unit, kind: x.kind, probe: x, curves: () => [{ name: x.id, values: x.value }] })),
-        ...probes.filter((x) => ["m", "rad"].includes(x.unit)).map((x) => ({ group: "How fast probes change", id: `:rate ${x.id}`, label: `${x.id}, rate`, unit: `${x.unit}/s`, rates: true, curves: () => [{ name: `${x.id}, rate`, values: x.rate }] })),
+        ...probes.map((x) => ({ group: "Probes", id: x.id, label: x.id, unit: x.unit, kind: x.kind, probe: x, of: x, curves: () => [{ name: x.id, values: x.value }] })),
+        ...probes.filter((x) => ["m", "rad"].includes(x.unit)).map((x) => ({ group: "How fast probes change", id: `:rate ${x.id}`, label: `${x.id}, rate`, unit: `${x.unit}/s`, rates: true, of: x, curves: () => [{ name: `${x.id}, rate`, values: x.rate }] })),
         ...ofPoints(p),
         ...(m.energy ? [{ group: "Energy", id: ":energy", label: "energies", unit: "J", curves: () => ENERGIES.filter(([, k]) => m.energy[k]).map(([name, k]) => ({ name, values: m.energy[k] })) }] : []),
         ...(m.constraint_norm ? [{ group: "Numerics", id: ":gap", label: "gap of the joints", unit: "", log: true, curves: () => [{ name: "norm", values: m.constraint_norm.map((x) => Math.max(x ?? 0, 1e-18)) }] }] : []),

@@ -17,10 +17,12 @@ import { gridStep, snap } from "./snapping.js";
 import { inputKey, ofAnother, requestKey } from "./belong.js";
 import { emit, lookAt, on, state } from "./store.js";
 import { TOOLS } from "./tools.js";
+import { MARGIN } from "./viewport.js";
 
 const CLICK_PIXELS = 4; // less is no drag
 const TOUCH_PIXELS = 10; // around a body that still hits it
 const TIP_PIXELS = 62; // from a load to the handle of its direction
+const TIP_LEAST = 0.4; // of its length, where there is no room for more
 const TIP_MARGIN = 14; // of that handle, from the edge of the picture
 const EMPTY = [-1000, -800, 1000, 1200]; // um, of a page without anything
 const GRIDS = [["", "grid: auto"], ["0", "no grid"], ["1", "1 µm"], ["5", "5 µm"], ["10", "10 µm"], ["50", "50 µm"], ["100", "100 µm"]];
@@ -48,6 +50,8 @@ export class Draw {
         holder.append(this.bar, h("div", { class: "split" }, this.stage, this.side));
         this.mechanism = new Mechanism(this.stage, { label: "The device as drawn. Arrow keys pan; Tab goes to its handles, which arrow keys move.", around: 0.08, scene: true });
         this.view = this.mechanism.view;
+        // an arrow at the rim of the device has room for the least that it is drawn with
+        this.view.margin = () => (this.list?.some((x) => x.turns) ? Math.max(MARGIN, (TIP_LEAST * TIP_PIXELS + TIP_MARGIN) / Math.min(...this.view.size)) : MARGIN);
         this.stage.append(zoomButtons(() => this.view));
         this.lines = s("path", { class: "draw-grid", "aria-hidden": "true" });
         this.sketch = s("g", { class: "sketch" });
@@ -117,7 +121,9 @@ export class Draw {
     }
 
     #refresh() {
-        if (!this.visible || !this.table || this.drag?.handle) return;
+        if (!this.visible || !this.table) return;
+        if (this.drag?.handle) return this.#values(); // of what is said of it as it is now
+        this.live = null;
         this.#read();
         if (!this.places) return;
         this.list = this.#handlesOf(this.places);
@@ -231,16 +237,18 @@ export class Draw {
         if (this.drawing) this.#rubber();
     }
 
-    /** Where an arrow begins and ends on the screen: shorter where its handle would be out of the picture. */
+    /** Where an arrow begins and ends on the screen: as long at any scale, and shorter where its handle would be out of the picture. */
     #tip(from, to) {
-        const [p, q] = [this.view.toScreen(...from), this.view.toScreen(...to)];
+        const [p, end] = [this.view.toScreen(...from), this.view.toScreen(...to)];
+        const long = Math.hypot(end[0] - p[0], end[1] - p[1]);
+        const q = long > 0 ? p.map((v, k) => v + ((end[k] - v) * TIP_PIXELS) / long) : end; // `to` is of the scale that it was made at
         let share = 1;
         this.view.size.forEach((size, k) => {
             const way = q[k] - p[k];
             const end = Math.min(Math.max(q[k], TIP_MARGIN), size - TIP_MARGIN);
             if (end !== q[k] && p[k] > 0 && p[k] < size) share = Math.min(share, (end - p[k]) / way);
         });
-        share = Math.max(share, 0.4); // it does not lie on the load itself
+        share = Math.max(share, TIP_LEAST); // it does not lie on the load itself
         return [p, q.map((v, k) => p[k] + share * (v - p[k]))];
     }
 
@@ -455,7 +463,9 @@ export class Draw {
         holdTogether(now.changes, d.held.keys());
         d.held = now.changes;
         const list = this.#handlesOf(now.places);
+        this.live = { places: now.places, list };
         this.#paint(now.places, list);
+        this.#values();
         const at = list.find((x) => x.id === d.handle.id)?.at ?? now.target;
         const [dx, dy] = [at[0] - d.handle.at[0], at[1] - d.handle.at[1]];
         const lines = d.handle.look === "tip" || d.handle.look === "side" || d.handle.part === "corner" ? this.#sizes(d.handle, now.places) : [`x ${um(at[0])}, y ${um(at[1])}`, `moved ${um(dx)}, ${um(dy)}`];
@@ -480,6 +490,7 @@ export class Draw {
         }
         const d = this.drag;
         this.drag = null;
+        this.live = null;
         if (!d?.handle) return;
         this.#clear();
         if (d.held.size && ![...d.held.keys()].some((path) => path in state.set)) return this.#refresh(); // it was taken while it was held
@@ -669,7 +680,12 @@ export class Draw {
             this.fields = [];
             this.side.replaceChildren(...(this.tool ? this.#toolPanel() : handle ? this.#handlePanel(handle) : this.#partsPanel()));
         }
-        for (const f of this.fields) f();
+        this.#values();
+    }
+
+    /** What the panel tells of the chosen part; while it is dragged, where it is now. */
+    #values() {
+        for (const f of this.fields ?? []) f();
     }
 
     /** path: where it changes the text, and commit returns the promise of why not, or of null. */
@@ -754,7 +770,7 @@ export class Draw {
     }
 
     #handlePanel(handle) {
-        const now = () => this.list.find((x) => x.id === handle.id) ?? handle;
+        const now = () => (this.live?.list ?? this.list).find((x) => x.id === handle.id) ?? handle;
         const sized = ["side", "tip"].includes(handle.look) || handle.part === "corner";
         const places = h("div", { class: "pose-fields" }, sized ? [] : [0, 1].map((k) => this.#number("xy"[k], "µm", () => Number(now().at[k].toFixed(3)), (v) => this.#goto(now(), now().at.map((w, i) => (i === k ? v : w))), `${DRAWN}${handle.id} ${"xy"[k]}`)));
         const facts = this.#facts(handle).map(([e, attribute]) => {
@@ -763,7 +779,7 @@ export class Draw {
             const label = `${attribute}${other ? ` of ${e.name} ${e.id ?? ""}` : ""}`;
             input.setAttribute("aria-label", label);
             const path = `${e.path}/@${attribute}`;
-            const present = () => this.places.text([...walk(this.root)].find((x) => x.path === e.path) ?? e, attribute) ?? "";
+            const present = () => (this.live?.places ?? this.places).text([...walk(this.root)].find((x) => x.path === e.path) ?? e, attribute) ?? "";
             enter(input, path, present, (value) => edit([{ path, value }], `${label} is ${value}`));
             this.fields.push(() => show(input, path, present()));
             return h("label", { class: "pose-field" }, h("span", {}, label), input);

@@ -6,7 +6,7 @@ import { post } from "./api.js";
 import { begin, inputKey, mayChange, requestKey, Shown } from "./belong.js";
 import { edit, isPresent, lab, taken } from "./design.js";
 import { announce, button, h, select, setOptions } from "./dom.js";
-import { bendOf, bent, CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, POINTS, rounds, stretches, textOf, unitSizes } from "./exploring.js";
+import { bendOf, bent, CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, POINTS, rounds, stretches, textOf, told, unitSizes } from "./exploring.js";
 import { ExplorePlot, legendOf, WORDS } from "./exploreplot.js";
 import { number, percent } from "./format.js";
 import { csvOf, saveAs, svgOf } from "./plotfile.js";
@@ -374,7 +374,8 @@ export class Explore {
     }
 
     #lineWords(x) {
-        const list = stretches(this.#sorted(), this.whole).map((r) => `${WORDS[r.state]} ${r.from === r.to ? `at ${number(r.from, 4)}` : `from ${number(r.from, 4)} to ${number(r.to, 4)}`}${x.unit ? ` ${x.unit}` : ""}`);
+        const points = this.#sorted();
+        const list = told(stretches(points, this.whole), points).map((r) => `${WORDS[r.state]} ${r.from === r.to ? `at ${r.from}` : `from ${r.from} to ${r.to}`}${x.unit ? ` ${x.unit}` : ""}`);
         const words = list.length > 6 ? [...list.slice(0, 6), `and ${list.length - 6} more stretches`] : list;
         const text = words.join("; ");
         const why = [...this.done.values()].find((p) => p.why)?.why;
@@ -443,7 +444,7 @@ export class Explore {
         const p = this.nearest;
         this.use.disabled = p === null;
         if (!p) {
-            this.readout.textContent = "The pointer on the picture, or the slider, tells the value at a place.";
+            this.readout.textContent = "A click on the picture, a drag over it, or the slider tells the value at a place.";
             return;
         }
         const { inputs, number: n } = this.spec;
@@ -499,7 +500,7 @@ function point(p, n) {
     const v = p.values.map((x) => (x === null ? NaN : x * n.factor));
     const first = (list) => list.find(Number.isFinite) ?? NaN;
     const [a, b] = [n.value.length, n.value.length + n.low.length];
-    return { state: p.state, why: p.why, used: p.limit_used, value: first(v.slice(0, a)), low: first(v.slice(a, b)), high: first(v.slice(b, b + n.high.length)) };
+    return { state: p.state, why: p.why, used: p.limit_used, value: n.least ? Math.min(...v.slice(0, a)) : first(v.slice(0, a)), low: first(v.slice(a, b)), high: first(v.slice(b, b + n.high.length)) };
 }
 
 function group(list) {

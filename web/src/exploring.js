@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What can be explored of a text, and at which points: inputs with their present values and usual ranges, numbers of the
 // verdict that can be looked at, and the order in which points are asked for, coarse ones first.
-import { prefixOf, splitQuantity } from "./format.js";
+import { number, prefixOf, splitQuantity } from "./format.js";
 import { evaluate, kindOf } from "./quantities.js";
 import { state } from "./store.js";
 
@@ -93,7 +93,8 @@ export function endOf(text, unit, units) {
 const SHARE = { unit: "%", factor: 100, limits: [1] };
 
 /**
- * [{id, label, unit, factor (from SI), value, low, high: paths of the documents, also: of a hinge as made, limits (SI)}] of
+ * [{id, label, unit, factor (from SI), value, low, high: paths of the documents, also: of a hinge as made, least: the least of all values and not the first that
+ *  is known, and none where one of them is not, limits (SI)}] of
  * a verdict; made: as the flows make it.
  */
 export function numbersToLookAt(v, made) {
@@ -112,7 +113,11 @@ export function numbersToLookAt(v, made) {
         const [prefix, size] = prefixOf(Math.max(...[r.min, r.max, r.value].map((x) => Math.abs(x ?? 0))));
         out.push({ id: `require ${words}`, label: `${r.probe} (${[r.measure ?? r.kind, r.scene].filter(Boolean).join(", ")})`, unit: `${prefix}${r.unit}`, factor: 1 / size, limits: [r.min, r.max].filter((x) => x !== null), value: path("value"), low: path("band[0]"), high: path("band[1]") });
     }
-    out.push({ id: "frequency", label: "Lowest natural frequency, at rest", unit: "Hz", factor: 1, limits: [], value: ["modes:modes[0].f_Hz"], low: [], high: [] });
+    const frequency = (id, label, value, least = false) => out.push({ id, label, unit: "Hz", factor: 1, limits: [], value, low: [], high: [], least });
+    const [inPlane, across] = ["modes:modes[0].f_Hz", "modes:out_of_plane.modes[0].f_Hz"];
+    frequency("frequency", "Lowest natural frequency, in or out of the plane, at rest", [inPlane, across], true);
+    frequency("frequency-in", "Lowest natural frequency in the plane, at rest", [inPlane]);
+    frequency("frequency-out", "Lowest natural frequency out of the plane, of rigid bodies, at rest", [across]);
     return out;
 }
 
@@ -179,4 +184,29 @@ export function stretches(points, middle = true) {
         }
     }
     return out;
+}
+
+const DIGITS = 4; // of an end of a stretch that is told
+
+/** The same with their ends as they are told. What is accepted ends at its own outermost points, rounded inwards: a value within what is
+ *  told was accepted. Whatever lies beside it begins there. */
+export function told(list, points) {
+    const plain = (v) => number(v, DIGITS);
+    const inwards = (v, up) => {
+        const step = v === 0 ? 1 : 10 ** (Math.floor(Math.log10(Math.abs(v))) - DIGITS + 1);
+        const near = Math.round(v / step) * step;
+        return plain(Math.abs(near - v) <= 1e-9 * Math.abs(v) || (up ? near > v : near < v) ? near : near + (up ? step : -step));
+    };
+    const [first, last] = [points[0]?.x, points.at(-1)?.x];
+    const own = list.map((r) => {
+        if (r.state !== "accept") return null;
+        const inside = points.filter((p) => p.state === "accept" && p.x >= r.from && p.x <= r.to).map((p) => p.x);
+        return inside.length ? [inside[0], inside.at(-1)] : [r.from, r.to];
+    });
+    const end = (v, up) => (v === first || v === last ? plain(v) : inwards(v, up));
+    return list.map((r, i) => ({
+        state: r.state,
+        from: own[i] ? end(own[i][0], true) : own[i - 1] ? end(own[i - 1][1], false) : plain(r.from),
+        to: own[i] ? end(own[i][1], false) : own[i + 1] ? end(own[i + 1][0], true) : plain(r.to),
+    }));
 }

@@ -2,6 +2,7 @@
 // The form: the tree of the text's elements, each with the attributes that the description table has
 // for it. It holds nothing: every change goes to the text, and the form is made from the text again.
 import { adding, idsOf, mayAdd } from "./adding.js";
+import { mayChange } from "./belong.js";
 import { edit, hold, isPresent, letGo } from "./design.js";
 import { become, button, h, put, say, setOptions } from "./dom.js";
 import { DRAWN, enter, leave, rebuild, show } from "./entering.js";
@@ -11,6 +12,13 @@ import { parse, walk } from "./model.js";
 import { emit, on, state } from "./store.js";
 import { Works } from "./works.js";
 
+const resting = new Set(); // timers of sliders whose keys rest
+const rested = (timer) => {
+    clearTimeout(timer);
+    resting.delete(timer);
+};
+mayChange(() => resting.size > 0);
+const KEY_REST_MS = 600; // without a key, after which what a slider holds is let go
 let nextId = 0;
 
 export class Form {
@@ -104,14 +112,26 @@ export class Form {
         };
         // A browser tells of no change where the value comes back to what it was, and of nothing where the slider is gone
         // meanwhile: what is held ends with the pointer or the key, too.
+        // A run of keys is one step of the history: what it holds is let go when no key comes for a while.
         let held = null; // {name, value, ends}
-        const release = () => {
+        let byKey = false;
+        let rest = 0;
+        const release = (event) => {
+            rested(rest);
+            rest = 0;
             if (!held) return;
+            if (byKey && ["change", "keyup"].includes(event?.type)) {
+                rest = setTimeout(release, KEY_REST_MS);
+                resting.add(rest);
+                return;
+            }
             const { name: of, value: last, ends: listening } = held;
             held = null;
             listening.abort();
             letGo(of, last);
         };
+        range.addEventListener("keydown", () => (byKey = true));
+        range.addEventListener("pointerdown", () => (byKey = false));
         range.addEventListener("input", () => {
             leave(`${path}/@value`);
             value.value = shown();
@@ -120,6 +140,7 @@ export class Form {
                 held = { name: name(), ends: new AbortController() };
                 for (const event of ["pointerup", "pointercancel", "keyup", "blur"]) addEventListener(event, release, { signal: held.ends.signal, capture: true });
             }
+            rested(rest);
             held.value = shown();
             this.moved = now;
             hold(held.name, held.value);

@@ -48,7 +48,7 @@ const SENTENCES = {
     "as drawn": "The outlines of the description.", "on the mask": "With the flow's bias: what is written.", "as fabricated": "What the flow is expected to make of it.", "where the edge may stand": "Between the least and the most of the flow's ranges.",
     "Another number": "Any other value of the process pack that your laboratory knows better.", "Where these numbers are from": "Stands on the run sheet and in the report, beside every number.",
     Log: "The as-run log of a lot, a file beside the description, or a new one.",
-    Number: "What is shown along the range: the share of the limit that governs, that of one hinge, a requirement, the lowest frequency.",
+    Number: "What is shown along the range: the share of the limit that governs, that of one hinge, a requirement, the lowest frequency in and out of the plane.",
     Vary: "Parameter or attribute that is varied.", "and vary": "A second one makes a map.", "First input, from": "Begin of the range, with its unit.", "First input, to": "End of the range.", "Second input, from": "Begin of the second range.", "Second input, to": "End of the second range.",
     Judged: "A first look takes hinges as pins, as the live verdict does; as drawn is the whole verdict of the drawing; as made looks at the corners of what the flow may make, too.",
     "Look at": "The device of the range that is told below; Use puts it into the text.", "Kind of study": "What many devices are judged for: a map, what matters, the best, the worst, or how many survive.",

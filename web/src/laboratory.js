@@ -53,6 +53,21 @@ function changed(words) {
     announce(words);
 }
 
+const LONGEST_MS = 60000; // that an answer is waited for
+
+/** Whether the input of this key was answered, for better or worse, while it is the present one. */
+function answerOf(key) {
+    return new Promise((resolve) => {
+        const begun = performance.now();
+        const look = () => {
+            if (state.answered === key) return resolve(true);
+            if (requestKey() !== key || state.lost !== null || state.cancelled === key || performance.now() - begun > LONGEST_MS) return resolve(false);
+            setTimeout(look, 50);
+        };
+        look();
+    });
+}
+
 export class Laboratory {
     constructor(holder) {
         this.flow = null;
@@ -155,13 +170,32 @@ export class Laboratory {
         changed("without numbers of the laboratory");
     }
 
-    #save() {
-        const used = state.lab[nameOf(this.flow)];
-        const rows = used === undefined ? this.#good() : []; // what is in use was taken, and is saved as it is
+    /** What the table shows, as a file. It is used first, so that it is what is computed with, and that the program has looked at it: what the
+     *  command line would refuse is not saved. */
+    async #save() {
+        const rows = this.#good();
         if (!rows) return;
-        const text = used ?? (rows.length ? packOf(this.flow, rows, this.source.value) : Object.values(state.lab)[0]);
-        if (!text) return this.#refuse(["There is nothing to save yet."]);
-        saveAs(`laboratory-${this.flow}.xml`, text, "application/xml");
+        const name = nameOf(this.flow);
+        const shown = rows.length ? packOf(this.flow, rows, this.source.value) : undefined;
+        if (shown !== state.lab[name]) {
+            if (shown === undefined) delete state.lab[name];
+            else state.lab[name] = shown;
+            changed(shown === undefined ? "without the numbers of the table" : `${counted(rows.length)} of the laboratory ${rows.length === 1 ? "is" : "are"} used`);
+        }
+        const pack = state.lab[name] ?? Object.values(state.lab)[0];
+        if (!pack) return this.#refuse(["There is nothing to save yet."]);
+        this.save.disabled = true;
+        const looked = await answerOf(requestKey());
+        this.save.disabled = false;
+        if (pack !== (state.lab[name] ?? Object.values(state.lab)[0])) return; // it was changed meanwhile
+        if (!looked) return this.#refuse(["Not saved: nothing was computed with it, so that the program has not looked at it."]);
+        const refused = this.#refused();
+        if (refused.length) {
+            this.wrong.prepend(h("li", {}, `Not saved: ${refused.join(", ")} is refused.`));
+            return announce(`Not saved: ${refused.join(", ")} is refused`);
+        }
+        this.#refuse([]);
+        saveAs(`laboratory-${this.flow}.xml`, pack, "application/xml");
     }
 
     async #open(file) {

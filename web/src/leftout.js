@@ -10,7 +10,7 @@ const LEAST = 1e-12; // a bound below it is drawn as nothing
  *  less, null without bound, pins: the first look takes hinges as pins, and has that in its bands} */
 export function leftOutOf(p, wanted) {
     const size = (e) => e.bound ?? Infinity;
-    const rows = (p.ledger ?? []).filter((e) => e.called_for).map(({ id, active, bound, reason }) => ({ id, active, bound, reason }));
+    const rows = (p.ledger ?? []).filter((e) => e.called_for).map((e) => ({ id: e.id, active: e.active, bound: e.bound, reason: reasonOf(e, p) }));
     rows.sort((a, b) => Number(a.active) - Number(b.active) || size(b) - size(a));
     const sizes = [wanted, ...rows.map((e) => e.bound)].filter((x) => Number.isFinite(x) && x > LEAST);
     const out = rows.filter((e) => !e.active);
@@ -18,6 +18,9 @@ export function leftOutOf(p, wanted) {
     const pins = (p.left_out ?? []).some((x) => x.what === "hinge-model");
     return { rows, wanted, total, pins, low: Math.floor(Math.log10(Math.min(...sizes) / 3)), high: Math.max(0, Math.ceil(Math.log10(Math.max(...sizes)))) };
 }
+
+/** Why an effect is computed or not. That a first look takes hinges as pins was nobody's wish, and the program is not asked for it. */
+export const reasonOf = (e, p) => (!e.active && e.id === "nonlinear-hinge" && (p.left_out ?? []).some((x) => x.what === "hinge-model") ? "this first look takes hinges as pins; what a better model of them changes is in its bands" : e.reason);
 
 const share = (x, { low, high }) => (x === null || x > 10 ** high ? 1 : x <= LEAST ? 0 : Math.min(Math.max((Math.log10(x) - low) / (high - low), 0), 1));
 const boundOf = (e) => (e.bound === null ? "no bound" : percent(e.bound, 2));

@@ -69,7 +69,9 @@ export class Masks {
     shown(yes) {
         this.visible = yes;
         this.job.show(yes);
-        if (yes) this.#drawn();
+        if (!yes) return;
+        this.#drawn();
+        this.paint?.();
     }
 
     /** The drawing of the preview: what is there before any mask is, and where there is none. */
@@ -117,8 +119,12 @@ export class Masks {
         const [layers, outlines, coupons] = await Promise.all([read(`masks/${name}.svg`), this.cell.value ? null : read(`masks/${name}.outlines.svg`),
             this.cell.value && hasFile(job, `masks/${name}.json`) ? get(fileOf(job, `masks/${name}.json`)) : null]);
         if (job !== this.done) return;
-        this.#layers(layers, coupons ?? mask);
-        this.#outlines(outlines, mask);
+        this.paint = () => {
+            this.paint = null;
+            this.#layers(layers, coupons ?? mask);
+            this.#outlines(outlines, mask);
+        };
+        if (this.stage.offsetParent !== null) this.paint(); // what is not laid out has no boxes: it is drawn when it is seen
         this.#violations(this.cell.value ? [] : found, mask !== undefined || found.length > 0);
         this.#files(job, name, mask);
         const box = (coupons ?? mask)?.extent_um;

@@ -10,6 +10,7 @@ import { Statics } from "./statics.js";
 import { state } from "./store.js";
 
 const PERIOD_S = 1.6;
+const FEW = 6; // modes out of the plane in the list, as in the terminal
 const RESTS = 1e-6; // rad, or of the device's size: less is no way to go
 
 export class Modes extends Split {
@@ -49,9 +50,25 @@ export class Modes extends Split {
         const items = this.modes.map((m, i) => h("button", { type: "button", class: "mode", "aria-pressed": String(i === this.chosen), onclick: () => this.#choose(i) },
             h("strong", {}, `${i + 1}`), h("span", { class: "mode-f" }, m.kind === "free" ? "free" : m.kind === "unstable" ? "unstable" : si(m.f_Hz, "Hz", 4)),
             h("span", { class: "mode-d" }, m.damping_ratio !== null ? `damping ${percent(m.damping_ratio, 2).replace(" ", "\u00a0")}` : m.kind), h("span", { class: "mode-b" }, `moves most: ${m.bodies}`)));
-        into.replaceChildren(h("div", { class: "mode-list" }, items),
+        const own = job.result.frequency_error;
+        const [lowest, across] = this.#across(job.result.out_of_plane);
+        into.replaceChildren(lowest, h("h3", {}, "In the plane"), h("div", { class: "mode-list" }, items),
+            this.modes.length ? h("p", { class: "doc mode-off" }, `${own === null ? "How far these frequencies are off is not known" : `These frequencies are off by up to ${percent(own)}: the model of the hinges, and half the error of a flexure's stiffness`}; bodies that bend make them lower.`) : "", across,
             h("p", { class: "doc" }, `Scene ${job.result.scene}, about ${job.result.at === "rest" ? "rest" : "the equilibrium"}.${job.result.out_of_rest > RESTS ? ` The loads hold it elsewhere: it would go on from there by some ${degrees(job.result.out_of_rest, 2)} or ${si(job.result.out_of_rest * this.unit, "m", 2)}; choose the equilibrium.` : ""}`));
         this.draw();
+    }
+
+    /** The modes out of the plane, before those in it: the lowest of all may be one of them. */
+    #across(across) {
+        if (!across) return ["", ""];
+        const all = [...this.modes.filter((m) => m.f_Hz > 0).map((m) => [m.f_Hz, "in the plane"]), ...across.modes.map((m) => [m.f_Hz, `out of the plane, ${m.body} ${m.kind === "tilt" ? "tilts" : "goes up and down"}`])];
+        const [f, where] = all.reduce((a, b) => (b[0] < a[0] ? b : a), all[0] ?? [NaN, ""]);
+        const lowest = Number.isFinite(f) ? h("p", { class: "mode-lowest" }, "Lowest of all: ", h("strong", {}, si(f, "Hz", 4)), `, ${where}${across.known ? "" : "; those out of the plane are not known"}.`) : "";
+        const more = across.modes.slice(FEW);
+        const rows = across.modes.slice(0, FEW).map((m) => h("li", {}, h("strong", {}, si(m.f_Hz, "Hz", 4)), ` ${m.body} ${m.kind === "tilt" ? "tilts" : "goes up and down"}`));
+        return [lowest, h("details", { class: "mode-across", open: true }, h("summary", {}, "Out of the plane"),
+            across.known ? h("ul", {}, rows, more.length ? h("li", {}, `and ${more.length} more, up to ${si(more.at(-1).f_Hz, "Hz", 4)}`) : "") : h("p", {}, `Not known: ${across.why ?? ""}.`),
+            across.known ? h("p", { class: "doc" }, `Of rigid bodies on their flexures, as drawn${across.with_loads ? "" : " and without loads"}: off by up to ${percent(across.frequency_error)}, and lower with bodies that bend; the verdict's band has both.`) : "")];
     }
 
     #choose(i) {

@@ -12,10 +12,12 @@ import { degrees, micrometres, number, percent, prefixOf, si } from "./format.js
 import { leftOutCsv, leftOutList, leftOutOf, leftOutSvg } from "./leftout.js";
 import { colourLegend, Mechanism, posesOf, restOf } from "./mechanism.js";
 import { Plot } from "./plots.js";
+import { hasPins, isUnknown, whyUnknown, withBand } from "./purpose.js";
 import { emit, lookAt, on, state } from "./store.js";
 
 const SECONDS = 4; // that a whole scene takes at speed 1
 const FRAMES_MOST = 250; // of a film
+const ROUNDING = { rad: 1e-12, m: 1e-15 }; // below it a course that nobody has judged is none
 const CLOSED = 1e-9; // norm of the joints' gaps below which they are closed but for rounding
 const RTOL = ["1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11"]; // what explicit integrators take
 
@@ -64,11 +66,13 @@ export class Motion {
         this.inDegrees = button("degrees", { class: "small toggle", "aria-pressed": "false" }, () => {
             this.inDegrees.setAttribute("aria-pressed", String(this.inDegrees.getAttribute("aria-pressed") !== "true"));
             this.#plotAll();
+            this.paint(); // and the heading tells what is plotted
         });
         this.angles.heading.append(this.inDegrees);
         on("options", () => this.picks?.forEach((refresh) => refresh()));
         on("picture", () => this.visible && this.#came());
         on("preview", () => this.visible && (this.of === state.picture ? this.#rest() : this.show()));
+        on("judged", () => this.visible && this.courseShown?.unknown && this.#plotCourse(state.preview));
         for (const event of ["hinge", "theme", "pinned"]) on(event, () => this.visible && this.show());
     }
 
@@ -220,6 +224,8 @@ export class Motion {
         if (!p?.motion || this.plotted !== p) return;
         const m = p.motion;
         const ms = m.t_s.map((t) => t * 1e3);
+        if (this.lasts !== ms.at(-1)) for (const plot of [this.angles, this.energy, this.course]) plot.window = null; // what was looked at closely is of another length
+        this.lasts = ms.at(-1);
         const limits = p.pins.map(limitOf);
         const inDegrees = this.inDegrees.getAttribute("aria-pressed") === "true" || limits.every((x) => !x);
         const chosen = state.hinge !== null && p.pins.some((x) => x.id === state.hinge) ? state.hinge : null;
@@ -284,11 +290,13 @@ export class Motion {
         if (one.id === ":left") return this.#leftOut(p);
         const ms = p.motion.t_s.map((t) => t * 1e3);
         const curves = one.rates && !p.motion.v ? [] : one.curves();
+        const unknown = one.of ? this.#unknown(p, one) : null;
+        if (unknown) return this.#instead(one, unknown);
         const [prefix, size] = one.log ? ["", 1] : prefixOf(Math.max(0, ...curves.flatMap((x) => x.values.map((v) => Math.abs(v ?? 0)))));
         this.courseUnit = size;
         const levels = one.probe ? required(one.id).filter((r) => ["peak", "maximum", "minimum", "final"].includes(r.measure)) : [];
         const marks = levels.flatMap((r) => [[r.min, "at least"], [r.max, "at most"]].filter(([y]) => y !== null).map(([y, text]) => ({ y: y / size, text: `${r.measure}: ${text}` })));
-        say(this.course.heading.querySelector(".plot-unit"), [one.kind, one.log ? "norm" : `${prefix}${one.unit}`].filter(Boolean).join(", "));
+        say(this.course.heading.querySelector(".plot-unit"), [one.kind, one.log ? "norm" : `${prefix}${one.unit}`, one.of && hasPins(p) ? "hinges as pins" : ""].filter(Boolean).join(", "));
         const key = (i) => (one.probe ? 2 : i);
         const series = curves.map((x, i) => ({ name: x.name, key: key(i), solid: curves.length === 1, values: x.values.map((v) => (v === null ? null : v / size)) }));
         const old = state.pinned?.preview;
@@ -304,6 +312,28 @@ export class Motion {
         this.course.instead(null);
         this.course.show(ms, [...series, ...then], { marks, range: one.log || !ends.length ? undefined : [low - pad, high + pad] });
         legend(this.course, curves.length > 1 ? curves.map((x, i) => [x.name, key(i)]) : []);
+    }
+
+    /** Why a probe's curve would say nothing: all of it is rounding, or less than what hinges that flex would change; null where it says something. */
+    #unknown(p, one) {
+        const same = (x) => x.id === one.of.id && x.scene === p.motion.scene && (x.flow ?? null) === (p.motion.flow ?? null);
+        const x = (p.verdict?.probes ?? []).find(same);
+        const most = Math.max(0, ...one.of.value.map((v) => Math.abs(v ?? 0)));
+        if (x ? !isUnknown(x) : !hasPins(p) || !(most <= (ROUNDING[one.of.unit] ?? 0))) return null;
+        const judged = (state.judged() ?? { probes: [] }).probes?.find(same);
+        return `${one.of.id} is ${whyUnknown(p)}.${judged && !isUnknown(judged) ? ` In the verdict it has ${withBand(judged.peak, null, judged.unit)} at its peak, as drawn.` : ""} Another model of the hinges, chosen above, shows its course.`;
+    }
+
+    /** In place of curves a sentence, in files, too. */
+    #instead(one, why) {
+        const head = `t_ms,${one.label.replaceAll(",", "")} (${one.unit})`;
+        say(this.course.heading.querySelector(".plot-unit"), one.kind ?? "");
+        this.course.instead(h("p", { class: "empty course-unknown" }, why), {
+            csv: () => `${head}\n# ${why}\n`,
+            svg: () => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 760 60" width="760" height="60" font-family="system-ui, sans-serif" font-size="12"><text x="16" y="34">${why.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c])}</text></svg>\n`,
+        });
+        this.courseShown = { ...one, unknown: true };
+        legend(this.course, []);
     }
 
     /** What the motion was computed without. */
@@ -405,11 +435,13 @@ export class Motion {
         const k = state.hinge === null ? -1 : p.pins.findIndex((x) => x.id === state.hinge);
         const worst = [...shares].reduce((best, x) => (x[1] !== null && x[1] > (best?.[1] ?? -1) ? x : best), null);
         const ms = this.time * 1e3;
-        this.angles.at(ms, k >= 0 ? `${p.pins[k].id}: ${degrees(angles[k])}` : worst ? `${worst[0]}: ${percent(worst[1])}` : "");
+        const share = k >= 0 ? shares.get(p.pins[k].id) : null;
+        const asAngle = share === null || this.inDegrees.getAttribute("aria-pressed") === "true"; // what is plotted is told
+        this.angles.at(ms, k >= 0 ? `${p.pins[k].id}: ${asAngle ? degrees(angles[k]) : percent(share)}` : worst ? `${worst[0]}: ${percent(worst[1])}` : "");
         const energy = (key) => (m.energy?.[key] ? m.energy[key][i] : 0);
         this.energy.at(ms, si(energy("kinetic_J") + energy("potential_J"), "J"));
         const one = this.courseShown;
-        if (one) this.course.at(ms, one.probe ? si(one.probe.value[i], one.unit) : one.log ? number(m.constraint_norm[i], 2) : "");
+        if (one) this.course.at(ms, one.unknown ? "" : one.probe ? si(one.probe.value[i], one.unit) : one.log ? number(m.constraint_norm[i], 2) : "");
     }
 
     /** The pinned version at the same time of its scene; without a motion at rest. */

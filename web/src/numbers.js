@@ -2,6 +2,7 @@
 // The numbers that the page shows of an answer, each with the words it goes by, so that two answers can be set beside
 // each other.
 import { degrees, number, percent, si } from "./format.js";
+import { FIRST_LOOK, probesOf, requirementsOf } from "./purpose.js";
 
 const of = (unit) => (x) => si(x, unit);
 const plain = (x) => number(x, 3);
@@ -19,10 +20,12 @@ const GROUPS = [
     ])],
     ["What it is for", (p, made) => {
         const v = made ?? p.verdict;
+        const look = !made && p.provisional;
         const flows = v?.flows?.length ?? 1;
-        const asked = v?.requirements ?? [];
-        const probes = (v?.probes ?? []).filter((x) => !asked.some((r) => r.probe === x.id && r.scene === x.scene && r.flow === x.flow));
-        return [...asked.map((r) => [`${r.probe} (${r.measure ?? r.kind}, ${where(r, flows)})`, r.value, of(r.unit)]), ...probes.map((x) => [`${x.id} (peak, ${where(x, flows)})`, x.peak, of(x.unit)])];
+        const asked = (r) => `${r.probe} (${r.measure ?? r.kind}, ${where(r, flows)})`;
+        const rows = requirementsOf(v, look).filter((row) => row.known && !row.only);
+        return [...rows.map((row) => [`${asked(row.r)}, ${row.basis}`, row.value, of(row.r.unit)]),
+            ...probesOf(v).filter((x) => x.known).map(({ x }) => [`${x.id} (peak, ${where(x, flows)}), as drawn${look ? `, ${FIRST_LOOK}` : ""}`, x.peak, of(x.unit)])];
     }],
     ["Nearest", (p, made) => {
         const v = made ?? p.verdict;

@@ -32,7 +32,7 @@ export class Plot {
             return this.#under(e);
         });
         for (const end of ["pointerup", "pointercancel", "pointerleave"]) this.box.addEventListener(end, (e) => this.fingers.delete(e.pointerId));
-        this.box.addEventListener("pointerleave", () => (this.look.hidden = true));
+        this.box.addEventListener("pointerleave", () => this.#leave());
         this.box.addEventListener("wheel", (e) => this.#wheel(e), { passive: false });
         this.box.addEventListener("dblclick", () => this.onwindow?.(null));
     }
@@ -75,6 +75,7 @@ export class Plot {
     /** In place of curves something else, with files = {csv(), svg()} of its own; null: curves. */
     instead(element, files = null) {
         this.files = files;
+        if (element) this.#leave();
         become(this.other, { hidden: element === null });
         become(this.box, { hidden: element !== null });
         this.other.replaceChildren(...(element ? [element] : []));
@@ -82,7 +83,7 @@ export class Plot {
 
     csv() {
         if (this.files) return this.files.csv();
-        return csvOf(this.data, this.unitWords.replace(", over ms", ""));
+        return csvOf(this.data, this.unitWords.replace(/, (over ms|hinges as pins)$/, ""));
     }
     svg() {
         if (this.files) return this.files.svg();
@@ -131,10 +132,17 @@ export class Plot {
         if (before > 4 && width() > 4 && this.onwindow) this.zoom(before / width(), this.#time({ clientX: (a + b) / 2 }));
     }
 
-    /** The sample nearest to the pointer, of the nearest curves. */
+    #leave() {
+        this.pointer = null;
+        this.look.hidden = true;
+    }
+
+    /** The sample nearest to the pointer, of the nearest curves; told anew when other curves come below a pointer that rests. */
     #under(event) {
         const { t, series } = this.data ?? {};
         if (!this.plot || !t?.length) return;
+        this.pointer = { clientX: event.clientX, clientY: event.clientY };
+        this.told = this.data;
         const at = this.#time(event);
         let i = 0;
         while (i < t.length - 1 && Math.abs(t[i + 1] - at) <= Math.abs(t[i] - at)) i++;
@@ -154,8 +162,7 @@ export class Plot {
         const shape = JSON.stringify([series.map((x) => x.name), chosen, marks.length, Boolean(range), this.log]);
         this.data = { t, series, marks, chosen, range };
         if (this.plot && shape === this.shape) {
-            this.plot.setData([t, ...series.map((x) => x.values)]);
-            this.plot.redraw();
+            this.plot.setData([t, ...series.map((x) => x.values)]); // draws; redraw() would put the former range back
         } else {
             this.shape = shape;
             this.#make();
@@ -199,6 +206,7 @@ export class Plot {
     }
 
     #over(u) {
+        if (this.pointer && this.plot === u && this.told !== this.data) this.#under(this.pointer);
         const ctx = u.ctx;
         const ratio = uPlot.pxRatio;
         ctx.save();

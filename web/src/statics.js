@@ -52,11 +52,16 @@ export class Ladder {
     }
 
     #show(job, into) {
-        const row = (x, level, first) => h("tr", {}, h("td", {}, first ? `${x.id}${x.flow ? `, ${x.flow}` : ""}` : ""), h("td", {}, level.level),
-            ...(level.solved === false ? [h("td", { colSpan: 5 }, "no answer")] : [h("td", { class: "n" }, si(level.stiffness_Nm_per_rad, "N m/rad")), h("td", { class: "n" }, percent(level.error?.stiffness, 2)), h("td", { class: "n" }, Number.isFinite(level.limit_angle_rad) ? degrees(level.limit_angle_rad) : "–"),
+        const row = (x, level, first) => h("tr", {}, h("td", {}, first ? `${x.id}${x.flow ? `, ${x.flow}` : ""}` : ""), h("td", {}, `${x.picked?.level === level.level ? "* " : ""}${level.level}`),
+            ...(level.solved === false ? [h("td", { colSpan: 5 }, `no answer${level.why ? `: ${level.why}` : ""}`)] : [h("td", { class: "n" }, si(level.stiffness_Nm_per_rad, "N m/rad")), h("td", { class: "n" }, percent(level.error?.stiffness, 2)), h("td", { class: "n" }, Number.isFinite(level.limit_angle_rad) ? degrees(level.limit_angle_rad) : "–"),
                 h("td", { class: "n" }, percent(level.error?.strain, 2)), h("td", { class: "n" }, si(level.cpu_s, "s", 2))]));
+        // what the terminal says above and below the levels of a flexure
+        const note = (x) => [Number.isFinite(x.used_stiffness_Nm_per_rad) ? `stiffness used: ${si(x.used_stiffness_Nm_per_rad, "N m/rad", 5)}` : "",
+            x.levels.some((level) => level.error?.outside) ? "outside of the shapes that were compared with finite elements: errors are guesses" : "",
+            x.picked ? `* ${x.picked.level}: ${x.picked.why}` : ""].filter(Boolean).join("; ");
+        const notes = (x) => h("tr", { class: "ladder-note" }, h("td", {}), h("td", { colSpan: 6, class: x.levels.some((level) => level.error?.outside) ? "guessed" : "" }, note(x)));
         into.replaceChildren(
-            table("Flexures by level", ["flexure", "model", "stiffness", "off by at most", "limit angle", "strain off by at most", "CPU"], (job.result.hinges ?? []).flatMap((x) => x.levels.map((level, i) => row(x, level, i === 0)))),
+            table("Flexures by level", ["flexure", "model", "stiffness", "off by at most", "limit angle", "strain off by at most", "CPU"], (job.result.hinges ?? []).flatMap((x) => [...x.levels.map((level, i) => row(x, level, i === 0)), ...(note(x) ? [notes(x)] : [])])),
             h("div", { class: "row" }, ["hinge.svg", "hinge.json"].map((f) => save(job, f))), picture(job, "hinge.svg", "Flexures with their elastic centres") ?? "");
     }
 }

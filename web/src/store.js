@@ -26,6 +26,7 @@ export const state = {
     cancelled: null, // input whose answer nobody waits for any more
     diagnostics: [],
     pinned: null, // version that is compared with: {name, text, preview, made, why: it has no answer}
+    judged: () => null, // the full judgement of the present text, or null (verdict.js)
     summary: null, // first lines of the verdict that is shown
     hinge: null, // id of the hinge that is looked at
     flow: "", // whose utilisation is shown; "": the worst of all

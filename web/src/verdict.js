@@ -8,6 +8,8 @@ import { askAgain, edit, isPresent } from "./design.js";
 import { announce, become, button, h, icon, refill, select, setOptions } from "./dom.js";
 import { degrees, number, percent, si } from "./format.js";
 import { JobView } from "./jobs.js";
+import { reasonOf } from "./leftout.js";
+import { probesOf, requirementsOf, whyUnknown, withBand } from "./purpose.js";
 import { emit, lookAt, on, state } from "./store.js";
 
 const QUIET_MS = 900; // without a change, after which the same is judged as it will be made
@@ -17,8 +19,6 @@ const MOST_LINES = 5; // of the banner
 const WORDS = {
     accept: ["Accepted", "check"], reject: ["Rejected", "cross"], inconclusive: ["Inconclusive", "question"],
 };
-
-const ROUNDING_RAD = 1e-12; // a turn below it is none
 
 export class Verdict {
     constructor(holder) {
@@ -32,6 +32,7 @@ export class Verdict {
         });
         this.required = h("section", { class: "card", "aria-labelledby": "h-required", hidden: true }, h("h2", { id: "h-required" }, "What it is for"));
         this.old = h("div", { class: "old-note", id: "old-note", hidden: true });
+        this.across = h("section", { class: "card across", "aria-labelledby": "h-across", hidden: true }, h("h2", { id: "h-across" }, "Out of the plane, drying"));
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
@@ -39,9 +40,10 @@ export class Verdict {
         const full = h("div", { class: "full-check" });
         const card = (id, title, ...content) => h("section", { class: "card", "aria-labelledby": `h-${id}` }, h("h2", { id: `h-${id}` }, title), content);
         const use = card("use", "Share of the limit that rules", this.whose, this.bars);
-        const cards = [use, this.required, card("flows", "Flows", this.flows)];
+        const cards = [use, this.required, this.across, card("flows", "Flows", this.flows)];
         const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost, this.left)];
-        this.compare = new Compare(() => this.judged);
+        state.judged = () => this.judged;
+        this.compare = new Compare(state.judged);
         this.made = card("full", "As fabricated", full);
         holder.append(this.old, this.banner, this.problems, this.compare.card, ...cards, this.made, ...last, this.notes);
         this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
@@ -53,7 +55,7 @@ export class Verdict {
             quiet: () => Math.min(Math.max(QUIET_MS, 1e3 * (this.full?.job?.seconds ?? 0)), QUIET_MOST_MS), // what takes long waits longer for the last change
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
-        this.ofFull = [this.banner, use].map((element) => new Shown(element, () => this.full.key));
+        this.ofFull = [this.banner, use, this.required, this.across].map((element) => new Shown(element, () => this.full.key));
         this.full.show(true);
         on("preview", () => this.show());
         on("answer", () => this.#answer());
@@ -66,8 +68,8 @@ export class Verdict {
     #wait() {
         this.#decided(null);
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
-        this.required.hidden = true; // what was reached before says nothing of this device
-        this.required.replaceChildren(this.required.firstChild);
+        for (const box of [this.required, this.across]) box.hidden = true; // what was reached before says nothing of this device
+        for (const box of [this.required, this.across]) box.replaceChildren(box.firstChild);
         if (state.preview?.status === "failed") return this.#cannot();
         this.banner.replaceChildren(h("p", { class: "empty" }, !state.preview ? "No verdict yet."
             : (state.preview.diagnostics ?? []).some((d) => d.severity === "error") ? "Nothing is judged: the mistakes below stand in the way."
@@ -178,7 +180,8 @@ export class Verdict {
             lines.length ? this.#more() : "");
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
-        this.#required(v);
+        this.#required(v, full);
+        this.#across(full ?? v);
         this.#flows(v);
         this.#effects();
         this.#cost();
@@ -196,17 +199,40 @@ export class Verdict {
         return more;
     }
 
-    /** Requirements with their values, and what the probes of the other scenes say at most. */
-    #required(v) {
-        const asked = v.requirements ?? [];
-        const probes = (v.probes ?? []).filter((x) => !asked.some((r) => r.probe === x.id && r.scene === x.scene && r.flow === x.flow));
+    /** Requirements and probes: of the verdict where it is there, of the first look until then. */
+    #required(v, full) {
+        const judged = full ?? v;
+        const look = !full && state.preview.provisional;
+        const [asked, probes] = [requirementsOf(judged, look), probesOf(judged)];
         become(this.required, { hidden: asked.length + probes.length === 0 });
-        const bound = (r) => [r.min === null ? "" : `at least ${si(r.min, r.unit)}`, r.max === null ? "" : `at most ${si(r.max, r.unit)}`].filter(Boolean).join(", ");
-        const where = (x) => [x.scene ?? "at rest", v.flows.length > 1 ? x.flow : null].filter(Boolean).join(", ");
-        refill(this.required, this.required.firstChild, h("dl", { class: "facts-list purpose" },
-            asked.flatMap((r) => [h("dt", { title: r.why ?? "" }, `${r.probe} (${r.measure ?? r.kind}, ${where(r)})`),
-                h("dd", { class: r.verdict }, r.why ? "not known" : `${si(r.value, r.unit)} \u2013 ${bound(r)}: ${WORDS[r.verdict][0].toLowerCase()}`)]),
-            probes.flatMap((x) => [h("dt", {}, `${x.id} (peak, ${where(x)})`), h("dd", {}, si(x.unit === "rad" && Math.abs(x.peak) < ROUNDING_RAD ? 0 : x.peak, x.unit))])));
+        const bound = (r) => [r.min === null ? "" : `at least ${si(r.min, r.unit, 4)}`, r.max === null ? "" : `at most ${si(r.max, r.unit, 4)}`].filter(Boolean).join(", ");
+        const where = (x) => [x.scene ?? "at rest", judged.flows.length > 1 ? x.flow : null].filter(Boolean).join(", ");
+        const word = (row) => (row.decision !== "inconclusive" ? WORDS[row.decision][0].toLowerCase() : row.at && row.r.verdict === "accept" ? "undecided, as some devices of its flow may not hold it" : "inconclusive");
+        const said = (row) => (row.only ? `${si(row.band[0], row.r.unit, 4)} to ${si(row.band[1], row.r.unit, 4)}` : withBand(row.value, row.band, row.r.unit));
+        refill(this.required, this.required.firstChild,
+            look ? h("p", { class: "doc" }, "Of a first look at the drawing: it accepts nothing yet.") : "",
+            h("dl", { class: "facts-list purpose" },
+                asked.flatMap((row) => [h("dt", { title: row.why ?? "" }, `${row.r.probe} (${row.r.measure ?? row.r.kind}, ${where(row.r)})`),
+                    h("dd", { class: row.first && row.decision === "accept" ? "first" : row.decision, title: row.at ? `with ${row.at}` : "" }, row.known ? `${said(row)} ${row.basis} \u2013 ${bound(row.r)}: ${word(row)}${row.first ? " as drawn" : ""}` : `not known: ${row.why ?? ""}`),
+                    row.all ? h("dd", { class: "beside" }, `${si(row.all[0], row.r.unit, 4)} to ${si(row.all[1], row.r.unit, 4)} over all corners; ${withBand(row.r.value, row.r.band, row.r.unit)} as drawn`) : null]),
+                probes.flatMap(({ x, band, known, zero }) => [h("dt", {}, `${x.id} (peak, ${where(x)})`),
+                    h("dd", {}, known ? `${zero ? `0 ${x.unit}, within ${si(x.error, x.unit, 1)}` : withBand(x.peak, band, x.unit)} as drawn${look ? ", at a first look" : ""}` : whyUnknown(full ? { hinge_model: state.options.hinge_model } : state.preview))])));
+    }
+
+    /** What the terminal says of the ways out of the plane, and of how the device may be dried. */
+    #across(v) {
+        const named = (x, words) => `${v.flows.length > 1 && x.flow ? `${x.flow}: ` : ""}${words}`;
+        const tips = (s) => (s.tips_at === null ? "" : `${s.scene}: does not tip below ${number(s.tips_at / (1 + s.tips_error), 4)} times its forces.`);
+        const scene = (s) => [s.lowest_m === undefined ? "" : `${s.scene}: ${s.lowest_m === null ? "how far down is not known" : `down by up to ${si(-s.lowest_m, "m", 4)}, tilted by up to ${degrees(s.tilt_rad)}`}.`, tips(s)].filter(Boolean).join(" ");
+        const out = (v.out_of_plane ?? []).flatMap((o) => {
+            const [low] = o.modes;
+            if (!o.known || !low) return o.scenes.length || !o.known ? [named(o, `Out of the plane: not known: ${o.why ?? ""}`)] : [];
+            const stiff = o.stiffness_over_in_plane === null ? "" : ` Its stiffness is ${number(o.stiffness_over_in_plane)} of that in the plane.`;
+            return [named(o, `As drawn it swings out of the plane from ${number(low.f_Hz, 4)} Hz on (${number(low.band_Hz[0], 4)} to ${number(low.band_Hz[1], 4)} Hz; ${low.body} ${low.kind === "tilt" ? "tilts" : "goes up and down"}).${stiff} Its weight lowers it by ${si(o.weight_sag_m, "m")} on a table; below it: ${o.below.words}.`), ...o.scenes.map(scene).filter(Boolean)];
+        });
+        const dry = (v.stiction ?? []).filter((s) => s.needs && s.drying.how !== "never wet").map((s) => named(s, `Drying: ${s.drying.words}; ${s.needs}.`));
+        become(this.across, { hidden: out.length + dry.length === 0 });
+        refill(this.across, this.across.firstChild, [...out, ...dry].map((x) => h("p", {}, x)));
     }
 
     /** The same for those who compare. */
@@ -216,7 +242,7 @@ export class Verdict {
 
     /** The full judgement, while it is of the present text. */
     #full() {
-        return this.full.job && !this.full.stale ? this.full.job.result ?? null : null;
+        return this.full?.job && !this.full.stale ? this.full.job.result ?? null : null;
     }
 
     /** What the banner speaks of. */
@@ -307,7 +333,7 @@ export class Verdict {
                 h("summary", {}, h("span", { class: "effect-mark", "aria-hidden": "true" }, e.active ? "●" : "○"), h("span", {}, e.id ?? e.name),
                     h("span", { class: "bound", title: "most that leaving it out changes the peak" }, e.bound === null ? "no bound" : percent(e.bound, 2)),
                     h("span", { class: "state" }, e.active ? "computed" : "left out")),
-                h("p", {}, e.reason ?? ""))), last);
+                h("p", {}, reasonOf(e, state.preview) ?? ""))), last);
     }
 
     #cost() {

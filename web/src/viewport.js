@@ -8,6 +8,9 @@ const MOST_SCALE = 400; // pixels per micrometre
 const TAPS_MS = 350; // between two taps that are one gesture
 const TAPS_APART = 30; // pixels
 
+/** Of a picture that is shown whole, as a share of it. */
+export const MARGIN = 0.04;
+
 export class Viewport {
     /** box: [x0, y0, x1, y1] in um; onview: called when scale or place have changed */
     constructor(svg, { label, onview, pan = true } = {}) {
@@ -25,6 +28,7 @@ export class Viewport {
         this.y = 0;
         this.onview = onview ?? (() => {});
         this.pan = pan;
+        this.margin = () => MARGIN; // when all of it is shown
         this.fitted = true;
         this.fingers = new Map(); // pointers that are down -> where
         this.tapped = null;
@@ -53,7 +57,7 @@ export class Viewport {
     }
 
     fit() {
-        this.fitTo(this.box, 0.04);
+        this.fitTo(this.box, Math.min(this.margin(), 0.3));
         this.fitted = true;
         this.svg.classList.remove("zoomed");
     }

@@ -26,8 +26,10 @@ function whyNot() {
     const p = state.preview;
     if (state.previewOf !== state.answered || p.status === "failed")
         return state.diagnostics.find((d) => d.severity === "error")?.message ?? p?.marks?.[0]?.text ?? "this cannot be computed";
-    const top = p.verdict?.summary?.find((line) => ["rejected because", "cannot be made"].includes(line.label));
-    return top ? `${top.label === "cannot be made" ? "cannot be made: " : ""}${top.text}` : null;
+    const lines = p.verdict?.summary ?? [];
+    const top = lines.find((line) => ["rejected because", "cannot be made"].includes(line.label));
+    if (top) return `${top.label === "cannot be made" ? "cannot be made: " : ""}${top.text}`;
+    return p.verdict?.verdict === "reject" ? lines[0]?.text ?? "it is rejected" : null; // by a hinge alone, which is the first line
 }
 
 /** Values that are tried, at the same distances, on a grid that numbers with few digits are of. */
