@@ -201,7 +201,9 @@ typedef struct fw_device_respond { /* <respond>: a number that is looked at */
     const char *value; /* where it stands: "governing.utilisation", "modes:modes[0].f_Hz" */
     fw_device_respond_take take;
     fw_device_respond_goal goal;
-    double min, max; /* SI; NaN: no limit */
+    double min, max; /* SI, or as the number stands where they have no unit; NaN: no limit */
+    fw_quantity_dimension dimension; /* of min and max; pure: the unit of the number is meant */
+    fw_place min_place, max_place;
     fw_place place;
 } fw_device_respond;
 

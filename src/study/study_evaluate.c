@@ -171,7 +171,7 @@ static double missed(double by, double limit) {
 int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double *c) {
     int n = 0;
     for (int k = 0; k < study->nresponse; k++) {
-        const fw_device_respond *q = study->response[k].asked;
+        const fw_study_response *q = &study->response[k];
         const double value = sample ? sample->response[k] : (double)NAN;
         if (!isnan(q->min) && c) c[n] = missed(q->min - value, q->min);
         n += !isnan(q->min);
@@ -185,7 +185,7 @@ double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
     double most = -HUGE_VAL;
     if (!sample->run) return (double)NAN;
     for (int k = 0; k < study->nresponse; k++) {
-        const fw_device_respond *q = study->response[k].asked;
+        const fw_study_response *q = &study->response[k];
         double value = sample->response[k];
         if (isnan(q->min) && isnan(q->max)) continue;
         if (isnan(value)) return (double)NAN;
@@ -406,8 +406,8 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
     for (int d = 0; d < fw_study_document_count; d++) {
         json_t *root = NULL;
         for (int k = 0; k < study->nresponse; k++) {
-            const fw_study_response *r = &study->response[k];
-            const char *text;
+            fw_study_response *r = &study->response[k];
+            const char *text, *unit;
             size_t n;
             if (r->document != d) continue;
             if (!root) {
@@ -421,9 +421,11 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
                 if (status != FW_STATUS_OK) return status;
                 if (!root) return FW_STATUS_NOMEM;
             }
-            if (!fw_study_response_find(r, root, &value[k], why, sizeof why) && diags)
+            if (!fw_study_response_find(r, root, &value[k], &unit, why, sizeof why) && diags)
                 fw_diag_error(diags, 492, r->asked->place, "response '%s' (%s): %s", r->asked->name,
                               r->asked->value, why);
+            if (diags && r->unit_beside && unit && !(r->unit = fw_arena_strdup(study->arena, unit)))
+                return FW_STATUS_NOMEM;
         }
         json_decref(root);
     }

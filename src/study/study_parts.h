@@ -31,9 +31,10 @@ fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *aske
 /* is it about hinges and requirements, and nothing else of the verdict? */
 bool fw_study_response_of_hinges(const fw_study_response *response);
 /* The number at the response's path of a document that was read. false: there is none, and `why` (n
-   bytes) says which key is missing and which there are. A number that is null is NaN, and found. */
+   bytes) says which key is missing and which there are. A number that is null is NaN, and found. unit (NULL: nobody
+   asks): what the document says beside the number, of root's memory; NULL: nothing, or of several numbers different ones */
 bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,
-                            char *why, size_t n);
+                            const char **unit, char *why, size_t n);
 
 /* ---- study_evaluate.c: values of inputs as text and back ---- */
 
@@ -73,7 +74,8 @@ fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel
 /* a design with the study's options, sets and these settings, read; *status tells. NULL: no memory */
 fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
                            const char (*text)[FW_STUDY_TEXT], int *status);
-/* values (nresponse) of a design whose stages have run; what is not found is NaN, and said in diags (NULL: nobody is told) */
+/* values (nresponse) of a design whose stages have run; what is not found is NaN. diags (else NULL) is of the description
+   as it stands: what is not found is said there, and units that stand beside numbers become those of the responses */
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
                             fw_diags *diags);
 /* what a design that was read says: decision and responses, or why not; the library's status */
@@ -460,8 +462,6 @@ fw_status fw_study_at_yield(fw_study *study, const fw_study_search *like,
 
 /* inputs and responses as they were asked for; before it runs, too */
 fw_status fw_study_asked_text(const fw_study *study, fw_text *out);
-/* rows go to the file as they are read: memory does not grow with them */
-fw_status fw_study_csv_save(fw_study *study, const char *path);
 
 typedef struct fw_study_picture {
     const char *name;  /* "map-C", of its file NAME.svg */
