@@ -58,9 +58,7 @@ fw_status fw_study_input_check(fw_study *study, int k);
 /* the other way: 0 at from, 1 at to, not beyond */
 double fw_study_input_share(const fw_study_input *input, double value);
 
-/* one device */
-
-/* a sample with room for inputs and responses */
+/* one device: a sample with room for inputs and responses */
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample);
 /* `why` of a device that was not judged: response surfaces told it (kind_sweep.c) */
 extern const char fw_study_told_by_surface[];
@@ -171,11 +169,13 @@ typedef struct fw_study_descent {
     fw_study_tried *tried; /* room for `most`; (used) in their order */
     int used;
     bool over;
+    double step; /* first one of COBYLA, share of a range; 0: the usual one */
 } fw_study_descent;
 /* the largest constraint; NaN: as bad as can be */
 double fw_study_tried_worst(const fw_study_tried *t, int m);
-/* COBYLA from start, which becomes its end */
-fw_status fw_study_descent_cobyla(fw_study_descent *d, double *start, fw_arena *arena);
+/* from start, which becomes its end */
+typedef fw_status fw_study_descend(fw_study_descent *d, double *start, fw_arena *arena);
+fw_study_descend fw_study_descent_cobyla;
 /* from what was judged already, on from the best of it */
 fw_status fw_study_descent_models(fw_study_descent *d, const fw_study_tried *known, int nknown,
                                   fw_arena *arena);
@@ -207,9 +207,10 @@ typedef struct fw_study_search {
        say what is judged next, from the best of it on */
     const fw_study_tried *known;
     int nknown;
-    int most;   /* evaluations */
-    int digits; /* of the values that are tried */
-    long first; /* number of its first sample */
+    fw_study_descend *descend; /* NULL: COBYLA, or models where `known` is */
+    int most;                  /* evaluations */
+    int digits;                /* of the values that are tried */
+    long first;                /* number of its first sample */
     /* out: the best sample, feasible first; its objective and constraint */
     fw_study_sample best;
     double f, c;           /* c: the largest constraint */
@@ -259,7 +260,6 @@ int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double
 extern const double fw_study_beyond;
 /* ---- study_fitted.c: devices that are told and not judged ---- */
 
-struct fw_study_result;
 typedef struct fw_study_points { /* all devices of a study, chosen beforehand */
     long n;
     fw_status (*at)(const void *context, long k, fw_study_sample *sample); /* inputs of device k */

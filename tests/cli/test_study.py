@@ -475,6 +475,31 @@ class Study(unittest.TestCase):
                       for out in (*shards, self.place / f"{kind}-one")]
             self.assertLess(max(counts[:2]), counts[2])
 
+    def test_a_ridge_is_followed_to_the_ends_of_other_inputs(self):
+        """what is used peaks over a, as over the frequency of a drive, and rises with all others: their ends are worst"""
+        text = ONE_LEAF.replace('<parameter name="width"', '<parameter name="a" value="0.2"/>\n  <parameter name="width"').replace(
+            'fx="push"', 'fx="push/(1 + ((a - 0.63)/0.02)^2)"')
+        inputs = (("push", "2 uN", "20 uN"), ("limits/@safety-factor", "1.5", "2.5"), ("length", "350 um", "450 um"))
+        for n in (1, 3):
+            rows = '<vary what="a" from="0" to="1"/>' + "".join(
+                f'<vary what="{what}" from="{low}" to="{high}"/>' for what, low, high in inputs[:n])
+            rows += ('<respond name="used" value="hinges[A].utilisation"/>'
+                     '<respond name="turned" value="hinges[A].peak_angle_rad"/>')
+            file = self.write(study("s", "worst-case", rows, self.write(text, "ridge.xml"), **{"as": "hinges"}))
+            used, turned = self.run_study(file, f"ridge-{n}")["responses"]
+            self.assertEqual([s["value"] for s in used["worst_largest"]["set"]][1:], [high for what, low, high in inputs[:n]])
+            self.assertIn("20 uN", [s["value"] for s in turned["worst_least"]["set"]])
+            # of all devices, whatever search came to them
+            for r in (used, turned):
+                self.assertEqual([r["worst_least"]["value"], r["worst_largest"]["value"]], [r["least"], r["largest"]])
+            # and at its end it is what check says
+            at = [f"--set={s['path']}={s['value']}" for s in used["worst_largest"]["set"]]
+            said = json.loads(run("check", self.place / "ridge.xml", "--json", "--corners", "none", "--advice", "none", *at).stdout)
+            self.assertAlmostEqual(said["hinges"][0]["utilisation"], used["worst_largest"]["value"], places=12)
+        done = run("study", file, "-o", self.place / "again", *FLOW)
+        self.assertIn("largest found", done.stdout)
+        self.assertIn("that none lies beyond it where none was", " ".join(done.stdout.split()))
+
     def test_a_plan_says_how_many_and_writes_nothing(self):
         path = self.write(study("s", "sweep", SWEEP).replace("<study", '<study as="drawn"'))
         done = run("study", path, "--plan", *FLOW)
