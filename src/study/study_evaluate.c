@@ -448,10 +448,17 @@ static double of_hinges(const fw_verdict_hinge_verdict *h, int n, double most) {
    search is told by it which way is out where nothing else tells. */
 const double fw_study_beyond = 1.001;
 
+/* A hinge as made or a requirement that is not accepted is a reason as well, and has the number of what it uses by itself:
+   `keep` of the reason is where advice begins, a little below what would hold. */
+static bool is_check(const fw_verdict_reason *r) {
+    return r->number == 237 || r->number == 330 || r->number == 331;
+}
+
 /* Reasons that measure nothing say where advice begins by a round share of the loads, which is no number of the device:
    taken for one, it would be the same wherever the reason is, and fall where another one is measured. */
 static bool measured(const fw_verdict_reason *r) {
-    return r->keep > 0 && r->keep != FW_VERDICT_KEEP_HALF && r->keep != FW_VERDICT_KEEP_MOST;
+    return !is_check(r) && r->keep > 0 && r->keep != FW_VERDICT_KEEP_HALF &&
+           r->keep != FW_VERDICT_KEEP_MOST;
 }
 
 static double used_of(const fw_verdict *verdict, int decision) {
