@@ -127,6 +127,7 @@ static fw_status build_vary(fw_xml_reader *r, const fw_xml_record *record, fw_de
         .logarithmic =
             word_of(record, "scale", (const char *const[]){"linear", "logarithmic", NULL}, 0) == 1,
         .steps = fw_xml_whole_or(record, "steps", 11),
+        .stepped = fw_xml_given(record, "steps"),
         .place = record->element->place};
     bool known = false;
     size_t before = r->diags->errors;
@@ -506,6 +507,7 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
         .samples = fw_xml_whole_or(record, "samples", 0),
         .seed = fw_xml_whole_or(record, "seed", 1),
         .confidence = fw_xml_number_or(record, "confidence", 0.95),
+        .confident = fw_xml_given(record, "confidence"),
         .yield = fw_xml_number_or(record, "yield", 0),
         .fitted = fw_xml_number_or(record, "fitted", 0),
         .place = record->element->place};

@@ -126,6 +126,7 @@ typedef struct fw_device_vary { /* <vary>: an input that the study chooses */
     fw_quantity_dimension dimension; /* of from and to */
     const char *unit;                /* values are written in it; "" for pure numbers */
     int steps;                       /* of a grid */
+    bool stepped;                    /* they are stated */
     bool logarithmic;
     fw_place place;
 } fw_device_vary;
@@ -216,6 +217,7 @@ typedef struct fw_device_study {
     int samples;       /* 0: as many as the kind wants */
     long seed;         /* of random numbers */
     double confidence; /* of intervals */
+    bool confident;    /* it is stated */
     double yield;      /* that a size wants; 0: none */
     /* what responses of a sweep's devices that are not judged may be off by, of the largest; 0: all are judged */
     double fitted;

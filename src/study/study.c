@@ -431,6 +431,7 @@ static fw_status open_all(fw_study *study) {
     FW_TRY(responses);
     if (study->diags.errors > 0) return FW_INPUT;
     FW_TRY(check_kind(study));
+    FW_TRY(fw_study_say_idle(study));
     if (fw_study_draws(study)) {
         FW_TRY(judge_device(study));
         FW_TRY(fw_study_scatter_check(study));

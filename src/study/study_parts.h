@@ -58,7 +58,7 @@ fw_status fw_study_input_check(fw_study *study, int k);
 /* the other way: 0 at from, 1 at to, not beyond */
 double fw_study_input_share(const fw_study_input *input, double value);
 
-/* one device: a sample with room for inputs and responses */
+/* with room for inputs and responses */
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample);
 /* `why` of a device that was not judged: response surfaces told it (kind_sweep.c) */
 extern const char fw_study_told_by_surface[];
@@ -249,7 +249,6 @@ bool fw_study_is_due(const fw_study *study, long i);
 /* "accept", "reject", "inconclusive", "run" (not judged), "failed" */
 const char *fw_study_state_text(bool run, int decision);
 void fw_study_state_take(const char *state, fw_study_sample *sample); /* the reverse of it */
-/* by their numbers */
 void fw_study_sort_samples(fw_study_sample *sample, int n);
 /* the largest share by which a limit of a <respond> is missed; <= 0: all hold; NaN: it was not run, or
    a response that has a limit has no value */
@@ -293,6 +292,7 @@ fw_status fw_study_fitted_run(fw_study *study, const fw_study_points *points,
 
 /* does anything differ from die to die of a sweep, and in one flow? FW_INPUT: FW-D491, FW-D658 */
 fw_status fw_study_dies_check(fw_study *study);
+fw_status fw_study_say_idle(fw_study *study); /* FW-D737 */
 
 /* ---- study_response.c: what a decision follows from ---- */
 

@@ -440,6 +440,23 @@ class Study(unittest.TestCase):
         self.assertEqual(done.returncode, 3)
         self.assertIn("min is given as a length, and the number is in Hz", done.stderr)
 
+    def test_what_has_no_effect_is_told(self):
+        path = self.write(ONE_LEAF, "one.xml")
+        ask = '<respond name="U" value="governing.utilisation"/>'
+        width = '<vary what="width" from="7 um" to="9 um"{}/>'
+        direct = '<vary what="flexure[leaf]/@width" from="7 um" to="9 um" steps="2"/>'
+        for more, rows, says in (
+                ({}, width.format(' steps="2"') + direct, '<vary what="width"> has no effect'),
+                ({"points": "sobol", "samples": 4}, width.format(' steps="2"'), 'steps="..." has no effect'),
+                ({"samples": 3}, width.format(' steps="5"'), 'samples="..." has no effect'),
+                ({"confidence": 0.9}, width.format(""), 'confidence="..." has no effect'),
+                ({}, width.format(' steps="2"') + direct.replace("@width", "@length").replace("7 um", "300 um").replace("9 um", "400 um"), None),
+                ({"points": "sobol", "samples": 4}, width.format(""), None)):
+            done = run("study", self.write(study("s", "sweep", rows + ask, path, **{"as": "hinges"}, **more)), "--plan")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("FW-D737" in done.stderr, says is not None, done.stderr)
+            self.assertIn(says or "", done.stderr)
+
     def test_of_a_row_that_is_refused_nothing_else_is_said(self):
         """it may be what the kind needs"""
         rows = '<vary what="arc" from="200 deg" to="260 deg"/><respond name="a b" value="governing.utilisation"{}/>'
