@@ -538,7 +538,13 @@ fw_status fw_study_run(fw_study *study) {
     study->result = result;
     if (!study->store) return FW_OK;
     FW_TRY(fw_study_store_finish(study->store));
-    return fw_study_store_each(study->store, tally, study);
+    FW_TRY(fw_study_store_each(study->store, tally, study));
+    if (result->failed > 0 && result->run == 0 && study->options.shards == 0)
+        fw_diag_warning(&study->diags, 498, study->asked->place,
+                        "study '%s': none of its %ld devices could be judged (number %ld: %s)",
+                        study->asked->name, result->failed, result->example_at,
+                        result->example_why);
+    return study->diags.failed ? FW_NOMEM : FW_OK;
 }
 
 long fw_study_count(const fw_study *study) {

@@ -153,7 +153,7 @@ fw_status fw_study_run(fw_study *study);
 long fw_study_count(const fw_study *study);
 /* what would be run: a text for a terminal, from the study as opened */
 fw_status fw_study_plan_text(const fw_study *study, fw_text *out);
-/* 1 where nothing was found that holds every limit (of a size), else 0 */
+/* 1 where nothing was found that holds every limit (of a size); 4 where no device could be judged; else 0 */
 int fw_study_decision(const fw_study *study);
 
 /* ---- points that somebody chooses while looking ----

@@ -229,6 +229,10 @@ static void say_ranges(fw_text *out, const fw_study *study) {
         const fw_study_response *q = &study->response[r];
         const fw_study_extreme *e = &study->result->extreme[r];
         fw_text_printf(out, "  %-24s ", q->asked->name);
+        if (e->n == 0) {
+            fw_text_add(out, "no value in any device\n");
+            continue;
+        }
         fw_study_response_text(out, q, e->least);
         fw_text_printf(out, " (number %ld) to ", e->least_at);
         fw_study_response_text(out, q, e->largest);
@@ -250,7 +254,8 @@ static void say_ends(fw_text *out, const fw_study *study) {
             fw_text_printf(out, "  %-24s %s found ", study->response[r].asked->name,
                            e == 0 ? "least" : "largest");
             fw_study_response_text(out, &study->response[r], end->known ? end->value : (double)NAN);
-            if (end->known) fw_text_add(out, " at"), settings(out, study, end->text);
+            fw_text_add(out, end->known ? " at" : "\n");
+            if (end->known) settings(out, study, end->text);
         }
 }
 
@@ -529,5 +534,7 @@ fw_status fw_study_text(const fw_study *study, fw_text *out) {
 
 int fw_study_decision(const fw_study *study) {
     const fw_study_result *r = study->result;
-    return study->asked && study->asked->kind == FW_STUDY_IS_size && r && r->nfound == 0 ? 1 : 0;
+    if (!study->asked || !r || study->options.shards > 0) return 0; /* of a shard: merging says */
+    if (study->asked->kind == FW_STUDY_IS_size) return r->nfound == 0 ? 1 : 0;
+    return r->failed > 0 && r->run == 0 ? 4 : 0;
 }

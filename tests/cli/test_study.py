@@ -440,6 +440,19 @@ class Study(unittest.TestCase):
         self.assertEqual(done.returncode, 3)
         self.assertIn("min is given as a length, and the number is in Hz", done.stderr)
 
+    def test_where_no_device_can_be_judged_the_exit_status_says_it(self):
+        """a hinge that a plate covers is not drawn"""
+        path = self.write(ONE_LEAF, "one.xml")
+        for kind in ("sweep", "worst-case"):
+            rows = ('<vary what="width" from="900 um" to="990 um"/><respond name="U" value="governing.utilisation"/>'
+                    '<respond name="turned" value="hinges[A].peak_angle_rad"/>')
+            done = run("study", self.write(study("s", kind, rows, path, **{"as": "hinges"})), "-o", self.place / kind)
+            self.assertEqual(done.returncode, 4, done.stderr)
+            self.assertIn("devices could be judged (number 0", done.stderr)
+            self.assertIn("FW-D498", done.stderr)
+            self.assertNotIn("number -1", done.stdout)
+            self.assertEqual(len(re.findall(r"^  (?:U|turned) .*no value[^\n]*$", done.stdout, re.M)), 2 if kind == "sweep" else 4)
+
     def test_what_has_no_effect_is_told(self):
         path = self.write(ONE_LEAF, "one.xml")
         ask = '<respond name="U" value="governing.utilisation"/>'
