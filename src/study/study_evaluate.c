@@ -400,6 +400,15 @@ static fw_status members_of(const fw_study *study, int document, fw_arena *arena
     return FW_OK;
 }
 
+/* why a document of what is made has nothing in it */
+static const char *unmade(fw_design *design, int document) {
+    const bool made = fw_study_documents[document].stages & FW_STUDY_STAGE_FABRICATE;
+    return made && fw_design_decision(design) == 1 /* rejected */
+               ? "; there are no masks and recipes, since check rejects the description as it "
+                 "stands: begin with one that it accepts (--set)"
+               : "";
+}
+
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
                             fw_diags *diags) {
     char why[2 * FW_STUDY_WHY]; /* with the keys that there are */
@@ -422,8 +431,8 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
                 if (!root) return FW_STATUS_NOMEM;
             }
             if (!fw_study_response_find(r, root, &value[k], &unit, why, sizeof why) && diags)
-                fw_diag_error(diags, 492, r->asked->place, "response '%s' (%s): %s", r->asked->name,
-                              r->asked->value, why);
+                fw_diag_error(diags, 492, r->asked->place, "response '%s' (%s): %s%s",
+                              r->asked->name, r->asked->value, why, unmade(design, d));
             if (diags && r->unit_beside && unit && !(r->unit = fw_arena_strdup(study->arena, unit)))
                 return FW_STATUS_NOMEM;
         }

@@ -251,11 +251,16 @@ static void say_ends(fw_text *out, const fw_study *study) {
     for (int r = 0; r < study->nresponse; r++)
         for (int e = 0; e < 2; e++) {
             const fw_study_end *end = &study->result->end[2 * r + e];
-            fw_text_printf(out, "  %-24s %s found ", study->response[r].asked->name,
+            fw_text_printf(out, "  %-24s %s ", study->response[r].asked->name,
                            e == 0 ? "least" : "largest");
-            fw_study_response_text(out, &study->response[r], end->known ? end->value : (double)NAN);
-            fw_text_add(out, end->known ? " at" : "\n");
-            if (end->known) settings(out, study, end->text);
+            if (!end->known) {
+                fw_text_add(out, "not known: no value in any device\n");
+                continue;
+            }
+            fw_text_add(out, "found ");
+            fw_study_response_text(out, &study->response[r], end->value);
+            fw_text_add(out, " at");
+            settings(out, study, end->text);
         }
 }
 

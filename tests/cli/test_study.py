@@ -453,6 +453,13 @@ class Study(unittest.TestCase):
             self.assertNotIn("number -1", done.stdout)
             self.assertEqual(len(re.findall(r"^  (?:U|turned) .*no value[^\n]*$", done.stdout, re.M)), 2 if kind == "sweep" else 4)
 
+    def test_that_a_rejected_device_has_no_masks_is_said(self):
+        path = self.write(ONE_HINGE.replace('min="1 Hz"', 'min="1 MHz"'), "rejected.xml")
+        rows = ('<vary what="gap" from="6 um" to="25 um"/><respond name="area" value="masks:masks[0].layers[0].area_um2"/>')
+        done = run("study", self.write(study("s", "sweep", rows, path, **{"as": "drawn"})), "--plan")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("there are no masks and recipes, since check rejects the description as it stands", done.stderr)
+
     def test_what_has_no_effect_is_told(self):
         path = self.write(ONE_LEAF, "one.xml")
         ask = '<respond name="U" value="governing.utilisation"/>'
