@@ -45,6 +45,18 @@ static const char *unit_written(fw_arena *arena, const fw_xml_record *record, co
     return fw_arena_strndup(arena, rest, length);
 }
 
+/* how far values are apart is no temperature of its own: 5 Cel would be 278.15 K */
+static void check_difference(fw_xml_reader *r, const fw_xml_record *record, const char *name) {
+    const char *written = unit_written(r->arena, record, name);
+    fw_quantity_unit unit;
+    if (!written || !fw_quantity_unit_parse(written, strlen(written), &unit, NULL, NULL)) return;
+    if (unit.offset != 0)
+        fw_diag_error(r->diags, 491, fw_xml_place_of(record, name),
+                      "%s is a difference of temperatures, and '%s' counts from the ice point; "
+                      "write it in K",
+                      name, written);
+}
+
 /* the first of `names` that is written with a unit decides; "" for pure numbers. A dimension that no
    unit was written with is asked for one. */
 static fw_status unit_of(fw_xml_reader *r, const fw_xml_record *record, const char *const *names,
@@ -115,6 +127,7 @@ static fw_status build_vary(fw_xml_reader *r, const fw_xml_record *record, fw_de
         .logarithmic =
             word_of(record, "scale", (const char *const[]){"linear", "logarithmic", NULL}, 0) == 1,
         .steps = fw_xml_whole_or(record, "steps", 11),
+        .stepped = fw_xml_given(record, "steps"),
         .place = record->element->place};
     bool known = false;
     size_t before = r->diags->errors;
@@ -301,6 +314,7 @@ static fw_status build_uncertain(fw_xml_reader *r, const fw_xml_record *record,
     FW_TRY(value_of(r, record, "from", &known, &u.dimension, &u.from));
     FW_TRY(value_of(r, record, "to", &known, &u.dimension, &u.to));
     FW_TRY(value_of(r, record, "sd", &known, &u.dimension, &u.sd));
+    check_difference(r, record, "sd");
     if (r->diags->errors == before) check_spread(r, record, &u, further);
     if (u.spread == FW_SPREAD_TABLE) {
         if (r->diags->errors == before) FW_TRY(build_table(r, record, &u));
@@ -321,6 +335,9 @@ static fw_status build_trend(fw_xml_reader *r, const fw_xml_record *record, fw_d
     FW_TRY(value_of(r, record, "radial", &known, &t.dimension, &t.radial));
     FW_TRY(value_of(r, record, "along-x", &known, &t.dimension, &t.along_x));
     FW_TRY(value_of(r, record, "along-y", &known, &t.dimension, &t.along_y));
+    check_difference(r, record, "radial");
+    check_difference(r, record, "along-x");
+    check_difference(r, record, "along-y");
     const char *what = known || r->diags->errors > before
                            ? NULL
                            : "needs radial=\"...\", along-x=\"...\" or along-y=\"...\"";
@@ -352,11 +369,12 @@ static fw_status build_respond(fw_xml_reader *r, const fw_xml_record *record, fw
         .value = fw_xml_text_of(record, "value"),
         .take = (fw_device_respond_take)word_of(record, "take", words->take, FW_TAKE_ONE),
         .goal = (fw_device_respond_goal)word_of(record, "goal", words->goal, FW_GOAL_NONE),
-        .place = record->element->place};
+        .place = record->element->place,
+        .min_place = fw_xml_place_of(record, "min"),
+        .max_place = fw_xml_place_of(record, "max")};
     bool known = false;
-    fw_quantity_dimension dimension;
-    FW_TRY(value_of(r, record, "min", &known, &dimension, &q.min));
-    FW_TRY(value_of(r, record, "max", &known, &dimension, &q.max));
+    FW_TRY(value_of(r, record, "min", &known, &q.dimension, &q.min));
+    FW_TRY(value_of(r, record, "max", &known, &q.dimension, &q.max));
     if (q.min > q.max) wrong(r, record, "min", "min is above max; exchange them");
     for (int i = 0; q.name && i < s->nrespond; i++)
         if (strcmp(s->respond[i].name, q.name) == 0)
@@ -489,6 +507,7 @@ static fw_status build_study(fw_xml_reader *r, int at, fw_device_study *s) {
         .samples = fw_xml_whole_or(record, "samples", 0),
         .seed = fw_xml_whole_or(record, "seed", 1),
         .confidence = fw_xml_number_or(record, "confidence", 0.95),
+        .confident = fw_xml_given(record, "confidence"),
         .yield = fw_xml_number_or(record, "yield", 0),
         .fitted = fw_xml_number_or(record, "fitted", 0),
         .place = record->element->place};

@@ -126,6 +126,7 @@ typedef struct fw_device_vary { /* <vary>: an input that the study chooses */
     fw_quantity_dimension dimension; /* of from and to */
     const char *unit;                /* values are written in it; "" for pure numbers */
     int steps;                       /* of a grid */
+    bool stepped;                    /* they are stated */
     bool logarithmic;
     fw_place place;
 } fw_device_vary;
@@ -201,7 +202,9 @@ typedef struct fw_device_respond { /* <respond>: a number that is looked at */
     const char *value; /* where it stands: "governing.utilisation", "modes:modes[0].f_Hz" */
     fw_device_respond_take take;
     fw_device_respond_goal goal;
-    double min, max; /* SI; NaN: no limit */
+    double min, max; /* SI, or as the number stands where they have no unit; NaN: no limit */
+    fw_quantity_dimension dimension; /* of min and max; pure: the unit of the number is meant */
+    fw_place min_place, max_place;
     fw_place place;
 } fw_device_respond;
 
@@ -214,6 +217,7 @@ typedef struct fw_device_study {
     int samples;       /* 0: as many as the kind wants */
     long seed;         /* of random numbers */
     double confidence; /* of intervals */
+    bool confident;    /* it is stated */
     double yield;      /* that a size wants; 0: none */
     /* what responses of a sweep's devices that are not judged may be off by, of the largest; 0: all are judged */
     double fitted;

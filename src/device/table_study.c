@@ -179,8 +179,10 @@ static const fw_xml_attribute_row respond_rows[] = {
                  "recipes. true and accept count 1; false, inconclusive and reject 0."},
     {"take", .kind = FW_KIND_WORD, .words = takes, .fallback = "one",
      .sentence = "Of several values: the largest, the least, their sum."},
-    {"min", .kind = FW_KIND_ANY, .fallback = "no limit", .sentence = "At least this."},
-    {"max", .kind = FW_KIND_ANY, .fallback = "no limit", .sentence = "At most this."},
+    {"min", .kind = FW_KIND_ANY, .fallback = "no limit",
+     .sentence = "At least this, with its unit; without one in that of the number, by its key: um "
+                 "of min_space_um."},
+    {"max", .kind = FW_KIND_ANY, .fallback = "no limit", .sentence = "At most this, likewise."},
     {"goal", .kind = FW_KIND_WORD, .words = goals, .fallback = "none",
      .sentence = "Of a size: what is wanted of it. Two goals give a Pareto front."},
 };

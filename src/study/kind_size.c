@@ -394,21 +394,21 @@ static fw_status tell_governing(fw_study *study, const fw_plan *plan, int kinds,
     return tell(study, f, &text);
 }
 
-/* a limit of a response that it misses; where all hold, one that it is at and its goal does not lead away from */
+/* a limit (NaN: none) of a response that it misses; where all hold, one that it is at and its goal does not lead away from */
 static fw_status tell_responses(fw_study *study, fw_study_found *f) {
     for (int k = 0; k < study->nresponse; k++) {
-        const fw_device_respond *q = study->response[k].asked;
+        const fw_study_response *of = &study->response[k];
+        const fw_device_respond_goal way = of->asked->goal;
         const bool missed = f->excess > 0;
         const double value = f->response[k], slack = missed ? 0 : (1 - at_limit) * fabs(value);
-        /* NaN: no limit */
-        const bool low = value < q->min + slack && (missed || q->goal != FW_GOAL_MAXIMISE),
-                   high = value > q->max - slack && (missed || q->goal != FW_GOAL_MINIMISE);
+        const bool low = value < of->min + slack && (missed || way != FW_GOAL_MAXIMISE),
+                   high = value > of->max - slack && (missed || way != FW_GOAL_MINIMISE);
         fw_text text = fw_text_new(study->arena);
         if (!low && !high) continue;
-        fw_text_printf(&text, "%s is ", q->name);
-        fw_study_response_text(&text, &study->response[k], value);
+        fw_text_printf(&text, "%s is ", of->asked->name);
+        fw_study_response_text(&text, of, value);
         fw_text_add(&text, low ? ", and at least " : ", and at most ");
-        fw_study_response_text(&text, &study->response[k], low ? q->min : q->max);
+        fw_study_response_text(&text, of, low ? of->min : of->max);
         fw_text_add(&text, " is asked for");
         FW_TRY(tell(study, f, &text));
     }

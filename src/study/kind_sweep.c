@@ -4,8 +4,13 @@
    everything that its flow and <uncertain> make differ, and a place on the wafer where there are trends: further numbers of
    its point of a Sobol' sequence, of a grid numbers of its own. What is only known by an interval goes evenly over it. */
 #include "chance/random.h"
+#include "device/edit.h"
 #include "maths/functions.h"
 #include "study/study_parts.h"
+#include "xml/xml.h"
+#include <ctype.h>
+#include <math.h>
+#include <string.h>
 
 enum { SOBOL_USUAL = 256, SWEEP_MOST = 100000000, SOBOL_DIGITS = 9, SETTING_DIGITS = 12 };
 enum { DIES = 2 }; /* of the seed: numbers that nothing else uses */
@@ -121,6 +126,111 @@ fw_status fw_study_check_sweep(fw_study *study) {
                                  "'%s' has %d where '%s' has %ld; give each as many",
                                  in->what, steps, study->input[0].what, n);
     }
+    return FW_OK;
+}
+
+/* ---- what is stated and has no effect ---- */
+
+static fw_status idle(fw_study *study, fw_place place, const char *what, const char *why) {
+    fw_diag_warning(&study->diags, 737, place, "study '%s': %s has no effect: %s",
+                    study->asked->name, what, why);
+    return study->diags.failed ? FW_NOMEM : FW_OK;
+}
+
+/* Does a text have the name as a word of its own? It stands in an expression, or in some other text, of which it is not known
+   that it is none. */
+static bool has_word(const char *text, const char *name) {
+    const size_t n = strlen(name);
+    for (const char *at = strstr(text, name); at; at = strstr(at + 1, name)) {
+        const bool begins = at == text || !(isalnum((unsigned char)at[-1]) || at[-1] == '_');
+        if (begins && !isalnum((unsigned char)at[n]) && at[n] != '_') return true;
+    }
+    return false;
+}
+
+/* of any attribute of an element and of what is in it and behind it */
+static bool is_said(const fw_xml_element *e, const char *name) {
+    for (; e; e = e->next) {
+        for (int i = 0; i < e->nattribute; i++)
+            if (has_word(e->attribute[i].value, name)) return true;
+        if (has_word(e->text, name) || is_said(e->first_child, name)) return true;
+    }
+    return false;
+}
+
+/* the description without studies and without parameter k, all else set as the study and its line set it: does anything still
+   say the parameter's name? What cannot be told is taken to */
+static fw_status is_used(fw_study *study, fw_arena *scratch, int k, bool *used) {
+    const fw_device *d = study->plan->device;
+    const int most = study->nvary + study->options.nset + d->nstudy + 1;
+    fw_device_text_change *change = fw_arena_array(scratch, fw_device_text_change, (size_t)most);
+    fw_diags quiet = fw_diags_new(scratch);
+    fw_text text = fw_text_new(scratch);
+    int n = 0;
+    *used = true;
+    FW_NEED(change);
+    for (int i = 0; i < study->options.nset; i++)
+        if (strchr(study->options.set[i].path, '/'))
+            change[n++] = (fw_device_text_change){.path = study->options.set[i].path, .value = "0"};
+    for (int i = 0; i < study->nvary; i++)
+        if (strchr(study->input[i].what, '/'))
+            change[n++] = (fw_device_text_change){.path = study->input[i].what, .value = "0"};
+    if (n == 0 || !d->source) return FW_OK;
+    for (int i = 0; i < d->nstudy; i++)
+        change[n++] = (fw_device_text_change){
+            .kind = FW_CHANGE_REMOVE,
+            .path = fw_arena_printf(scratch, "study[%s]", d->study[i].name)};
+    change[n++] = (fw_device_text_change){
+        .kind = FW_CHANGE_REMOVE,
+        .path = fw_arena_printf(scratch, "parameter[%s]", study->input[k].what)};
+    for (int i = 0; i < n; i++)
+        FW_NEED(change[i].path);
+    const fw_status status =
+        fw_device_edit(scratch, d->file, d->source, d->source_length, change, n, &quiet, &text);
+    fw_xml_element *root = NULL;
+    if (status == FW_OK)
+        FW_NEED(fw_xml_read(scratch, d->file, text.data, text.length, &quiet, &root) == FW_NOMEM
+                    ? NULL
+                    : scratch);
+    if (root) *used = is_said(root, study->input[k].what);
+    return status == FW_NOMEM ? FW_NOMEM : FW_OK;
+}
+
+static fw_status say_input(fw_study *study, int k) {
+    const fw_device_vary *v = &study->asked->vary[k];
+    const bool stepped =
+        study->asked->kind == FW_STUDY_IS_sweep && study->asked->points != FW_POINTS_SOBOL;
+    if (v->stepped && !stepped)
+        FW_TRY(idle(study, v->place, "steps=\"...\"",
+                    "they are of a grid or a list, and values come from all of the range"));
+    if (isnan(study->input[k].now)) return FW_OK; /* no parameter */
+    const char *what = fw_arena_printf(study->arena, "<vary what=\"%s\">", v->what);
+    fw_arena *scratch = what ? fw_arena_part(study->arena, 0) : NULL;
+    FW_NEED(scratch);
+    bool used;
+    fw_status status = is_used(study, scratch, k, &used);
+    fw_arena_free(scratch);
+    if (status == FW_OK && !used)
+        status = idle(study, v->place, what,
+                      "nothing of the description uses it but what is set by itself, by another "
+                      "<vary> or by --set");
+    return status;
+}
+
+fw_status fw_study_say_idle(fw_study *study) {
+    const fw_device_study *a = study->asked;
+    const bool chosen = a->kind == FW_STUDY_IS_sweep;
+    if (a->samples > 0 && chosen && a->points != FW_POINTS_SOBOL)
+        FW_TRY(idle(study, a->place, "samples=\"...\"",
+                    "a grid or a list has as many devices as the values of its inputs make; take "
+                    "points=\"sobol\" for so many"));
+    const bool intervals = a->kind == FW_STUDY_IS_sensitivity || a->kind == FW_STUDY_IS_yield ||
+                           (a->kind == FW_STUDY_IS_size && a->yield > 0);
+    if (a->confident && !intervals)
+        FW_TRY(idle(study, a->place, "confidence=\"...\"",
+                    "there are no intervals that it would be of"));
+    for (int k = 0; k < study->nvary; k++)
+        FW_TRY(say_input(study, k));
     return FW_OK;
 }
 

@@ -204,6 +204,35 @@ static void check_names(fw_study *study) {
 
 /* ---- responses ---- */
 
+/* a limit in the unit of the number */
+static fw_status limit_in(fw_study *study, const fw_study_response *r, const char *name,
+                          fw_place place, double *limit) {
+    const fw_device_respond *asked = r->asked;
+    const char *known = r->unit;
+    fw_quantity_unit unit;
+    if (isnan(*limit)) return FW_OK;
+    FW_TRY(unit_of(known, &unit));
+    *limit = fw_quantity_unit_from_si(&unit, *limit);
+    if (fw_quantity_dimension_equal(asked->dimension, unit.dimension)) return FW_OK;
+    return fw_diag_error(&study->diags, 25, place,
+                         *known ? "response '%s' (%s): %s is given as a %s, and the number is in "
+                                  "%s; write it in such a unit, or without one, which means %s"
+                                : "response '%s' (%s): %s is given as a %s, and the number has no "
+                                  "unit; write it without one",
+                         asked->name, asked->value, name,
+                         fw_quantity_dimension_text(study->arena, asked->dimension), known, known);
+}
+
+/* those without a unit are in that of the number */
+static fw_status take_limits(fw_study *study, fw_study_response *r) {
+    const fw_device_respond *asked = r->asked;
+    r->min = asked->min, r->max = asked->max;
+    if (fw_quantity_dimension_equal(asked->dimension, (fw_quantity_dimension){0})) return FW_OK;
+    const fw_status min = limit_in(study, r, "min", asked->min_place, &r->min);
+    const fw_status max = limit_in(study, r, "max", asked->max_place, &r->max);
+    return min != FW_OK ? min : max;
+}
+
 static fw_status take_responses(fw_study *study) {
     const fw_device_study *asked = study->asked;
     study->nresponse = asked->nrespond;
@@ -223,12 +252,33 @@ static fw_status take_responses(fw_study *study) {
                                    "hinge_model or failure_probability",
                                    asked->respond[k].name, asked->respond[k].value,
                                    fw_device_study_judge_text(asked->judge));
+        if (one == FW_OK && !study->response[k].unit_beside)
+            one = take_limits(study, &study->response[k]);
+        if (one != FW_OK) status = one;
         if (one == FW_OK) study->stages |= fw_study_documents[study->response[k].document].stages;
     }
     /* a yield and a size ask what check says */
     if (asked->kind == FW_STUDY_IS_yield || asked->kind == FW_STUDY_IS_size || asked->nrespond == 0)
         study->stages |= FW_STUDY_STAGE_JUDGE;
     return status;
+}
+
+/* Limits of a number whose unit stands in the document. runs: it was read */
+static fw_status unit_beside(fw_study *study, fw_study_response *r, bool runs) {
+    const fw_device_respond *asked = r->asked;
+    const bool limited = !isnan(asked->min) || !isnan(asked->max),
+               pure = fw_quantity_dimension_equal(asked->dimension, (fw_quantity_dimension){0});
+    fw_status status = FW_OK;
+    if (runs)
+        status = take_limits(study, r);
+    else if (limited && !pure)
+        status = fw_diag_error(
+            &study->diags, 25, isnan(asked->min) ? asked->max_place : asked->min_place,
+            "response '%s' (%s): the unit of the number stands beside it in the document, and the "
+            "description as it stands has none, since it could not be run; write the limit "
+            "without a unit, as the document has the number",
+            asked->name, asked->value);
+    return status == FW_INPUT ? FW_OK : status; /* all of them are said */
 }
 
 /* once, for every path and for what one device takes */
@@ -251,9 +301,13 @@ static fw_status run_as_it_stands(fw_study *study) {
     study->seconds_each =
         (double)(ended.tv_sec - begun.tv_sec) + 1e-9 * (double)(ended.tv_nsec - begun.tv_nsec);
     if (fw_plan_is_final((fw_status)status)) return (fw_status)status;
-    if (status != FW_STATUS_OK) return FW_OK; /* others may be run; paths cannot be looked up */
-    for (int k = 0; k < study->nresponse; k++)
-        study->response[k].now = now[k];
+    const bool runs = status == FW_STATUS_OK;
+    for (int k = 0; k < study->nresponse; k++) {
+        fw_study_response *r = &study->response[k];
+        if (runs) r->now = now[k];
+        if (r->unit_beside) FW_TRY(unit_beside(study, r, runs));
+    }
+    /* others may be run where it is not: paths cannot be looked up */
     return study->diags.errors > errors ? FW_INPUT : FW_OK;
 }
 
@@ -377,6 +431,7 @@ static fw_status open_all(fw_study *study) {
     FW_TRY(responses);
     if (study->diags.errors > 0) return FW_INPUT;
     FW_TRY(check_kind(study));
+    FW_TRY(fw_study_say_idle(study));
     if (fw_study_draws(study)) {
         FW_TRY(judge_device(study));
         FW_TRY(fw_study_scatter_check(study));
@@ -483,7 +538,13 @@ fw_status fw_study_run(fw_study *study) {
     study->result = result;
     if (!study->store) return FW_OK;
     FW_TRY(fw_study_store_finish(study->store));
-    return fw_study_store_each(study->store, tally, study);
+    FW_TRY(fw_study_store_each(study->store, tally, study));
+    if (result->failed > 0 && result->run == 0 && study->options.shards == 0)
+        fw_diag_warning(&study->diags, 498, study->asked->place,
+                        "study '%s': none of its %ld devices could be judged (number %ld: %s)",
+                        study->asked->name, result->failed, result->example_at,
+                        result->example_why);
+    return study->diags.failed ? FW_NOMEM : FW_OK;
 }
 
 long fw_study_count(const fw_study *study) {

@@ -62,16 +62,19 @@ typedef struct fw_study_response {
     const fw_device_respond *asked;
     int document;     /* index into the table of documents, study_response.c */
     const char *path; /* behind the document's name */
-    const char *unit; /* of the key, "m"; "" for pure numbers */
-    bool share;       /* of a limit, of 1; texts and pictures have it in %, as verdicts do */
-    double now;       /* of the description as it stands */
+    const char *unit; /* of the number, "m"; "" for pure numbers */
+    bool
+        unit_beside; /* the document says the unit beside the number: read as the description stands */
+    double min, max; /* in that unit; NaN: no limit */
+    bool share;      /* of a limit, of 1; texts and pictures have it in %, as verdicts do */
+    double now;      /* of the description as it stands */
 } fw_study_response;
 
 typedef struct fw_study_sample {
     long i;                      /* number in the study */
     char (*text)[FW_STUDY_TEXT]; /* (ninput) as --set takes them */
     double *value;               /* (ninput) SI; NaN: listed words */
-    double *response;            /* (nresponse) SI; NaN: none */
+    double *response;            /* (nresponse) in the unit of the number; NaN: none */
     int decision;                /* 0 accepted, 1 rejected, 4 inconclusive; -1: not judged */
     /* largest share of a limit that any hinge or requirement uses, at the upper end of its band and over all
        that the flows make of it; above 1 where it is not accepted; NaN: not judged */
@@ -150,7 +153,7 @@ fw_status fw_study_run(fw_study *study);
 long fw_study_count(const fw_study *study);
 /* what would be run: a text for a terminal, from the study as opened */
 fw_status fw_study_plan_text(const fw_study *study, fw_text *out);
-/* 1 where nothing was found that holds every limit (of a size), else 0 */
+/* 1 where nothing was found that holds every limit (of a size); 4 where no device could be judged; else 0 */
 int fw_study_decision(const fw_study *study);
 
 /* ---- points that somebody chooses while looking ----

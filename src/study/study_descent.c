@@ -115,7 +115,7 @@ fw_status fw_study_descent_cobyla(fw_study_descent *d, double *start, fw_arena *
     nlopt_add_inequality_mconstraint(s.opt, (unsigned)d->m, constraints, &s, near);
     nlopt_set_lower_bounds1(s.opt, 0);
     nlopt_set_upper_bounds1(s.opt, 1);
-    nlopt_set_initial_step1(s.opt, rho);
+    nlopt_set_initial_step1(s.opt, d->step > 0 ? d->step : rho);
     nlopt_set_xtol_abs1(s.opt, fine);
     nlopt_set_maxeval(s.opt, d->most);
     nlopt_optimize(s.opt, start, &least); /* what it met is what counts */

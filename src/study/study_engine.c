@@ -368,6 +368,8 @@ static fw_status add_asked(const fw_study *study, fw_text *t) {
         add_text(t, q->name), add_text(t, q->value);
         fw_text_printf(t, " %d %d", (int)q->take, (int)q->goal);
         add_real(t, q->min), add_real(t, q->max);
+        if (!fw_quantity_dimension_equal(q->dimension, (fw_quantity_dimension){0}))
+            add_text(t, "with units"); /* without, they are in the unit of the number */
     }
     return fw_text_end(t);
 }

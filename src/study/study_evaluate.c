@@ -171,7 +171,7 @@ static double missed(double by, double limit) {
 int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double *c) {
     int n = 0;
     for (int k = 0; k < study->nresponse; k++) {
-        const fw_device_respond *q = study->response[k].asked;
+        const fw_study_response *q = &study->response[k];
         const double value = sample ? sample->response[k] : (double)NAN;
         if (!isnan(q->min) && c) c[n] = missed(q->min - value, q->min);
         n += !isnan(q->min);
@@ -185,7 +185,7 @@ double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
     double most = -HUGE_VAL;
     if (!sample->run) return (double)NAN;
     for (int k = 0; k < study->nresponse; k++) {
-        const fw_device_respond *q = study->response[k].asked;
+        const fw_study_response *q = &study->response[k];
         double value = sample->response[k];
         if (isnan(q->min) && isnan(q->max)) continue;
         if (isnan(value)) return (double)NAN;
@@ -400,14 +400,23 @@ static fw_status members_of(const fw_study *study, int document, fw_arena *arena
     return FW_OK;
 }
 
+/* why a document of what is made has nothing in it */
+static const char *unmade(fw_design *design, int document) {
+    const bool made = fw_study_documents[document].stages & FW_STUDY_STAGE_FABRICATE;
+    return made && fw_design_decision(design) == 1 /* rejected */
+               ? "; there are no masks and recipes, since check rejects the description as it "
+                 "stands: begin with one that it accepts (--set)"
+               : "";
+}
+
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
                             fw_diags *diags) {
     char why[2 * FW_STUDY_WHY]; /* with the keys that there are */
     for (int d = 0; d < fw_study_document_count; d++) {
         json_t *root = NULL;
         for (int k = 0; k < study->nresponse; k++) {
-            const fw_study_response *r = &study->response[k];
-            const char *text;
+            fw_study_response *r = &study->response[k];
+            const char *text, *unit;
             size_t n;
             if (r->document != d) continue;
             if (!root) {
@@ -421,9 +430,11 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
                 if (status != FW_STATUS_OK) return status;
                 if (!root) return FW_STATUS_NOMEM;
             }
-            if (!fw_study_response_find(r, root, &value[k], why, sizeof why) && diags)
-                fw_diag_error(diags, 492, r->asked->place, "response '%s' (%s): %s", r->asked->name,
-                              r->asked->value, why);
+            if (!fw_study_response_find(r, root, &value[k], &unit, why, sizeof why) && diags)
+                fw_diag_error(diags, 492, r->asked->place, "response '%s' (%s): %s%s",
+                              r->asked->name, r->asked->value, why, unmade(design, d));
+            if (diags && r->unit_beside && unit && !(r->unit = fw_arena_strdup(study->arena, unit)))
+                return FW_STATUS_NOMEM;
         }
         json_decref(root);
     }
@@ -446,10 +457,17 @@ static double of_hinges(const fw_verdict_hinge_verdict *h, int n, double most) {
    search is told by it which way is out where nothing else tells. */
 const double fw_study_beyond = 1.001;
 
+/* A hinge as made or a requirement that is not accepted is a reason as well, and has the number of what it uses by itself:
+   `keep` of the reason is where advice begins, a little below what would hold. */
+static bool is_check(const fw_verdict_reason *r) {
+    return r->number == 237 || r->number == 330 || r->number == 331;
+}
+
 /* Reasons that measure nothing say where advice begins by a round share of the loads, which is no number of the device:
    taken for one, it would be the same wherever the reason is, and fall where another one is measured. */
 static bool measured(const fw_verdict_reason *r) {
-    return r->keep > 0 && r->keep != FW_VERDICT_KEEP_HALF && r->keep != FW_VERDICT_KEEP_MOST;
+    return !is_check(r) && r->keep > 0 && r->keep != FW_VERDICT_KEEP_HALF &&
+           r->keep != FW_VERDICT_KEEP_MOST;
 }
 
 static double used_of(const fw_verdict *verdict, int decision) {

@@ -184,9 +184,12 @@ static bool check_judged(fitted *f, const fw_study_sample *sample) {
     for (int e = 0; e < f->ends; e++)
         if (!isfinite(end[e])) return refuse(f, sample, "has a band without ends", "");
     const double used = fw_study_used(most_of(end, of_all(f)), sample->decision);
-    return (decided_by(f, end) == sample->decision &&
-            fabs(used - sample->used) < 1e-9 * sample->used) ||
-           refuse(f, sample, "is decided by something else than its hinges and requirements", "");
+    if (decided_by(f, end) != sample->decision)
+        return refuse(f, sample, "is decided by something else than its hinges and requirements",
+                      "");
+    return fabs(used - sample->used) < 1e-9 * sample->used ||
+           refuse(f, sample,
+                  "uses most of a limit of something else than its hinges and requirements", "");
 }
 
 static fw_status take_judged(void *context, const fw_study_sample *sample) {

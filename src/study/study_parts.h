@@ -31,9 +31,10 @@ fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *aske
 /* is it about hinges and requirements, and nothing else of the verdict? */
 bool fw_study_response_of_hinges(const fw_study_response *response);
 /* The number at the response's path of a document that was read. false: there is none, and `why` (n
-   bytes) says which key is missing and which there are. A number that is null is NaN, and found. */
+   bytes) says which key is missing and which there are. A number that is null is NaN, and found. unit (NULL: nobody
+   asks): what the document says beside the number, of root's memory; NULL: nothing, or of several numbers different ones */
 bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,
-                            char *why, size_t n);
+                            const char **unit, char *why, size_t n);
 
 /* ---- study_evaluate.c: values of inputs as text and back ---- */
 
@@ -57,9 +58,7 @@ fw_status fw_study_input_check(fw_study *study, int k);
 /* the other way: 0 at from, 1 at to, not beyond */
 double fw_study_input_share(const fw_study_input *input, double value);
 
-/* one device */
-
-/* a sample with room for inputs and responses */
+/* with room for inputs and responses */
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample);
 /* `why` of a device that was not judged: response surfaces told it (kind_sweep.c) */
 extern const char fw_study_told_by_surface[];
@@ -73,7 +72,8 @@ fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel
 /* a design with the study's options, sets and these settings, read; *status tells. NULL: no memory */
 fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
                            const char (*text)[FW_STUDY_TEXT], int *status);
-/* values (nresponse) of a design whose stages have run; what is not found is NaN, and said in diags (NULL: nobody is told) */
+/* values (nresponse) of a design whose stages have run; what is not found is NaN. diags (else NULL) is of the description
+   as it stands: what is not found is said there, and units that stand beside numbers become those of the responses */
 int fw_study_responses_take(const fw_study *study, fw_design *design, double *value,
                             fw_diags *diags);
 /* what a design that was read says: decision and responses, or why not; the library's status */
@@ -169,11 +169,13 @@ typedef struct fw_study_descent {
     fw_study_tried *tried; /* room for `most`; (used) in their order */
     int used;
     bool over;
+    double step; /* first one of COBYLA, share of a range; 0: the usual one */
 } fw_study_descent;
 /* the largest constraint; NaN: as bad as can be */
 double fw_study_tried_worst(const fw_study_tried *t, int m);
-/* COBYLA from start, which becomes its end */
-fw_status fw_study_descent_cobyla(fw_study_descent *d, double *start, fw_arena *arena);
+/* from start, which becomes its end */
+typedef fw_status fw_study_descend(fw_study_descent *d, double *start, fw_arena *arena);
+fw_study_descend fw_study_descent_cobyla;
 /* from what was judged already, on from the best of it */
 fw_status fw_study_descent_models(fw_study_descent *d, const fw_study_tried *known, int nknown,
                                   fw_arena *arena);
@@ -205,9 +207,10 @@ typedef struct fw_study_search {
        say what is judged next, from the best of it on */
     const fw_study_tried *known;
     int nknown;
-    int most;   /* evaluations */
-    int digits; /* of the values that are tried */
-    long first; /* number of its first sample */
+    fw_study_descend *descend; /* NULL: COBYLA, or models where `known` is */
+    int most;                  /* evaluations */
+    int digits;                /* of the values that are tried */
+    long first;                /* number of its first sample */
     /* out: the best sample, feasible first; its objective and constraint */
     fw_study_sample best;
     double f, c;           /* c: the largest constraint */
@@ -246,7 +249,6 @@ bool fw_study_is_due(const fw_study *study, long i);
 /* "accept", "reject", "inconclusive", "run" (not judged), "failed" */
 const char *fw_study_state_text(bool run, int decision);
 void fw_study_state_take(const char *state, fw_study_sample *sample); /* the reverse of it */
-/* by their numbers */
 void fw_study_sort_samples(fw_study_sample *sample, int n);
 /* the largest share by which a limit of a <respond> is missed; <= 0: all hold; NaN: it was not run, or
    a response that has a limit has no value */
@@ -257,7 +259,6 @@ int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double
 extern const double fw_study_beyond;
 /* ---- study_fitted.c: devices that are told and not judged ---- */
 
-struct fw_study_result;
 typedef struct fw_study_points { /* all devices of a study, chosen beforehand */
     long n;
     fw_status (*at)(const void *context, long k, fw_study_sample *sample); /* inputs of device k */
@@ -291,6 +292,7 @@ fw_status fw_study_fitted_run(fw_study *study, const fw_study_points *points,
 
 /* does anything differ from die to die of a sweep, and in one flow? FW_INPUT: FW-D491, FW-D658 */
 fw_status fw_study_dies_check(fw_study *study);
+fw_status fw_study_say_idle(fw_study *study); /* FW-D737 */
 
 /* ---- study_response.c: what a decision follows from ---- */
 
@@ -460,8 +462,6 @@ fw_status fw_study_at_yield(fw_study *study, const fw_study_search *like,
 
 /* inputs and responses as they were asked for; before it runs, too */
 fw_status fw_study_asked_text(const fw_study *study, fw_text *out);
-/* rows go to the file as they are read: memory does not grow with them */
-fw_status fw_study_csv_save(fw_study *study, const char *path);
 
 typedef struct fw_study_picture {
     const char *name;  /* "map-C", of its file NAME.svg */

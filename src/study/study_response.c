@@ -25,32 +25,53 @@ const int fw_study_document_count = sizeof fw_study_documents / sizeof fw_study_
 
 /* ---- units, by the end of a key ---- */
 
-/* "volume_m2_rad" ends in "m2 rad": the longest end behind a '_' that is a unit */
+/* "m2_rad" as units are written: "m2 rad"; "N_per_m": "N/m", "per_s": "1/s", "Nm": "N m" */
+static bool spelt(const char *key, size_t n, char text[64]) {
+    size_t length = 0;
+    for (size_t k = 0; k < n; k++) {
+        const bool first = k == 0, behind = k > 0 && key[k - 1] == '_';
+        if (length + 4 > 64) return false;
+        if (n - k > 4 && strncmp(key + k, "per_", 4) == 0 && (first || behind)) {
+            if (first) text[length++] = '1';
+            if (!first) length--; /* the blank */
+            text[length++] = '/', k += 3;
+        } else {
+            if (k > 0 && key[k] == 'm' && key[k - 1] == 'N') text[length++] = ' ';
+            text[length++] = key[k] == '_' ? ' ' : key[k];
+        }
+    }
+    text[length] = '\0';
+    return true;
+}
+
+static bool is_unit(const char *text) {
+    fw_quantity_unit found;
+    return fw_quantity_unit_parse(text, strlen(text), &found, NULL, NULL);
+}
+
+/* "volume_m2_rad" ends in "m2 rad": the longest end behind a '_' that is a unit; of what is counted by something, as
+   "bias_um_per_edge", it is that without. A whole key is one where it has an exponent or a quotient ("m2_rad"): "min_s"
+   is a least time. "": there is none */
 static fw_status unit_of_key(fw_arena *arena, const char *key, size_t n, const char **unit) {
     char text[64];
     *unit = "";
     for (size_t at = 0; at < n; at++) {
-        if (key[at] != '_') continue;
-        size_t length = 0;
-        for (size_t k = at + 1; k < n && length + 2 < sizeof text; k++) {
-            bool per = n - k >= 5 && strncmp(key + k, "_per_", 5) == 0;
-            text[length++] = per ? '/' : key[k] == '_' ? ' ' : key[k];
-            if (per) k += 4;
-        }
-        text[length] = '\0';
-        const char *spelt = strcmp(text, "Nm") == 0 ? "N m" : text;
-        fw_quantity_unit found;
-        if (!fw_quantity_unit_parse(spelt, strlen(spelt), &found, NULL, NULL)) continue;
-        FW_NEED(*unit = fw_arena_strdup(arena, spelt));
+        if (at > 0 && key[at - 1] != '_') continue;
+        if (!spelt(key + at, n - at, text)) continue;
+        char *per = strrchr(text, '/');
+        if (at == 0 && (!memchr(key, '_', n) || (!per && !strpbrk(text, "23")))) continue;
+        if (!is_unit(text) && per && at > 0 && !is_unit(per + 1)) *per = '\0';
+        if (!is_unit(text)) continue;
+        FW_NEED(*unit = fw_arena_strdup(arena, text));
         return FW_OK;
     }
     return FW_OK;
 }
 
-/* the last key of a path, without selectors behind it */
-static void last_key(const char *path, const char **key, size_t *n) {
+/* the last key of a path, without selectors behind it; before: of what stands before that (NULL: of all); *n 0: none */
+static void last_key(const char *path, const char *before, const char **key, size_t *n) {
     *key = path, *n = 0;
-    for (const char *at = path; *at;) {
+    for (const char *at = path; *at && at != before;) {
         if (*at == '[') {
             const char *end = strchr(at, ']');
             at = end ? end + 1 : at + strlen(at);
@@ -68,6 +89,34 @@ static bool is_share(const char *key, size_t n) {
     static const char used[] = "utilisation";
     const size_t length = sizeof used - 1;
     return n >= length && strncmp(key, used, length) == 0 && (n == length || key[length] == '_');
+}
+
+/* what stands in the unit that the document says beside it, as a requirement's value in that of its probe */
+static bool is_of_unit_beside(const char *key, size_t n) {
+    static const char *const keys[] = {"value",       "band",        "all_corners_band",
+                                       "margin",      "min",         "max",
+                                       "nominal",     "low",         "high",
+                                       "limit",       "needed",      "peak",
+                                       "maximum",     "minimum",     "final",
+                                       "across",      "error",       "u",
+                                       "final_error", "level_error", "u_measured",
+                                       "uncertainty"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (strlen(keys[i]) == n && memcmp(keys[i], key, n) == 0) return true;
+    return false;
+}
+
+/* of its last key, or of the one around that has it, "time_s.nominal" */
+static fw_status unit_of_path(fw_arena *arena, const char *path, const char **unit) {
+    const char *key, *before = NULL;
+    size_t n;
+    *unit = "";
+    for (last_key(path, before, &key, &n); n > 0 && !**unit; last_key(path, before, &key, &n)) {
+        if (n > 9 && strncmp(key, "relative_", 9) == 0) return FW_OK; /* of the number itself */
+        FW_TRY(unit_of_key(arena, key, n, unit));
+        before = key;
+    }
+    return FW_OK;
 }
 
 static bool well_formed(const char *path) {
@@ -125,9 +174,14 @@ fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *aske
                              "response '%s': \"%s\" is no path; write keys with dots between and "
                              "elements of lists in brackets: hinges[C].utilisation",
                              asked->name, response->path);
-    last_key(response->path, &key, &n);
+    last_key(response->path, NULL, &key, &n);
     response->share = is_share(key, n);
-    return unit_of_key(arena, key, n, &response->unit);
+    response->unit_beside = is_of_unit_beside(key, n);
+    response->unit = "";
+    response->min = asked->min, response->max = asked->max;
+    return response->share || response->unit_beside
+               ? FW_OK
+               : unit_of_path(arena, response->path, &response->unit);
 }
 
 static void value_text(fw_text *out, const fw_study_response *response, double value,
@@ -169,7 +223,9 @@ typedef struct walk {
     long found;   /* numbers that were met */
     bool strange; /* something else than a number was met */
     char *why;
-    size_t n;          /* bytes of why */
+    size_t n;                  /* bytes of why */
+    const char *beside, *unit; /* of the object that it is in; of what was met */
+    bool mixed;                /* of several */
     char several[200]; /* what names the elements that are meant of the first list; "": none */
 } walk;
 
@@ -205,6 +261,10 @@ static void names_of(const json_t *node, char *text, size_t n) {
 
 static void add(walk *w, double value) {
     const fw_device_respond_take take = w->response->asked->take;
+    w->mixed =
+        w->mixed ||
+        (w->found > 0 && (!w->unit != !w->beside || (w->unit && strcmp(w->unit, w->beside) != 0)));
+    w->unit = w->beside;
     if (w->found++ == 0)
         w->value = value;
     else
@@ -354,7 +414,10 @@ static void into_object(walk *w, const json_t *node, const char *path) {
     snprintf(key, sizeof key, "%.*s", (int)n, path);
     const json_t *next = json_object_get(node, key);
     if (next) {
+        const char *outside = w->beside, *unit = json_string_value(json_object_get(node, "unit"));
+        if (unit) w->beside = unit;
         go(w, next, path + n);
+        w->beside = outside;
         return;
     }
     if (json_is_null(node)) { /* what would hold it is not there: no number, and no mistake */
@@ -391,7 +454,7 @@ bool fw_study_response_of_hinges(const fw_study_response *response) {
 }
 
 bool fw_study_response_find(const fw_study_response *response, const json_t *root, double *value,
-                            char *why, size_t n) {
+                            const char **unit, char *why, size_t n) {
     walk w = {.response = response, .root = root, .value = (double)NAN, .why = why, .n = n};
     why[0] = '\0';
     go(&w, root, response->path);
@@ -401,6 +464,7 @@ bool fw_study_response_find(const fw_study_response *response, const json_t *roo
             "sum",
             w.found, w.several);
     *value = w.found > 0 ? w.value : (double)NAN;
+    if (unit) *unit = w.mixed ? NULL : w.unit;
     return why[0] == '\0';
 }
 

@@ -129,6 +129,7 @@ static fw_status search(board *b, fw_study_search *s, fw_arena *arena) {
         judge(&o, s->tried);
         return FW_OK;
     }
+    if (s->descend) return s->descend(&d, s->start, arena);
     return s->known ? fw_study_descent_models(&d, s->known, s->nknown, arena)
                     : fw_study_descent_cobyla(&d, s->start, arena);
 }

@@ -188,8 +188,8 @@ static fw_status pair(fw_study_sheet *s, const points *p, int r, int k) {
         x[i] = p->x[(size_t)i * (size_t)study->ninput + (size_t)k];
     if (!fit(x, 1, p->y + r, study->nresponse, p->n, &a)) return FW_OK;
     /* a limit that is near is shown */
-    const double bound[2] = {fw_study_response_drawn(q, q->asked->min),
-                             fw_study_response_drawn(q, q->asked->max)};
+    const double bound[2] = {fw_study_response_drawn(q, q->min),
+                             fw_study_response_drawn(q, q->max)};
     for (int b = 0; b < 2; b++)
         if (!isnan(bound[b]) && fabs(bound[b] - 0.5 * (a.y0 + a.y1)) < 2 * (a.y1 - a.y0))
             a.y0 = fmin(a.y0, bound[b]), a.y1 = fmax(a.y1, bound[b]);

@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a study says on a terminal, before it starts and when it is done; and its table. */
-#include "base/output.h"
+/* What a study says on a terminal, before it starts and when it is done. */
 #include "study/study_parts.h"
-#include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 static void number(fw_text *out, double value, const char *unit) {
     if (isnan(value)) {
@@ -55,6 +51,12 @@ static void percent(fw_text *out, double share) {
     fw_text_add(out, " %");
 }
 
+static void limit(fw_text *out, const fw_study_response *response, const char *words, double at) {
+    if (isnan(at)) return;
+    fw_text_add(out, words);
+    fw_study_response_text(out, response, at);
+}
+
 fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
     const fw_device_study *a = study->asked;
     fw_text_printf(out, "%s%s of %s: %s, ", FW_NAMED("study", a->name), study->device_name,
@@ -83,6 +85,8 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
         const fw_study_response *q = &study->response[r];
         fw_text_printf(out, "  %-24s %s, now ", q->asked->name, q->asked->value);
         fw_study_response_text(out, q, q->now);
+        limit(out, q, ", at least ", q->min);
+        limit(out, q, ", at most ", q->max);
         fw_text_add(out, "\n");
     }
     return fw_text_end(out);
@@ -225,6 +229,10 @@ static void say_ranges(fw_text *out, const fw_study *study) {
         const fw_study_response *q = &study->response[r];
         const fw_study_extreme *e = &study->result->extreme[r];
         fw_text_printf(out, "  %-24s ", q->asked->name);
+        if (e->n == 0) {
+            fw_text_add(out, "no value in any device\n");
+            continue;
+        }
         fw_study_response_text(out, q, e->least);
         fw_text_printf(out, " (number %ld) to ", e->least_at);
         fw_study_response_text(out, q, e->largest);
@@ -245,8 +253,14 @@ static void say_ends(fw_text *out, const fw_study *study) {
             const fw_study_end *end = &study->result->end[2 * r + e];
             fw_text_printf(out, "  %-24s %s ", study->response[r].asked->name,
                            e == 0 ? "least" : "largest");
-            fw_study_response_text(out, &study->response[r], end->known ? end->value : (double)NAN);
-            if (end->known) fw_text_add(out, " at"), settings(out, study, end->text);
+            if (!end->known) {
+                fw_text_add(out, "not known: no value in any device\n");
+                continue;
+            }
+            fw_text_add(out, "found ");
+            fw_study_response_text(out, &study->response[r], end->value);
+            fw_text_add(out, " at");
+            settings(out, study, end->text);
         }
 }
 
@@ -523,78 +537,9 @@ fw_status fw_study_text(const fw_study *study, fw_text *out) {
     return fw_text_end(out);
 }
 
-/* ---- the table ---- */
-
-typedef struct table {
-    const fw_study *study;
-    FILE *file;
-    fw_text line;
-    fw_arena *arena;
-} table;
-
-static void real(fw_text *out, double value) {
-    fw_text_add(out, ",");
-    if (!isnan(value)) fw_text_number(out, value, 17);
-}
-
-static fw_status row(void *context, const fw_study_sample *s) {
-    table *t = context;
-    fw_mark mark = fw_arena_mark(t->arena);
-    fw_text line = fw_text_new(t->arena);
-    fw_text_printf(&line, "%ld,", s->i);
-    fw_text_add(&line, fw_study_state_text(s->run, s->decision));
-    fw_text_add(&line, ",");
-    fw_text_csv(&line, s->why);
-    real(&line, s->used);
-    for (int k = 0; k < t->study->ninput; k++)
-        if (t->study->input[k].ntext > 0)
-            fw_text_add(&line, ","), fw_text_csv(&line, s->text[k]);
-        else
-            real(&line, s->value[k]);
-    for (int k = 0; k < t->study->nresponse; k++)
-        real(&line, s->response[k]);
-    fw_text_add(&line, "\n");
-    fw_status status = fw_text_end(&line);
-    if (status == FW_OK && fwrite(line.data, 1, line.length, t->file) != line.length)
-        status = FW_IO;
-    fw_arena_rewind(t->arena, mark);
-    return status;
-}
-
-static fw_status write_table(table *t) {
-    fw_text *head = &t->line;
-    fw_text_add(head, "i,state,why,limit_used");
-    for (int k = 0; k < t->study->ninput; k++)
-        fw_text_add(head, ","), fw_text_csv(head, t->study->input[k].what);
-    for (int k = 0; k < t->study->nresponse; k++)
-        fw_text_add(head, ","), fw_text_csv(head, t->study->response[k].asked->name);
-    fw_text_add(head, "\n");
-    FW_TRY(fw_text_end(head));
-    if (fwrite(head->data, 1, head->length, t->file) != head->length) return FW_IO;
-    return fw_study_store_each(t->study->store, row, t);
-}
-
-fw_status fw_study_csv_save(fw_study *study, const char *path) {
-    const char *aside = fw_arena_printf(study->arena, "%s.tmp-%ld", path, (long)getpid());
-    FW_NEED(aside);
-    table t = {.study = study, .line = fw_text_new(study->arena), .arena = study->arena};
-    fw_output_remove_leftovers(study->arena, path);
-    t.file = fopen(aside, "wb");
-    fw_status status = t.file ? write_table(&t) : FW_IO;
-    if (status == FW_OK && (fflush(t.file) != 0 || fsync(fileno(t.file)) != 0)) status = FW_IO;
-    int why = errno;
-    if (t.file && fclose(t.file) != 0 && status == FW_OK) status = FW_IO, why = errno;
-    if (status == FW_OK && rename(aside, path) != 0) status = FW_IO, why = errno;
-    if (status == FW_OK) return FW_OK;
-    unlink(aside);
-    if (status != FW_IO || study->diags.errors > 0) return status;
-    return fw_diag_error(&study->diags, 222, (fw_place){.file = path}, "could not be written: %s",
-                         strerror(why)) == FW_NOMEM
-               ? FW_NOMEM
-               : FW_IO;
-}
-
 int fw_study_decision(const fw_study *study) {
     const fw_study_result *r = study->result;
-    return study->asked && study->asked->kind == FW_STUDY_IS_size && r && r->nfound == 0 ? 1 : 0;
+    if (!study->asked || !r || study->options.shards > 0) return 0; /* of a shard: merging says */
+    if (study->asked->kind == FW_STUDY_IS_size) return r->nfound == 0 ? 1 : 0;
+    return r->failed > 0 && r->run == 0 ? 4 : 0;
 }

@@ -1,10 +1,86 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The documents of a study: JSON, one page, and the files that hold them. */
+/* The documents of a study: its table, JSON, one page, and the files that hold them. */
 #include "base/json.h"
 #include "base/output.h"
 #include "study/study.h"
 #include "study/study_parts.h"
+#include <errno.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- the table ---- */
+
+typedef struct table {
+    const fw_study *study;
+    FILE *file;
+    fw_text line;
+    fw_arena *arena;
+} table;
+
+static void real(fw_text *out, double value) {
+    fw_text_add(out, ",");
+    if (!isnan(value)) fw_text_number(out, value, 17);
+}
+
+static fw_status row(void *context, const fw_study_sample *s) {
+    table *t = context;
+    fw_mark mark = fw_arena_mark(t->arena);
+    fw_text line = fw_text_new(t->arena);
+    fw_text_printf(&line, "%ld,", s->i);
+    fw_text_add(&line, fw_study_state_text(s->run, s->decision));
+    fw_text_add(&line, ",");
+    fw_text_csv(&line, s->why);
+    real(&line, s->used);
+    for (int k = 0; k < t->study->ninput; k++)
+        if (t->study->input[k].ntext > 0)
+            fw_text_add(&line, ","), fw_text_csv(&line, s->text[k]);
+        else
+            real(&line, s->value[k]);
+    for (int k = 0; k < t->study->nresponse; k++)
+        real(&line, s->response[k]);
+    fw_text_add(&line, "\n");
+    fw_status status = fw_text_end(&line);
+    if (status == FW_OK && fwrite(line.data, 1, line.length, t->file) != line.length)
+        status = FW_IO;
+    fw_arena_rewind(t->arena, mark);
+    return status;
+}
+
+static fw_status write_table(table *t) {
+    fw_text *head = &t->line;
+    fw_text_add(head, "i,state,why,limit_used");
+    for (int k = 0; k < t->study->ninput; k++)
+        fw_text_add(head, ","), fw_text_csv(head, t->study->input[k].what);
+    for (int k = 0; k < t->study->nresponse; k++)
+        fw_text_add(head, ","), fw_text_csv(head, t->study->response[k].asked->name);
+    fw_text_add(head, "\n");
+    FW_TRY(fw_text_end(head));
+    if (fwrite(head->data, 1, head->length, t->file) != head->length) return FW_IO;
+    return fw_study_store_each(t->study->store, row, t);
+}
+
+/* rows go to the file as they are read: memory does not grow with them */
+static fw_status save_table(fw_study *study, const char *path) {
+    const char *aside = fw_arena_printf(study->arena, "%s.tmp-%ld", path, (long)getpid());
+    FW_NEED(aside);
+    table t = {.study = study, .line = fw_text_new(study->arena), .arena = study->arena};
+    fw_output_remove_leftovers(study->arena, path);
+    t.file = fopen(aside, "wb");
+    fw_status status = t.file ? write_table(&t) : FW_IO;
+    if (status == FW_OK && (fflush(t.file) != 0 || fsync(fileno(t.file)) != 0)) status = FW_IO;
+    int why = errno;
+    if (t.file && fclose(t.file) != 0 && status == FW_OK) status = FW_IO, why = errno;
+    if (status == FW_OK && rename(aside, path) != 0) status = FW_IO, why = errno;
+    if (status == FW_OK) return FW_OK;
+    unlink(aside);
+    if (status != FW_IO || study->diags.errors > 0) return status;
+    return fw_diag_error(&study->diags, 222, (fw_place){.file = path}, "could not be written: %s",
+                         strerror(why)) == FW_NOMEM
+               ? FW_NOMEM
+               : FW_IO;
+}
 
 /* ---- JSON ---- */
 
@@ -120,8 +196,8 @@ static void responses_json(fw_json *j, const fw_study *study) {
         fw_json_text(j, "value", q->asked->value);
         fw_json_text(j, "unit", q->unit);
         fw_json_truth(j, "share", q->share);
-        fw_json_real(j, "min", q->asked->min);
-        fw_json_real(j, "max", q->asked->max);
+        fw_json_real(j, "min", q->min);
+        fw_json_real(j, "max", q->max);
         fw_json_real(j, "now", q->now);
         if (study->result->fitted) fw_json_real(j, "told_within", study->result->fitted->off[r]);
         extreme(j, &study->result->extreme[r]);
@@ -392,8 +468,8 @@ static void response_table(const fw_study *study, fw_text *out) {
         number(out, q, q->now);
         number(out, q, e->least);
         number(out, q, e->largest);
-        number(out, q, q->asked->min);
-        number(out, q, q->asked->max);
+        number(out, q, q->min);
+        number(out, q, q->max);
         fw_text_add(out, "</tr>\n");
     }
     fw_text_add(out, "</table></div>\n");
@@ -490,7 +566,7 @@ fw_status fw_study_write(fw_study *study) {
     FW_TRY(fw_study_json(study, &json));
     FW_TRY(fw_study_pictures(study, &picture, &n));
     FW_TRY(fw_study_html(study, picture, n, &html));
-    FW_TRY(fw_study_csv_save(study, csv));
+    FW_TRY(save_table(study, csv));
     FW_TRY(write_pictures(study, picture, n));
     const fw_output_member file[] = {member("study.html", &html), member("study.json", &json)};
     return fw_output_members(study->arena, study->options.output, file, 2, &study->diags);

@@ -34,6 +34,14 @@ def rows_of(place):
         return store.execute("SELECT * FROM sample ORDER BY i").fetchall()
 
 
+def named_rows(place):
+    """a dictionary each"""
+    with sqlite3.connect(place / "study.sqlite") as store:
+        found = store.execute("SELECT * FROM sample ORDER BY i")
+        names = [c[0] for c in found.description]
+        return [dict(zip(names, row)) for row in found]
+
+
 class Fitted(unittest.TestCase):
     def setUp(self):
         self.place = pathlib.Path(tempfile.mkdtemp(prefix="fw-fitted-"))
@@ -114,6 +122,20 @@ class Fitted(unittest.TestCase):
                 self.assertLessEqual(abs(x - y), far + 1e-6 * x, str(is_))
             governs.add("A" if is_[9] > is_[8] else "F")
         self.assertEqual(governs, {"A", "F"})
+
+    def test_what_a_requirement_rejects_is_told(self):
+        """and uses of it what the requirement says at the upper end of its band, without what advice keeps back"""
+        leaf = self.place / "leaf.xml"
+        text = leaf.read_text().replace("  <scene", '  <probe id="turn" kind="angle" on="bar"/>\n'
+                                        '  <require probe="turn" measure="peak" min="2.5 deg" scene="push"/>\n  <scene')
+        leaf.write_text(text)
+        told, said = self.run_study("asked", **FEW)
+        rows = [r for r in named_rows(told) if r["why"] != "response surface" and r["state"] == "reject"]
+        self.assertGreater(len(rows), 3)
+        for r in rows[:3]:
+            done = run("check", leaf, "--json", "--corners", "none", "--advice", "none", f"--set=push={r['push']} N", f"--set=width={r['width']} m")
+            asked = json.loads(done.stdout)["requirements"][0]
+            self.assertAlmostEqual(r["limit_used"], asked["min"] / asked["band"][0], places=9)
 
     def test_threads_shards_and_attempts_change_no_byte(self):
         one, _ = self.run_study("one", "--jobs", "1", **FEW)

@@ -54,6 +54,22 @@ TWO_LEAVES = ONE_LEAF.replace('y="0.75 mm"', 'y="2.25 mm"').replace(
     "    <revolute", '    <body id="base" x="0 mm" y="0.75 mm" width="120 um"/>\n    <revolute id="B" a="ground" b="base" b-y="-0.75 mm" '
     'hinge="first"/>\n    <revolute', 1).replace('a="ground" b="bar"', 'a="base" b="bar" a-y="0.75 mm"').replace(
     '<flexure id="leaf"', '<flexure id="first" kind="leaf" length="400 um" width="8 um"/>\n  <flexure id="leaf"')
+# the gap of its spiral is the least space of its mask
+ONE_HINGE = """<device xmlns="urn:flexwright:device:1" name="one-hinge">
+  <parameter name="gap" value="15 um" min="6 um" max="25 um"/>
+  <material ref="silicon-100" thickness="50 um"/>
+  <limits safety-factor="2"/>
+  <flow ref="al-masked-rie"/>
+  <flexure id="c" kind="csfh" length="360 um" angle="220 deg" width="10 um" gap="gap"/>
+  <mechanism>
+    <body id="lever" x="0 mm" y="0.7 mm" width="120 um"><plate y="0.3 mm" width="150 um" height="1 mm"/></body>
+    <revolute id="A" a="ground" b="lever" b-y="-0.7 mm" axis="180 deg" hinge="c"/>
+  </mechanism>
+  <require frequency="1" plane="in" min="1 Hz"/>
+  <scene name="push" duration="60 ms"><torque on="lever" value="30 uN mm" law="ramp" rise="30 ms"/><air kind="slide" gap="10 um"/></scene>
+  <die clearance="900 um"/>
+</device>
+"""
 SWEEP = """<vary what="arc" from="200 deg" to="260 deg" steps="4"/>
 <vary what="flexure[C]/@width" values="7.5 um; 8 um"/>
 <respond name="U" value="governing.utilisation" max="1"/>
@@ -362,6 +378,15 @@ class Study(unittest.TestCase):
             ("yield", '<uncertain what="arc" spread="table"/>', "FW-D491", "needs table"),
             ("yield", '<uncertain what="arc" table="230 deg 0; 240 deg 1" mean="240 deg" sd="1 deg"/>', "FW-D491", "belongs to"),
             ("sweeep", vary + respond, "FW-D048", "sweep"),
+            # limits were turned to SI where the number is in another unit, and of another kind they were taken
+            ("sweep", vary + respond.replace("/>", ' max="5 kg"/>'), "FW-D025", "max is given as a mass, and the number has no unit"),
+            ("sweep", vary + respond.replace("governing.utilisation", "modes:modes[0].f_Hz").replace("/>", ' min="10 um"/>'), "FW-D025",
+             "min is given as a length, and the number is in Hz"),
+            ("sweep", vary + respond.replace("governing.utilisation", "masks:masks[0].layers[0].area_um2").replace("/>", ' max="3 um"/>'),
+             "FW-D025", "the number is in um2"),
+            ("sweep", vary + respond.replace("governing.utilisation", "hinges[A].peak_angle_rad").replace("/>", ' min="1 deg" max="3"/>'),
+             "FW-D024", ""),
+            ("yield", '<uncertain what="arc" mean="20 Cel" sd="5 Cel"/>', "FW-D491", "write it in K"),
             # of these a store was left behind, and the first ran all derivatives before it was refused
             ("sensitivity\" samples=\"32", vary + respond, "FW-D490", "at least 128 rows"),
             ("sensitivity", '<vary what="arc" values="200 deg; 230 deg"/>' + respond, "FW-D490", "a derivative is by a number"),
@@ -381,6 +406,76 @@ class Study(unittest.TestCase):
             self.assertIn(says.replace("&lt;", "<").replace("&gt;", ">"), done.stderr)
             self.assertRegex(done.stderr, r"study\.xml:\d+:\d+: error")
             self.assertFalse((self.place / "bad").exists(), rows)
+
+    def test_limits_hold_in_whatever_unit_they_are_stated(self):
+        """of a key in um and in um2, in rad, and of a number whose unit stands beside it"""
+        path = self.write(ONE_HINGE, "hinge.xml")
+        layer = "masks:masks[0].layers[0]"
+        rows = (f'<vary what="gap" from="6 um" to="25 um"/><respond name="area" value="{layer}.area_um2" goal="minimise"/>'
+                f'<respond name="space" value="{layer}.min_space_um" min="{{}}"/>')
+        found = {}
+        for name, least in (("um", "12 um"), ("mm", "0.012 mm"), ("bare", "12")):
+            self.run_study(self.write(study("s", "size", rows.format(least), path, samples=20, **{"as": "drawn"})), name)
+            result = json.loads((self.place / name / "study.json").read_text())
+            found[name] = result["found"][0]["set"]
+            at = {r["name"]: r["value"] for r in result["found"][0]["responses"]}
+            self.assertGreaterEqual(at["space"], 12)
+            self.assertLess(at["space"], 12.1)
+            self.assertAlmostEqual(result["responses"][1]["min"], 12, places=9)
+        self.assertEqual(found["um"], found["bare"])
+        self.assertEqual(found["mm"], found["bare"])
+        asked = {"masks:masks[0].layers[0].area_um2": ("max", "3.7 mm^2", "at most 3.7e+06 um2"),
+                 "hinges[A].peak_angle_rad": ("max", "1 deg", "at most 0.017453 rad"),
+                 "requirements[frequency-1].value": ("min", "0.2 kHz", "at least 200 Hz"),
+                 "governing.utilisation": ("max", "80 %", "at most 80 %")}
+        for value, (end, limit, says) in asked.items():
+            file = self.write(study("s", "sweep", '<vary what="gap" from="6 um" to="25 um"/>'
+                                    f'<respond name="r" value="{value}" {end}="{limit}"/>', path, **{"as": "drawn"}))
+            plan = run("study", file, "--plan")
+            self.assertEqual(plan.returncode, 0, plan.stderr)
+            self.assertIn(says, plan.stdout)
+        wrong = self.write(study("s", "sweep", '<vary what="gap" from="6 um" to="25 um"/><respond name="r" '
+                                 'value="requirements[frequency-1].value" min="10 um"/>', path, **{"as": "drawn"}))
+        done = run("study", wrong, "--plan")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("min is given as a length, and the number is in Hz", done.stderr)
+
+    def test_where_no_device_can_be_judged_the_exit_status_says_it(self):
+        """a hinge that a plate covers is not drawn"""
+        path = self.write(ONE_LEAF, "one.xml")
+        for kind in ("sweep", "worst-case"):
+            rows = ('<vary what="width" from="900 um" to="990 um"/><respond name="U" value="governing.utilisation"/>'
+                    '<respond name="turned" value="hinges[A].peak_angle_rad"/>')
+            done = run("study", self.write(study("s", kind, rows, path, **{"as": "hinges"})), "-o", self.place / kind)
+            self.assertEqual(done.returncode, 4, done.stderr)
+            self.assertIn("devices could be judged (number 0", done.stderr)
+            self.assertIn("FW-D498", done.stderr)
+            self.assertNotIn("number -1", done.stdout)
+            self.assertEqual(len(re.findall(r"^  (?:U|turned) .*no value[^\n]*$", done.stdout, re.M)), 2 if kind == "sweep" else 4)
+
+    def test_that_a_rejected_device_has_no_masks_is_said(self):
+        path = self.write(ONE_HINGE.replace('min="1 Hz"', 'min="1 MHz"'), "rejected.xml")
+        rows = ('<vary what="gap" from="6 um" to="25 um"/><respond name="area" value="masks:masks[0].layers[0].area_um2"/>')
+        done = run("study", self.write(study("s", "sweep", rows, path, **{"as": "drawn"})), "--plan")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("there are no masks and recipes, since check rejects the description as it stands", done.stderr)
+
+    def test_what_has_no_effect_is_told(self):
+        path = self.write(ONE_LEAF, "one.xml")
+        ask = '<respond name="U" value="governing.utilisation"/>'
+        width = '<vary what="width" from="7 um" to="9 um"{}/>'
+        direct = '<vary what="flexure[leaf]/@width" from="7 um" to="9 um" steps="2"/>'
+        for more, rows, says in (
+                ({}, width.format(' steps="2"') + direct, '<vary what="width"> has no effect'),
+                ({"points": "sobol", "samples": 4}, width.format(' steps="2"'), 'steps="..." has no effect'),
+                ({"samples": 3}, width.format(' steps="5"'), 'samples="..." has no effect'),
+                ({"confidence": 0.9}, width.format(""), 'confidence="..." has no effect'),
+                ({}, width.format(' steps="2"') + direct.replace("@width", "@length").replace("7 um", "300 um").replace("9 um", "400 um"), None),
+                ({"points": "sobol", "samples": 4}, width.format(""), None)):
+            done = run("study", self.write(study("s", "sweep", rows + ask, path, **{"as": "hinges"}, **more)), "--plan")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("FW-D737" in done.stderr, says is not None, done.stderr)
+            self.assertIn(says or "", done.stderr)
 
     def test_of_a_row_that_is_refused_nothing_else_is_said(self):
         """it may be what the kind needs"""
@@ -416,6 +511,31 @@ class Study(unittest.TestCase):
             counts = [sqlite3.connect(out / "study.sqlite").execute("SELECT count(*) FROM sample").fetchone()[0]
                       for out in (*shards, self.place / f"{kind}-one")]
             self.assertLess(max(counts[:2]), counts[2])
+
+    def test_a_ridge_is_followed_to_the_ends_of_other_inputs(self):
+        """what is used peaks over a, as over the frequency of a drive, and rises with all others: their ends are worst"""
+        text = ONE_LEAF.replace('<parameter name="width"', '<parameter name="a" value="0.2"/>\n  <parameter name="width"').replace(
+            'fx="push"', 'fx="push/(1 + ((a - 0.63)/0.02)^2)"')
+        inputs = (("push", "2 uN", "20 uN"), ("limits/@safety-factor", "1.5", "2.5"), ("length", "350 um", "450 um"))
+        for n in (1, 3):
+            rows = '<vary what="a" from="0" to="1"/>' + "".join(
+                f'<vary what="{what}" from="{low}" to="{high}"/>' for what, low, high in inputs[:n])
+            rows += ('<respond name="used" value="hinges[A].utilisation"/>'
+                     '<respond name="turned" value="hinges[A].peak_angle_rad"/>')
+            file = self.write(study("s", "worst-case", rows, self.write(text, "ridge.xml"), **{"as": "hinges"}))
+            used, turned = self.run_study(file, f"ridge-{n}")["responses"]
+            self.assertEqual([s["value"] for s in used["worst_largest"]["set"]][1:], [high for what, low, high in inputs[:n]])
+            self.assertIn("20 uN", [s["value"] for s in turned["worst_least"]["set"]])
+            # of all devices, whatever search came to them
+            for r in (used, turned):
+                self.assertEqual([r["worst_least"]["value"], r["worst_largest"]["value"]], [r["least"], r["largest"]])
+            # and at its end it is what check says
+            at = [f"--set={s['path']}={s['value']}" for s in used["worst_largest"]["set"]]
+            said = json.loads(run("check", self.place / "ridge.xml", "--json", "--corners", "none", "--advice", "none", *at).stdout)
+            self.assertAlmostEqual(said["hinges"][0]["utilisation"], used["worst_largest"]["value"], places=12)
+        done = run("study", file, "-o", self.place / "again", *FLOW)
+        self.assertIn("largest found", done.stdout)
+        self.assertIn("that none lies beyond it where none was", " ".join(done.stdout.split()))
 
     def test_a_plan_says_how_many_and_writes_nothing(self):
         path = self.write(study("s", "sweep", SWEEP).replace("<study", '<study as="drawn"'))

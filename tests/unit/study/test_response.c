@@ -45,7 +45,7 @@ static void paths_lead_to_numbers(void **state) {
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         fw_study_response r;
         assert_int_equal(parse(arena, row[i].value, row[i].take, &r), FW_OK);
-        if (!fw_study_response_find(&r, root, &value, why, sizeof why) ||
+        if (!fw_study_response_find(&r, root, &value, NULL, why, sizeof why) ||
             fabs(value - row[i].wanted) > 1e-18)
             fail_msg("%s: %g, wanted %g (%s)", row[i].value, value, row[i].wanted, why);
     }
@@ -53,7 +53,7 @@ static void paths_lead_to_numbers(void **state) {
     const char *const null[] = {"none", "none.below", "none[A].x", "hinges[C].utilisation"};
     for (size_t i = 0; i < sizeof null / sizeof null[0]; i++) {
         assert_int_equal(parse(arena, null[i], FW_TAKE_ONE, &r), FW_OK);
-        assert_true(fw_study_response_find(&r, root, &value, why, sizeof why));
+        assert_true(fw_study_response_find(&r, root, &value, NULL, why, sizeof why));
         assert_true(isnan(value));
     }
     json_decref(root);
@@ -103,7 +103,7 @@ static void wrong_paths_say_what_there_is(void **state) {
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         fw_study_response r;
         assert_int_equal(parse(arena, row[i].value, FW_TAKE_ONE, &r), FW_OK);
-        if (fw_study_response_find(&r, root, &value, why, sizeof why) || !strstr(why, row[i].says))
+        if (fw_study_response_find(&r, root, &value, NULL, why, sizeof why) || !strstr(why, row[i].says))
             fail_msg("%s: said \"%s\", wanted \"%s\"", row[i].value, why, row[i].says);
     }
     const char *const none[] = {"",   ".a",  "a.",    "a..b",     "[0]",
@@ -122,6 +122,17 @@ static void units_are_those_of_keys(void **state) {
                                   {"modes:modes[0].f_Hz", "Hz"},
                                   {"x.speed_m_per_s", "m/s"},
                                   {"x.torque_Nm", "N m"},
+                                  {"x.stiffness_Nm_per_rad", "N m/rad"},
+                                  {"modes:eigenvalues_per_s2[0]", "1/s2"},
+                                  {"modes:modes[0].eigenvalue_per_s", "1/s"},
+                                  {"masks:masks[0].layers[0].min_space_um", "um"},
+                                  {"recipes:a[0].bias_um_per_edge", "um"},
+                                  {"workspace:flows[0].reachable.volume.m2_rad", "m2 rad"},
+                                  {"stiction.adhesion[0].J_per_m2", "J/m2"},
+                                  {"recipes:recipes[0].steps[3].time_s.stop", "s"},
+                                  {"recipes:recipes[0].steps[3].time_s.relative_uncertainty", ""},
+                                  {"recipes:recipes[0].min_s", "s"},
+                                  {"requirements[p].value", ""},
                                   {"governing.utilisation", ""},
                                   {"a.as_fabricated.utilisation_band[0]", ""}};
     (void)state;
@@ -131,6 +142,43 @@ static void units_are_those_of_keys(void **state) {
         assert_int_equal(parse(arena, row[i][0], FW_TAKE_ONE, &r), FW_OK);
         assert_string_equal(r.unit, row[i][1]);
     }
+    fw_arena_free(arena);
+}
+
+/* of numbers whose unit stands beside them: of several one, where they have the same */
+static void units_stand_beside_numbers(void **state) {
+    static const char units[] =
+        "{\"requirements\": [{\"probe\": \"p\", \"unit\": \"rad\", \"value\": 1, \"utilisation\": 0.5,"
+        "   \"made\": {\"band\": [1, 2]}}, {\"probe\": \"q\", \"unit\": \"Hz\", \"value\": 2},"
+        "  {\"probe\": \"r\", \"unit\": \"Hz\", \"value\": 3}, {\"probe\": \"s\", \"value\": 4}]}";
+    const struct {
+        const char *value, *unit;
+        bool beside;
+    } row[] = {{"requirements[p].value", "rad", true},
+               {"requirements[p].made.band[1]", "rad", true},
+               {"requirements[p].utilisation", "rad", false},
+               {"requirements[q].value", "Hz", true},
+               {"requirements[Hz].value", "Hz", true},
+               {"requirements[s].value", NULL, true},
+               {"requirements[*].value", NULL, true}};
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    json_t *root = json_loads(units, 0, NULL);
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        fw_study_response r;
+        char why[FW_STUDY_WHY];
+        double value;
+        const char *unit;
+        assert_int_equal(parse(arena, row[i].value, FW_TAKE_SUM, &r), FW_OK);
+        assert_int_equal(r.unit_beside, row[i].beside);
+        assert_string_equal(r.unit, "");
+        assert_true(fw_study_response_find(&r, root, &value, &unit, why, sizeof why));
+        if (row[i].unit)
+            assert_string_equal(unit, row[i].unit);
+        else
+            assert_null(unit);
+    }
+    json_decref(root);
     fw_arena_free(arena);
 }
 
@@ -185,6 +233,7 @@ int main(void) {
         cmocka_unit_test(shares_of_a_limit_are_told_in_percent),
         cmocka_unit_test(wrong_paths_say_what_there_is),
         cmocka_unit_test(units_are_those_of_keys),
+        cmocka_unit_test(units_stand_beside_numbers),
         cmocka_unit_test(derivatives_of_polynomials_are_exact),
         cmocka_unit_test(the_text_is_the_value),
     };
