@@ -476,7 +476,8 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         FW_NEED(f = v->shaken[i].factor = fw_arena_array(arena, double, 2 * (size_t)nh + 2));
         for (int h = 0; h < 2 * nh + 2; h++)
             f[h] = 1;
-        FW_TRY(fw_verdict_may_swing(arena, v, i, bodies[i], &own, &may));
+        FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
+        FW_TRY(fw_verdict_may_swing(arena, v, i, bodies[i], shaken, &own, &may));
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], may, v));
         const double shakes = largest_of(f, 2 * nh + 2);
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
@@ -502,7 +503,6 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
             least = fmin(least, f[2 * h + 1]);
-        FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
         fw_diag_warning(diags, 642, d->scene[i].place,
                         "%s%s %s a mode whose frequency is known to some per cent: "
                         "within them it moves %s to %s times as far, which the bands hold; "
