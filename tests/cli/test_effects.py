@@ -695,7 +695,7 @@ class BodiesThatAreShaken(unittest.TestCase):
     def test_slow_laws_widen_little(self):
         """far below its first mode, 11.7 kHz, what the portal bears is what its weight at rest does (10.2 MPa by 2 km/s2), and a little more"""
         high = max(h["utilisation_band"][1] for h in self.portal(1000, 2000)["hinges"])
-        self.assertTrue(0.0155 < high < 0.08, high)
+        self.assertTrue(0.0155 < high < 0.1, high)
 
     def test_arms_beyond_a_hinge(self):
         """frames have 15.7 um damped as a whole, 41 by the leaf alone; 28.8 of two arms, which the leaf does not damp"""
