@@ -97,6 +97,7 @@ SILENT = ["Dimples below what moves", "What goes between the extremes of loads",
           "Contacts and weight in the picture", "Studies on the page", "Browsers other than Chromium", "Wide kernels and FMA"]
 # looked at by another test
 ELSEWHERE = {"OASIS as cells": "tests/klayout/cells.py",
+             "Contacts between walls that lean": "tests/cli/test_near_pull_in.py",
              "Openings between one's own outlines": "tests/unit/process/test_fixed_point.c",
              "Lettering and leaning walls": "tests/accept/step.py",
              "The full judgement while a slider": "tests/docs/json_keys.py",
