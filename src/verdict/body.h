@@ -229,7 +229,6 @@ typedef struct fw_verdict_own {
     bool looked[2]; /* for modes, and for w */
     fw_verdict_swung *w;
     const fw_statics_modes *modes; /* of rigid bodies, at rest */
-    const char *why;               /* its modes are not known */
 } fw_verdict_own;
 /* What bodies do by modes of their own in a scene, beside what the motion has */
 typedef struct fw_verdict_swinging {
@@ -239,9 +238,10 @@ typedef struct fw_verdict_swinging {
     double *way_m;  /* (nbody) how far any place of a body goes */
     double share;   /* of what bends, or moves, most in the motion */
     double slow_Hz; /* from where on these modes lie */
+    bool shaken;    /* a law goes to and fro */
 } fw_verdict_swinging;
 /* Adds it to factors of hinges, to `each` of v->shaken[scene], whose ways are known, and puts it there (`own`) */
-fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, fw_verdict_own *own,
+fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, bool shaken, fw_verdict_own *own,
                                   struct fw_verdict_variant_verdict *v);
 /* *may: they may by more than a hundredth of what the motion has; gives: share that bodies give in it; shaken: a law goes to and fro */
 fw_status fw_verdict_may_swing(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
@@ -288,4 +288,14 @@ void fw_verdict_swings_required(const struct fw_verdict_variant_verdict *v,
 /* strain_monitor.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
 fw_status fw_verdict_shaken_bears(fw_arena *arena, struct fw_verdict_variant_verdict *v,
                                   const fw_verdict_hung *hung, int scene);
+/* body_together.c: forces (3 ports) of an element at rest where its law is 1, and its ports p (3 ports) at poses q; false: it has too
+   many, or none */
+enum { FW_VERDICT_PORTS = 64 };
+bool fw_verdict_element_forces(const fw_effects_force_element *from, const double *q, double *p,
+                               double *f);
+/* body_farther.c: the largest of to (n) and the next one together; *which: the largest */
+double fw_verdict_two_farthest(const double *to, int n, int *which);
+/* distances of a scene that are kept by less than `by`: undecided (FW-D638), since this body bends */
+fw_status fw_verdict_distances_open(fw_arena *arena, struct fw_verdict_variant_verdict *v,
+                                    int scene, double by, int body);
 #endif

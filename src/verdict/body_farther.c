@@ -153,6 +153,33 @@ fw_status fw_verdict_say_bent(fw_arena *arena, fw_verdict_variant_verdict *v, co
     return fw_verdict_hangs_open(v, scene, number, what);
 }
 
+double fw_verdict_two_farthest(const double *to, int n, int *which) {
+    double far = 0, other = 0;
+    *which = 0;
+    for (int i = 0; i < n; i++)
+        if (to[i] > far)
+            other = far, far = to[i], *which = i;
+        else
+            other = fmax(other, to[i]);
+    return far + other;
+}
+
+fw_status fw_verdict_distances_open(fw_arena *arena, fw_verdict_variant_verdict *v, int scene,
+                                    double by, int body) {
+    for (int k = 0; by > 0 && k < v->nclearance; k++) {
+        fw_verdict_clearance *c = &v->clearance[k];
+        if (c->scene_index != scene || c->decision != FW_ACCEPT || c->low_m - by > c->required_m)
+            continue;
+        c->decision = FW_INCONCLUSIVE;
+        FW_TRY(fw_verdict_say_bent(arena, v, v->mechanism->device->scene[scene].name, 638,
+                                   c->required_m > 0
+                                       ? "what is asked for between parts is only just kept"
+                                       : "parts only just do not meet",
+                                   body, by));
+    }
+    return FW_OK;
+}
+
 /* ---- what may be met (arm_rims.c) ---- */
 
 /* what it may take of its gap at most where everything it does goes `up` times as far */
@@ -268,23 +295,12 @@ void fw_verdict_swings_required(const fw_verdict_variant_verdict *v, fw_verdict_
         r->open = "bodies swing by modes of their own, beside what rigid bodies do";
         r->low = 0, r->high = HUGE_VAL;
     }
-    if (settles) return;
+    /* of ways by what goes once, what bodies give counts twice already (fw_verdict_hangs_in_plane) */
+    if (settles || (!own->shaken && fw_verdict_moves(r))) return;
     if (isnan(more)) more = own->share * r->swing;
     if (asked->measure == FW_MEASURE_PEAK_TO_PEAK) more *= 2;
     r->low -= more, r->high += more;
     if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
-}
-
-/* the farthest body, and the next one: what may meet comes by both */
-static double nearer_by_own(const fw_mechanism *m, const fw_verdict_swinging *own, int *body) {
-    double far = 0, other = 0;
-    *body = 0;
-    for (int b = 0; b < m->nbody; b++)
-        if (own->way_m[b] > far)
-            other = far, far = own->way_m[b], *body = b;
-        else
-            other = fmax(other, own->way_m[b]);
-    return far + other;
 }
 
 fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diags *diags,
@@ -296,18 +312,8 @@ fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diag
     char f[32], up[32];
     int body;
     if (!own) return FW_OK;
-    const double by = nearer_by_own(m, own, &body);
-    for (int k = 0; k < v->nclearance; k++) {
-        fw_verdict_clearance *c = &v->clearance[k];
-        if (c->scene_index != scene || c->decision != FW_ACCEPT || c->low_m - by > c->required_m)
-            continue;
-        c->decision = FW_INCONCLUSIVE;
-        FW_TRY(fw_verdict_say_bent(arena, v, s->name, 638,
-                                   c->required_m > 0
-                                       ? "what is asked for between parts is only just kept"
-                                       : "parts only just do not meet",
-                                   body, by));
-    }
+    const double by = fw_verdict_two_farthest(own->way_m, m->nbody, &body);
+    FW_TRY(fw_verdict_distances_open(arena, v, scene, by, body));
     for (int k = 0; k < v->nstator; k++)
         if (v->stator[k].index == scene) v->stator[k].low_m -= own->way_m[body];
     if (brief || !(own->share > told)) return FW_OK;

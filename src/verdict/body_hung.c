@@ -415,17 +415,7 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body, const fw
     const char *name = v->mechanism->device->scene[scene].name;
     const double hardly = 1e-4; /* of a value: its band is as it was */
     fw_verdict_soft soft = {.looked = false};
-    for (int k = 0; by > 0 && k < v->nclearance; k++) {
-        fw_verdict_clearance *c = &v->clearance[k];
-        if (c->scene_index != scene || c->decision != FW_ACCEPT) continue;
-        if (c->low_m - by > c->required_m) continue;
-        c->decision = FW_INCONCLUSIVE;
-        FW_TRY(fw_verdict_say_bent(arena, v, name, 638,
-                                   c->required_m > 0
-                                       ? "what is asked for between parts is only just kept"
-                                       : "parts only just do not meet",
-                                   body, by));
-    }
+    FW_TRY(fw_verdict_distances_open(arena, v, scene, by, body));
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         const fw_verdict_decision was = r->decision;
@@ -457,15 +447,10 @@ fw_status fw_verdict_hangs_in_plane(fw_arena *arena, fw_verdict_variant_verdict 
     for (int i = 0; i < m->device->nscene; i++) {
         if (!v->corner) FW_TRY(fw_verdict_shaken_bears(arena, v, hung, i));
         FW_TRY(fw_verdict_bends_in_plane(arena, v, i, hung, NULL, to, &apart));
-        int body = 0;
-        double by = 0, other = 0;
-        for (int b = 0; b < m->nbody; b++)
-            if (to[b] > by)
-                other = by, by = to[b], body = b;
-            else
-                other = fmax(other, to[b]);
-        most = fmax(most, by + other);
-        FW_TRY(opens(arena, i, by + other, body, hung, v));
+        int body;
+        const double by = fw_verdict_two_farthest(to, m->nbody, &body);
+        most = fmax(most, by);
+        FW_TRY(opens(arena, i, by, body, hung, v));
     }
     if (!v->corner) v->bends_m = 2 * most + hardly_m;
     return FW_OK;

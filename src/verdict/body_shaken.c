@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What bodies do by modes of their own under a scene's laws. Rigid bodies on flexures have three modes a body. Of bodies that bend others come between, and the same ones lie lower: (5e)
-   has them with their shapes, of mass 1, phi. A scene's loads F_j with laws f_j hold mode k at p_kj = phi.F_j/omega^2, and
-   it goes
+/* What bodies do by modes of their own under a scene's laws. Rigid bodies on flexures have three modes a body. Of bodies that
+   bend others come between, and the same ones lie lower: (5e) has them with their shapes, of mass 1, phi. A scene's loads F_j
+   with laws f_j hold mode k at p_kj = phi.F_j/omega^2, and it goes
 
      q_k - sum p_kj f_j
 
-   beside that as the law acts: what bodies give at rest is in the bands as it is (5f). Its largest value, 1.1 times for what shapes are off by, over frequencies where
-   the mode may lie, times what the mode opens flexures and moves bodies by, adds up over modes; those whose bodies stay
-   rigid and which lie where rigid bodies have them are left out: the motion has them. Damped is what the rigid modes are damped by,
-   times the share that flexures store.
+   beside that as the law acts: what bodies give at rest is in the bands as it is (5f). Its largest value over frequencies where
+   the mode may lie, 1.1 times for what shapes are off by, times what the mode opens flexures and moves bodies by, adds up over
+   modes; those whose bodies stay rigid and which lie where rigid bodies have them are left out: the motion has them. Damped is
+   what the rigid modes are damped by, times the share that flexures store.
 
-   In: loads of the scene, places as drawn, SI. Range: small motions; modes up to the twelfth. Error: an upper bound but
-   for frequencies between those looked at (half a radian apart at the end, 12 at least, and the law's own). Cost: the beams of
-   body_swing.c and steps of fw_quantity_law_swings_of; none where what bodies give, times what is fast in the laws, is below
-   1/200. Theory: docs/theory/verdict.md, 5g. Test: test_effects.py BodiesThatAreShaken */
+   In: loads of the scene, places as drawn, SI. Range: small motions; modes up to the twelfth; devices that flexures with an axis
+   hold, and bodies that a grid resolves: of others nothing is added. Error: an upper bound but for frequencies between those
+   looked at (half a radian apart at the end, 12 at least, and the law's own). Cost: the beams of body_swing.c and steps of
+   fw_quantity_law_swings_of; none where what bodies give, times what is fast in the laws, is below 1/100.
+   Theory: docs/theory/verdict.md, 5g. Test: test_effects.py BodiesThatAreShaken */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "quantity/law_kind.h"
@@ -70,21 +71,12 @@ static double masses_by(const shaking_own *x, int k, double ax, double ay, const
 }
 
 /* by the forces of an element without its law, each where it acts */
-static double element_by(const shaking_own *x, int k, const fw_effects_force_element *from) {
-    enum { PORTS = 64 };
-    fw_effects_force_element e = *from;
-    double p[3 * PORTS], still[3 * PORTS] = {0}, f[3 * PORTS], u[3], sum = 0;
-    bool on[PORTS];
-    if (e.ports > PORTS || e.switches > PORTS || !e.class_->slope) return 0;
-    for (int i = 0; i < PORTS; i++)
-        on[i] = true;
-    e.laws = 0, e.law[0] = NULL;
-    fw_effects_element_place_ports(&e, x->q, NULL, p, still);
-    const fw_effects_port_state state = {.load = 1, .p = p, .w = still, .on = on, .still = true};
-    e.class_->slope(&e, &state, f);
-    for (int i = 0; i < e.ports; i++) {
-        if (e.port[i].body == FW_GROUND) continue;
-        fw_verdict_swung_there(x->w, k, e.port[i].body, (fw_geometry_vec2){p[3 * i], p[3 * i + 1]},
+static double element_by(const shaking_own *x, int k, const fw_effects_force_element *e) {
+    double p[3 * FW_VERDICT_PORTS], f[3 * FW_VERDICT_PORTS], u[3], sum = 0;
+    if (!fw_verdict_element_forces(e, x->q, p, f)) return 0;
+    for (int i = 0; i < e->ports; i++) {
+        if (e->port[i].body == FW_GROUND) continue;
+        fw_verdict_swung_there(x->w, k, e->port[i].body, (fw_geometry_vec2){p[3 * i], p[3 * i + 1]},
                                u);
         sum += f[3 * i] * u[0] + f[3 * i + 1] * u[1] + f[3 * i + 2] * u[2];
     }
@@ -291,9 +283,10 @@ static fw_status look_at_own(fw_arena *arena, const fw_verdict_variant_verdict *
                              fw_verdict_own *own) {
     FW_TRY(fw_verdict_own_modes(arena, v, own));
     if (own->looked[1] || !own->modes) return FW_OK;
+    const char *why; /* they are not known, and w has none */
     own->looked[1] = true;
     FW_NEED(own->w = fw_arena_one(arena, fw_verdict_swung));
-    return fw_verdict_swung_modes(arena, v->mechanism, v->arm, OWN_MODES, own->w, &own->why);
+    return fw_verdict_swung_modes(arena, v->mechanism, v->arm, OWN_MODES, own->w, &why);
 }
 
 static fw_status shaking_new(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
@@ -345,7 +338,7 @@ static bool hardly_counts(const fw_mechanism *m, const double *more, const fw_ve
     return does[0] <= hardly * most[0] && does[1] <= hardly * most[1];
 }
 
-fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, fw_verdict_own *own,
+fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, bool shaken, fw_verdict_own *own,
                                   fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     fw_verdict_shaken *to = &v->shaken[scene];
@@ -360,6 +353,7 @@ fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, fw_verdict_own *ow
     double *more = fw_arena_array(arena, double, 2 * rows), *would = more + rows;
     FW_NEED(s && more ? s : NULL);
     FW_NEED(s->far = fw_arena_array(arena, double, 2 * modes + (size_t)m->nbody));
+    s->shaken = shaken;
     s->w = own->w, s->fast = s->far + modes, s->way_m = s->fast + modes, s->slow_Hz = HUGE_VAL;
     FW_TRY(shaking_new(arena, v, scene, own, &x));
     for (int k = 0; k < own->w->n; k++) {

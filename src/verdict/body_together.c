@@ -344,6 +344,22 @@ fw_status fw_verdict_arms_made(fw_arena *arena, const fw_mechanism *m, const fw_
 
 /* ---- a body as beams with all that acts on it where it does ---- */
 
+bool fw_verdict_element_forces(const fw_effects_force_element *from, const double *q, double *p,
+                               double *f) {
+    fw_effects_force_element e = *from;
+    double still[3 * FW_VERDICT_PORTS] = {0};
+    bool on[FW_VERDICT_PORTS];
+    if (e.ports > FW_VERDICT_PORTS || e.switches > FW_VERDICT_PORTS || !e.class_->slope)
+        return false;
+    for (int i = 0; i < FW_VERDICT_PORTS; i++)
+        on[i] = true;
+    e.laws = 0, e.law[0] = NULL;
+    fw_effects_element_place_ports(&e, q, NULL, p, still);
+    const fw_effects_port_state state = {.load = 1, .p = p, .w = still, .on = on, .still = true};
+    e.class_->slope(&e, &state, f);
+    return true;
+}
+
 /* Solids of bars with corners, junctions and heads give up to that much more than strips of inscribed circles */
 static const double strips_less = 0.05;
 

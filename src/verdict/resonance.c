@@ -483,7 +483,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
         fw_verdict_requirement_factor(f, nh, v->shaken[i].required);
         v->shaken[i].required_late = v->shaken[i].late;
-        if (may) FW_TRY(fw_verdict_bodies_swing(arena, i, &own, v));
+        if (may) FW_TRY(fw_verdict_bodies_swing(arena, i, shaken, &own, v));
         const double ways = f[2 * nh];
         if (v->motion[i] && !fw_verdict_stands_still(v, i)) { /* ways of round-off have no ratio */
             const double e = fw_verdict_bending_counted(v->motion[i]) +

@@ -50,22 +50,12 @@ static int loads_most(const fw_mechanism *m, const fw_device_scene *s, const act
            m->ndriver + 3 + (by && by->loads ? by->loads->nelement : 0);
 }
 
-enum { PORTS = 64 };
-
 /* of an element without its law */
-static double element_on(const fw_effects_force_element *from, const double *q,
-                         const double *shape) {
-    fw_effects_force_element e = *from;
-    double p[3 * PORTS], w[3 * PORTS], f[3 * PORTS], still[3 * PORTS] = {0}, sum = 0;
-    bool on[PORTS];
-    if (e.ports > PORTS || e.switches > PORTS || !e.class_->slope) return 0;
-    for (int i = 0; i < PORTS; i++)
-        on[i] = true;
-    e.laws = 0, e.law[0] = NULL;
-    fw_effects_element_place_ports(&e, q, shape, p, w);
-    const fw_effects_port_state state = {.load = 1, .p = p, .w = still, .on = on, .still = true};
-    e.class_->slope(&e, &state, f);
-    for (int i = 0; i < 3 * e.ports; i++)
+static double element_on(const fw_effects_force_element *e, const double *q, const double *shape) {
+    double p[3 * FW_VERDICT_PORTS], w[3 * FW_VERDICT_PORTS], f[3 * FW_VERDICT_PORTS], sum = 0;
+    if (!fw_verdict_element_forces(e, q, p, f)) return 0;
+    fw_effects_element_place_ports(e, q, shape, p, w);
+    for (int i = 0; i < 3 * e->ports; i++)
         sum += f[i] * w[i];
     return isfinite(sum) ? sum : 0;
 }
