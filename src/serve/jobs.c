@@ -357,6 +357,13 @@ fw_serve_job *fw_serve_jobs_find(fw_serve_jobs *jobs, unsigned id) {
     return NULL;
 }
 
+bool fw_serve_jobs_gone(const fw_serve_jobs *jobs, unsigned id) {
+    if (id < 1 || id > jobs->last_id) return false;
+    for (int i = 0; i < FW_JOBS_KEPT; i++)
+        if (jobs->job[i].id == id) return false;
+    return true;
+}
+
 /* a free slot; of those that are finished, but for one, the oldest makes room. NULL: too many wait */
 static fw_serve_job *slot(fw_serve_jobs *jobs, const fw_serve_job *but) {
     fw_serve_job *oldest = NULL, *empty = NULL;

@@ -83,6 +83,8 @@ typedef struct fw_serve_job_order { /* what is asked for */
 fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
                             const fw_serve_job **job);
 fw_serve_job *fw_serve_jobs_find(fw_serve_jobs *jobs, unsigned id);
+/* there was a job of this number, and it is not there any more */
+bool fw_serve_jobs_gone(const fw_serve_jobs *jobs, unsigned id);
 /* the next one by number after `id` (0: the first); NULL: none */
 const fw_serve_job *fw_serve_jobs_after(const fw_serve_jobs *jobs, unsigned id);
 

@@ -344,7 +344,7 @@ static bool deleted_before(fw_serve_request *r) {
     const size_t n = strspn(at, "0123456789");
     if (n < 1 || n > 9 || at[n]) return false;
     const unsigned id = (unsigned)strtoul(at, NULL, 10);
-    if (fw_serve_jobs_find(r->server->jobs, id)) return false;
+    if (!fw_serve_jobs_gone(r->server->jobs, id)) return false;
     fw_text text = fw_text_new(r->arena);
     fw_json json = fw_json_new(&text, FW_JSON_SPACED);
     fw_json_object(&json, NULL);

@@ -11,12 +11,14 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests"))
+from turn import TURNS  # noqa: E402
 
 
 def main():
     script = (ROOT / "test").read_text(encoding="utf-8")
     usual, every = re.findall(r"^ *skipped='(.*)'$", script, re.M)
-    turns = set("0123")
+    turns = {str(t) for t in range(TURNS)}
     listed = subprocess.run(["ctest", "--test-dir", sys.argv[1], "--show-only=json-v1"], capture_output=True, text=True, check=True)
     labels = {t["name"]: next((p["value"] for p in t["properties"] if p["name"] == "LABELS"), [])
               for t in json.loads(listed.stdout)["tests"]}

@@ -243,6 +243,7 @@ class Talk(unittest.TestCase):
         self.fails(404, "DELETE", f"/api/jobs/{waits[0]}/files/statics.svg")
         self.assertEqual(self.server.json("DELETE", f"/api/jobs/{waits[0]}"), {"id": waits[0], "state": "done"})
         self.fails(404, "GET", f"/api/jobs/{waits[0]}")
+        self.assertEqual(self.server.json("DELETE", f"/api/jobs/{waits[0]}"), {"id": waits[0], "state": "gone"})
         for number in waits[2:]:
             self.assertEqual(self.ends(number)["state"], "done")
 
