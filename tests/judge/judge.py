@@ -83,6 +83,8 @@ def verdict(options, path, elastica):
 WORSE = ("accept", "inconclusive", "reject")
 # parts that come together, and parts that are not in the drawing (decisions 46 and 60), of which the judge knows nothing
 MEETING = {"FW-D130", "FW-D131", "FW-D294", "FW-D295"}
+# electrodes that touch, sideways or at the ends of their fingers: the judge's combs pull along alone
+TOUCHING = "FW-D242"
 
 def of_strain(said):
     """the verdict without what the judge does not look at: drawings that cannot be made, and parts that meet"""
@@ -132,6 +134,8 @@ def examine(options, seed, wanted, where):
     for model in ("default", "elastica"):
         said, why, took = verdict(options, path, model == "elastica")
         row[model + " s"] = took
+        if said and not said.get("hinges") and TOUCHING in {r["code"] for r in said["reasons"]}:
+            return dict(row, skipped="its electrodes touch, which the judge's do not")
         if said is None or not said.get("hinges"):
             row[model] = {"wrong": ["error"], "why": why or "no hinges"}
             continue
