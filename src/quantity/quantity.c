@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers with a dimension, in words: the names of dimensions, the unit that a misspelt one was meant to be, and
-   what is known of a quantity beside its value; and what a law does to oscillators between two frequencies. */
+   what is known of a quantity beside its value; and what a law does to oscillators between two frequencies, and laws beside each other. */
 #include "base/constants.h"
+#include "base/sort.h"
 #include "quantity/law_kind.h"
 #include "quantity/quantity.h"
 #include "base/text.h"
@@ -311,4 +312,87 @@ void fw_quantity_law_swings_within(const fw_quantity_law *law, double end_s, dou
                      now = swing_of(law, end_s, at, damping);
         to[0] = fmax(to[0], now), to[1] = fmin(to[1], now);
     }
+}
+
+/* ---- laws beside each other ----
+   Instants at which laws stand in different ratios to each other, each where they are largest: their breaks, just before and just
+   behind, where each is largest, the end, and between any two of these. In: laws (NULL: 1), value (most + 1) x n for |values|
+   there. Out: how many; all false: there are more. Error: extremes by 512 looks; ratios within a thousandth are one, and what
+   is below a thousandth of the largest is none. Test: test_stride.c ratios */
+
+enum { TIMES = 256, EXTREME = 512 };
+
+typedef struct ratios {
+    const fw_quantity_law *const *law;
+    int n, most, found;
+    double *t_s, *value, size; /* size: largest norm */
+    bool all;
+} ratios;
+
+static double norm_of(const double *x, int n) {
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        sum += x[i] * x[i];
+    return sqrt(sum);
+}
+
+static void take_ratio(ratios *r, double t_s) {
+    const int n = r->n;
+    double *now = r->value + (size_t)r->found * (size_t)n;
+    for (int i = 0; i < n; i++) {
+        double value[3] = {1, 0, 0};
+        if (r->law[i]) fw_quantity_law_value(r->law[i], t_s, t_s, value);
+        now[i] = fabs(value[0]);
+    }
+    const double size = norm_of(now, n), same = 1e-3;
+    if (!isfinite(size) || !(size > same * r->size)) return;
+    r->size = fmax(r->size, size);
+    for (int k = 0; k < r->found; k++) {
+        double *was = r->value + (size_t)k * (size_t)n, far = 0;
+        const double its = norm_of(was, n);
+        for (int i = 0; i < n; i++)
+            far = fmax(far, fabs(now[i] / size - was[i] / its));
+        if (far > same) continue;
+        if (size <= its) return;
+        memcpy(was, now, (size_t)n * sizeof *now);
+        r->t_s[k] = t_s;
+        return;
+    }
+    if (r->found == r->most)
+        r->all = false;
+    else
+        r->t_s[r->found++] = t_s;
+}
+
+static double largest_at(const fw_quantity_law *law, double end_s) {
+    double most = -1, at_s = end_s;
+    for (int i = 1; law && i <= EXTREME; i++) {
+        const double t = end_s * i / EXTREME;
+        double value[3];
+        fw_quantity_law_value(law, t, t * (1 - 1e-9), value);
+        if (fabs(value[0]) > most) most = fabs(value[0]), at_s = t;
+    }
+    return at_s;
+}
+
+int fw_quantity_law_ratios(const fw_quantity_law *const *law, int n, double end_s, int most,
+                           double *t_s, double *value, bool *all) {
+    ratios r = {.law = law, .n = n, .most = most, .t_s = t_s, .value = value, .all = true};
+    double at[TIMES], break_s[TIMES / 4];
+    int count = 0;
+    at[count++] = end_s * (1 - 1e-9);
+    for (int i = 0; i < n; i++) {
+        const int breaks = fw_quantity_law_breaks_of(law[i], end_s, break_s, TIMES / 4);
+        if (breaks > TIMES / 4 || count + 2 * breaks + 1 > TIMES) r.all = false;
+        for (int k = 0; k < breaks && k < TIMES / 4 && count + 3 <= TIMES; k++)
+            at[count++] = break_s[k] * (1 - 1e-9), at[count++] = break_s[k] * (1 + 1e-9);
+        if (count < TIMES) at[count++] = largest_at(law[i], end_s);
+    }
+    fw_sort_doubles(at, (size_t)count);
+    for (int i = count; i-- > 0;) /* what stands longest is at the end */
+        take_ratio(&r, at[i]);
+    for (int i = 1; i < count; i++)
+        take_ratio(&r, 0.5 * (at[i - 1] + at[i]));
+    *all = r.all;
+    return r.found;
 }

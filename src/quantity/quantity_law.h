@@ -58,7 +58,7 @@ bool fw_quantity_law_is_constant(const fw_quantity_law *law);
    the top of the envelope in long ones) and for expressions the largest of 2001 samples; infinite
    where a sample is not finite. 1 without a law (NULL). */
 double fw_quantity_law_largest(const fw_quantity_law *law, double end_s);
-/* stride.c: instants at which n laws (NULL: 1) stand in different ratios, each where they are largest: at most `most`, and
+/* instants at which n laws (NULL: 1) stand in different ratios, each where they are largest: at most `most`, and
    |values| there, (most + 1) x n; *all false: these are not all */
 int fw_quantity_law_ratios(const fw_quantity_law *const *law, int n, double end_s, int most,
                            double *t_s, double *value, bool *all);
@@ -177,25 +177,38 @@ typedef struct fw_quantity_law_pieces {
 fw_status fw_quantity_law_pieces_of(fw_arena *arena, const fw_quantity_law_load *load, int n,
                                     double end_s, fw_quantity_law_pieces *pieces);
 
-enum { FW_QUANTITY_OSCILLATORS = 24 };
+/* Oscillators under all loads together, at several frequencies at a time: what acts is evaluated once for these */
+enum { FW_QUANTITY_OSCILLATORS = 24, FW_QUANTITY_LANES = 8 };
+typedef struct fw_quantity_law_loads {
+    const fw_quantity_law_load *load;
+    int n, held; /* held: the last ones, whose sizes no scale changes */
+    const fw_quantity_law_pieces *pieces;
+} fw_quantity_law_loads;
 typedef struct fw_quantity_law_oscillator {
-    double omega_per_s, damping, start_per_s; /* damping: share of the critical one, < 1 */
-    const double *size;                       /* of every load, in place of its own */
+    double damping, start_per_s; /* damping: share of the critical one, < 1 */
+    const double *size;          /* of every load, in place of its own */
+    double omega_per_s[FW_QUANTITY_LANES], scale[FW_QUANTITY_LANES]; /* scale: of the sizes */
 } fw_quantity_law_oscillator;
+typedef struct fw_quantity_law_row { /* what it is at the begin and at the end of a step */
+    double q[2][FW_QUANTITY_LANES], v[2][FW_QUANTITY_LANES], less[2][FW_QUANTITY_LANES];
+} fw_quantity_law_row;
 
-/* What is looked at: row i is the sum of by[i * oscillators + k] q_k less that of less[i * loads + j] (f_j - from_j) */
+/* What is looked at: row i is the sum of by[i * oscillators + k] q_k less that of less[i * loads + j] (f_j - from_j); behind:
+   of how far each is from where its loads would hold it, in place of q_k */
 typedef struct fw_quantity_law_seen {
-    const double *by, *less;
-    double *most, *rest; /* (n) the largest |row|; (2n) for its own use */
+    const double *by, *less;  /* less: NULL, nothing */
+    double *most;             /* (n, lanes) the largest |row| */
+    fw_quantity_law_row *row; /* (n) for its own use */
     int n;
+    bool behind;
 } fw_quantity_law_seen;
 /* q'' + 2 damping w q' + w^2 q = w^2 sum of size_j (f_j - from_j) of every oscillator, from q = 0 and q' = start_per_s on.
    Exact steps of what is straight between 24 samples to a period of the fastest, or of what laws are made of, 12 where all
    laws are straight; of one oscillator alone such a piece is one step between its first and its last period. Between samples
    the cubic through values and rates: 1e-4 of a swing at most. Returns the steps that it took; -1: beyond 4e6, most is not
-   known. Test: test_time_law.c swings_of_several */
-double fw_quantity_law_swings_of(const fw_quantity_law_load *load, int n,
-                                 const fw_quantity_law_pieces *pieces,
+   known. Cost of a step at one frequency: 10 ns for one oscillator, of several what rows times oscillators take, and an eighth of the laws.
+   Test: test_time_law.c swings_of_several, swings_side_by_side */
+double fw_quantity_law_swings_of(const fw_quantity_law_loads *loads,
                                  const fw_quantity_law_oscillator *oscillator, int oscillators,
                                  fw_quantity_law_seen *seen);
 /* of loads of these sizes no |q| is larger than that, from rest, whatever w is; infinite: nothing bounds a law */

@@ -366,30 +366,54 @@ fw_status fw_quantity_law_pieces_of(fw_arena *arena, const fw_quantity_law_load 
 
 /* ---- oscillators under several loads ---- */
 
-enum { STEPS_A_PERIOD = 24 };
+enum { STEPS_A_PERIOD = 24, LANES = FW_QUANTITY_LANES };
+#define EACH_LANE for (int l = 0; l < LANES; l++)
+#define WIDE      static inline __attribute__((always_inline))
 
-typedef struct swinging { /* of one oscillator; at the step's begin and end */
-    double omega, damping, turn, decay, c, s, q[2], v[2], f[2];
+typedef struct swinging { /* of one oscillator at every frequency; at the step's begin and end */
+    double omega[LANES], damped[LANES], turn[LANES], c[LANES], s[LANES], late[LANES];
+    double q[2][LANES], v[2][LANES], f[2][LANES];
 } swinging;
 
 /* what each oscillator stands under, and what each row has less, at a time of the piece about piece_s */
-static void loads_at(const fw_quantity_law_load *load, int n, double t_s, double piece_s,
+static void loads_at(const fw_quantity_law_loads *on, double t_s, double piece_s,
                      const fw_quantity_law_oscillator *from, int count, swinging *o, int end,
-                     const fw_quantity_law_seen *seen, double *rest) {
-    double value[3] = {1, 0, 0};
+                     const fw_quantity_law_seen *seen, fw_quantity_law_row *row) {
+    double value[3] = {1, 0, 0}, by_scale[FW_QUANTITY_OSCILLATORS] = {0},
+           as_is[FW_QUANTITY_OSCILLATORS] = {0};
     for (int i = 0; i < seen->n; i++)
-        rest[i] = 0;
-    for (int k = 0; k < count; k++)
-        o[k].f[end] = 0;
-    for (int j = 0; j < n; j++) {
-        if (load[j].law) fw_quantity_law_value(load[j].law, t_s, piece_s, value);
-        const double now = load[j].law ? value[0] : 1,
-                     acts = load[j].squared ? now * now : now - load[j].from;
+        memset(row[i].less[end], 0, sizeof row[i].less[end]);
+    for (int j = 0; j < on->n; j++) {
+        const fw_quantity_law_load *load = &on->load[j];
+        if (load->law) fw_quantity_law_value(load->law, t_s, piece_s, value);
+        const double now = load->law ? value[0] : 1,
+                     acts = load->squared ? now * now : now - load->from;
+        double *to = j < on->n - on->held ? by_scale : as_is;
         for (int k = 0; k < count; k++)
-            o[k].f[end] += from[k].size[j] * acts;
-        for (int i = 0; acts != 0 && i < seen->n; i++)
-            rest[i] += seen->less[i * n + j] * acts;
+            to[k] += from[k].size[j] * acts;
+        for (int i = 0; seen->less && acts != 0 && i < seen->n; i++)
+            EACH_LANE row[i].less[end][l] += seen->less[i * on->n + j] * acts;
     }
+    for (int k = 0; k < count; k++)
+        EACH_LANE o[k].f[end][l] = from[k].scale[l] * by_scale[k] + as_is[k];
+    for (int i = 0; seen->behind && i < seen->n; i++)
+        for (int k = 0; k < count; k++)
+            EACH_LANE row[i].less[end][l] += seen->by[i * count + k] * o[k].f[end][l];
+}
+
+WIDE void rows_at(const swinging *o, int count, int end, const fw_quantity_law_seen *seen,
+                  fw_quantity_law_row *row) {
+    typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+    for (int i = 0; i < seen->n; i++)
+        for (int l = 0; l < LANES; l += 4) {
+            four q = {0}, v = {0};
+            for (int k = 0; k < count; k++) {
+                const double by = seen->by[i * count + k];
+                q += by * *(const four *)(const void *)(o[k].q[end] + l);
+                v += by * *(const four *)(const void *)(o[k].v[end] + l);
+            }
+            memcpy(row[i].q[end] + l, &q, sizeof q), memcpy(row[i].v[end] + l, &v, sizeof v);
+        }
 }
 
 /* the farthest of the cubic through two values and rates, h apart */
@@ -401,88 +425,163 @@ static double farthest(double a, double rate_a, double b, double rate_b, double 
                            h * x * y * (y * rate_a - x * rate_b)));
 }
 
-static void step_on(swinging *o, double h) {
-    const double w = o->omega, d = o->damping * w, slope = (o->f[1] - o->f[0]) / h;
-    const double late = 2 * o->damping * slope / w, x = o->q[0] - o->f[0] + late,
-                 y = o->v[0] - slope;
-    o->q[1] = o->f[1] - late + x * o->c + (y + d * x) * o->s;
-    o->v[1] = slope + y * o->c - (w * w * x + d * y) * o->s;
-}
-
-/* ends: those of the step alone count */
-static void look_at(const swinging *o, int count, double h, bool ends, const double *before,
-                    const double *now, fw_quantity_law_seen *seen) {
-    for (int i = 0; i < seen->n; i++) {
-        const double rate = (now[i] - before[i]) / h;
-        double a = -before[i], b = -now[i], rate_a = -rate, rate_b = -rate;
-        for (int k = 0; k < count; k++) {
-            const double by = seen->by[i * count + k];
-            a += by * o[k].q[0], b += by * o[k].q[1];
-            rate_a += by * o[k].v[0], rate_b += by * o[k].v[1];
-        }
-        seen->most[i] =
-            fmax(seen->most[i], ends ? fmax(fabs(a), fabs(b)) : farthest(a, rate_a, b, rate_b, h));
+WIDE void step_on(swinging *o, double h) {
+    const double per_h = 1 / h;
+    EACH_LANE {
+        const double w = o->omega[l], slope = (o->f[1][l] - o->f[0][l]) * per_h,
+                     late = o->late[l] * slope, x = o->q[0][l] - o->f[0][l] + late,
+                     y = o->v[0][l] - slope, d = o->damped[l];
+        o->q[1][l] = o->f[1][l] - late + x * o->c[l] + (y + d * x) * o->s[l];
+        o->v[1][l] = slope + y * o->c[l] - (w * w * x + d * y) * o->s[l];
     }
 }
 
-/* `steps` even ones within a piece; what acts at their begin is known */
-static void swing_on(const fw_quantity_law_load *load, int n, double from_s, double to_s,
-                     double steps, double piece_s, bool ends,
-                     const fw_quantity_law_oscillator *from, int count, swinging *o,
-                     fw_quantity_law_seen *seen) {
-    const double h = (to_s - from_s) / steps;
-    double *before = seen->rest, *now = seen->rest + seen->n;
-    for (int k = 0; k < count; k++) {
-        o[k].decay = exp(-o[k].damping * o[k].omega * h);
-        o[k].c = o[k].decay * cos(o[k].turn * h);
-        o[k].s = o[k].decay * sin(o[k].turn * h) / o[k].turn;
+WIDE double larger_of(double a, double b) { /* neither is NaN */
+    return a > b ? a : b;
+}
+
+/* a cubic is above its ends by 4/27 of its rates at most; ends: those of the step alone count */
+WIDE void look_at(const fw_quantity_law_row *row, double h, bool ends, double *most) {
+    const double per_h = 1 / h, over = 4 / 27.0 * h;
+    double a[LANES], b[LANES], rate_a[LANES], rate_b[LANES], high[LANES], may[LANES], was[LANES];
+    bool turns = false;
+    memcpy(was, most, sizeof was);
+    EACH_LANE {
+        const double slope = (row->less[1][l] - row->less[0][l]) * per_h;
+        a[l] = row->q[0][l] - row->less[0][l], b[l] = row->q[1][l] - row->less[1][l];
+        rate_a[l] = row->v[0][l] - slope, rate_b[l] = row->v[1][l] - slope;
+        high[l] = larger_of(fabs(a[l]), fabs(b[l]));
+        may[l] = high[l] + over * (fabs(rate_a[l]) + fabs(rate_b[l]));
+        was[l] = larger_of(was[l], high[l]);
     }
-    for (double at = 1; at <= steps; at++) {
-        const double t = at == steps ? to_s : from_s + at * h;
-        loads_at(load, n, t, piece_s, from, count, o, 1, seen, now);
-        for (int k = 0; k < count; k++)
+    EACH_LANE turns |= may[l] > was[l];
+    for (int l = 0; turns && !ends && l < LANES; l++)
+        if (may[l] > was[l])
+            was[l] = larger_of(was[l], farthest(a[l], rate_a[l], b[l], rate_b[l], h));
+    memcpy(most, was, sizeof was);
+}
+
+typedef struct
+    swinging_piece { /* even steps within a piece; ends: of rows those of all alone count */
+    const fw_quantity_law_loads *on;
+    const fw_quantity_law_oscillator *from;
+    int count;
+    double begin_s, end_s, steps, middle_s;
+    bool ends;
+} swinging_piece;
+
+WIDE void swing_through(const swinging_piece *p, swinging *o, fw_quantity_law_seen *seen) {
+    const double h = (p->end_s - p->begin_s) / p->steps;
+    fw_quantity_law_row *row = seen->row;
+    for (double at = 1; at <= p->steps; at++) {
+        const double t = at == p->steps ? p->end_s : p->begin_s + at * h;
+        loads_at(p->on, t, p->middle_s, p->from, p->count, o, 1, seen, row);
+        for (int k = 0; k < p->count; k++)
             step_on(&o[k], h);
-        look_at(o, count, h, ends, before, now, seen);
-        for (int k = 0; k < count; k++)
-            o[k].q[0] = o[k].q[1], o[k].v[0] = o[k].v[1], o[k].f[0] = o[k].f[1];
-        for (int i = 0; i < seen->n; i++)
-            before[i] = now[i];
+        rows_at(o, p->count, 1, seen, row);
+        for (int i = 0; i < seen->n; i++) {
+            look_at(&row[i], h, p->ends, seen->most + (size_t)i * LANES);
+            memcpy(row[i].q[0], row[i].q[1], sizeof row[i].q[0]);
+            memcpy(row[i].v[0], row[i].v[1], sizeof row[i].v[0]);
+            memcpy(row[i].less[0], row[i].less[1], sizeof row[i].less[0]);
+        }
+        for (int k = 0; k < p->count; k++) {
+            memcpy(o[k].q[0], o[k].q[1], sizeof o[k].q[0]);
+            memcpy(o[k].v[0], o[k].v[1], sizeof o[k].v[0]);
+            memcpy(o[k].f[0], o[k].f[1], sizeof o[k].f[0]);
+        }
     }
 }
 
-double fw_quantity_law_swings_of(const fw_quantity_law_load *load, int n,
-                                 const fw_quantity_law_pieces *pieces,
+__attribute__((target("avx2"))) static void swing_through_avx2(const swinging_piece *p, swinging *o,
+                                                               fw_quantity_law_seen *seen) {
+    swing_through(p, o, seen);
+}
+
+/* the same numbers whatever the processor has: every lane has the same operations */
+static void swing_on(const swinging_piece *p, swinging *o, fw_quantity_law_seen *seen) {
+    const double h = (p->end_s - p->begin_s) / p->steps;
+    for (int k = 0; k < p->count; k++)
+        EACH_LANE {
+            const double decay = exp(-o[k].damped[l] * h);
+            o[k].c[l] = decay * cos(o[k].turn[l] * h);
+            o[k].s[l] = decay * sin(o[k].turn[l] * h) / o[k].turn[l];
+        }
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) {
+        swing_through_avx2(p, o, seen);
+        return;
+    }
+#endif
+    swing_through(p, o, seen);
+}
+
+/* from[k] at its frequencies; false: one does not swing. per_s: the slowest and the fastest */
+static bool begin_swinging(const fw_quantity_law_oscillator *from, int count, swinging *o,
+                           double per_s[2]) {
+    per_s[0] = (double)INFINITY, per_s[1] = 0;
+    for (int k = 0; k < count; k++) {
+        const double d = from[k].damping;
+        memset(&o[k], 0, sizeof o[k]);
+        EACH_LANE {
+            const double w = from[k].omega_per_s[l];
+            if (!(d < 1) || !(w > 0)) return false;
+            o[k].omega[l] = w, o[k].damped[l] = d * w, o[k].late[l] = 2 * d / w;
+            o[k].turn[l] = w * sqrt(1 - d * d), o[k].v[0][l] = from[k].start_per_s;
+            per_s[0] = fmin(per_s[0], w), per_s[1] = fmax(per_s[1], w);
+        }
+    }
+    return true;
+}
+
+/* Steps in piece p, and of the fine ones at either end of it where all between is one step (0: they are all alike) */
+static double steps_of_piece(const fw_quantity_law_pieces *pieces, int p, int count,
+                             const double per_s[2], double *fine) {
+    const double took = pieces->end_s[p] - (p ? pieces->end_s[p - 1] : 0),
+                 period = 2 * FW_PI / per_s[1], longest = 2 * FW_PI / per_s[0];
+    const bool straight = isinf(pieces->step_s[p]);
+    const double few = straight ? 0.5 * STEPS_A_PERIOD : STEPS_A_PERIOD;
+    *fine = straight && count == 1 && took > 3 * longest ? ceil(few * longest / period) : 0;
+    return *fine > 0 ? 2 * *fine + 1 : ceil(took / fmin(period / few, pieces->step_s[p]));
+}
+
+/* of one oscillator alone all rows go as it does */
+static double swings_of_one(const fw_quantity_law_loads *on, const fw_quantity_law_oscillator *from,
+                            fw_quantity_law_seen *seen) {
+    const double one = 1;
+    double most[LANES];
+    fw_quantity_law_seen its = {
+        .by = &one, .most = most, .row = seen->row, .n = 1, .behind = seen->behind};
+    const double steps = fw_quantity_law_swings_of(on, from, 1, &its);
+    for (int i = 0; i < seen->n; i++)
+        EACH_LANE seen->most[i * LANES + l] = fabs(seen->by[i]) * most[l];
+    return steps;
+}
+
+double fw_quantity_law_swings_of(const fw_quantity_law_loads *on,
                                  const fw_quantity_law_oscillator *from, int count,
                                  fw_quantity_law_seen *seen) {
     const double most_steps = 4e6;
+    const fw_quantity_law_pieces *pieces = on->pieces;
     swinging o[FW_QUANTITY_OSCILLATORS];
-    double steps = 0, at = 0, fastest = 0;
-    for (int k = 0; k < count; k++) {
-        const double w = from[k].omega_per_s, d = from[k].damping;
-        if (!(d < 1) || !(w > 0)) return -1;
-        o[k] = (swinging){.omega = w, .damping = d, .turn = w * sqrt(1 - d * d)};
-        o[k].v[0] = from[k].start_per_s;
-        fastest = fmax(fastest, w);
-    }
-    for (int i = 0; i < seen->n; i++)
-        seen->most[i] = 0;
-    const double period = 2 * FW_PI / fastest;
+    double steps = 0, at = 0, per_s[2], fine;
+    if (count == 1 && seen->n > 1 && !seen->less) return swings_of_one(on, from, seen);
+    if (!begin_swinging(from, count, o, per_s)) return -1;
+    for (int p = 0; p < pieces->n; p++)
+        steps += steps_of_piece(pieces, p, count, per_s, &fine);
+    if (!(steps < most_steps)) return -1;
+    memset(seen->most, 0, (size_t)seen->n * LANES * sizeof *seen->most);
+    rows_at(o, count, 0, seen, seen->row);
     for (int p = 0; p < pieces->n; at = pieces->end_s[p++]) {
-        const double to = pieces->end_s[p], middle = 0.5 * (at + to);
-        const bool straight = isinf(pieces->step_s[p]),
-                   jumps = straight && count == 1 && to - at > 3 * period;
-        const double few = straight ? 0.5 * STEPS_A_PERIOD : STEPS_A_PERIOD,
-                     needs = ceil((to - at) / fmin(period / few, pieces->step_s[p]));
-        steps += jumps ? 2 * few + 1 : needs;
-        if (!(steps < most_steps)) return -1;
-        loads_at(load, n, at, middle, from, count, o, 0, seen, seen->rest);
-        if (!jumps) {
-            swing_on(load, n, at, to, needs, middle, false, from, count, o, seen);
-            continue;
-        }
-        swing_on(load, n, at, at + period, few, middle, false, from, count, o, seen);
-        swing_on(load, n, at + period, to - period, 1, middle, true, from, count, o, seen);
-        swing_on(load, n, to - period, to, few, middle, false, from, count, o, seen);
+        const double to = pieces->end_s[p], middle = 0.5 * (at + to), whole = 2 * FW_PI / per_s[0],
+                     needs = steps_of_piece(pieces, p, count, per_s, &fine);
+        loads_at(on, at, middle, from, count, o, 0, seen, seen->row);
+        const swinging_piece part[3] = {{on, from, count, at, fine > 0 ? at + whole : to,
+                                         fine > 0 ? fine : needs, middle, false},
+                                        {on, from, count, at + whole, to - whole, 1, middle, true},
+                                        {on, from, count, to - whole, to, fine, middle, false}};
+        for (int i = 0; i < (fine > 0 ? 3 : 1); i++)
+            swing_on(&part[i], o, seen);
     }
     return steps;
 }
@@ -498,87 +597,4 @@ double fw_quantity_law_bound_of(const fw_quantity_law_load *load, const double *
         if (by[i] != 0) sum += fabs(by[i]) * acts;
     }
     return sum;
-}
-
-/* ---- laws beside each other ----
-   Instants at which laws stand in different ratios to each other, each where they are largest: their breaks, just before and just
-   behind, where each is largest, the end, and between any two of these. In: laws (NULL: 1), value (most + 1) x n for |values|
-   there. Out: how many; all false: there are more. Error: extremes by 512 looks; ratios within a thousandth are one, and what
-   is below a thousandth of the largest is none. Test: test_stride.c ratios */
-
-enum { TIMES = 256, EXTREME = 512 };
-
-typedef struct ratios {
-    const fw_quantity_law *const *law;
-    int n, most, found;
-    double *t_s, *value, size; /* size: largest norm */
-    bool all;
-} ratios;
-
-static double norm_of(const double *x, int n) {
-    double sum = 0;
-    for (int i = 0; i < n; i++)
-        sum += x[i] * x[i];
-    return sqrt(sum);
-}
-
-static void take_ratio(ratios *r, double t_s) {
-    const int n = r->n;
-    double *now = r->value + (size_t)r->found * (size_t)n;
-    for (int i = 0; i < n; i++) {
-        double value[3] = {1, 0, 0};
-        if (r->law[i]) fw_quantity_law_value(r->law[i], t_s, t_s, value);
-        now[i] = fabs(value[0]);
-    }
-    const double size = norm_of(now, n), same = 1e-3;
-    if (!isfinite(size) || !(size > same * r->size)) return;
-    r->size = fmax(r->size, size);
-    for (int k = 0; k < r->found; k++) {
-        double *was = r->value + (size_t)k * (size_t)n, far = 0;
-        const double its = norm_of(was, n);
-        for (int i = 0; i < n; i++)
-            far = fmax(far, fabs(now[i] / size - was[i] / its));
-        if (far > same) continue;
-        if (size <= its) return;
-        memcpy(was, now, (size_t)n * sizeof *now);
-        r->t_s[k] = t_s;
-        return;
-    }
-    if (r->found == r->most)
-        r->all = false;
-    else
-        r->t_s[r->found++] = t_s;
-}
-
-static double largest_at(const fw_quantity_law *law, double end_s) {
-    double most = -1, at_s = end_s;
-    for (int i = 1; law && i <= EXTREME; i++) {
-        const double t = end_s * i / EXTREME;
-        double value[3];
-        fw_quantity_law_value(law, t, t * (1 - 1e-9), value);
-        if (fabs(value[0]) > most) most = fabs(value[0]), at_s = t;
-    }
-    return at_s;
-}
-
-int fw_quantity_law_ratios(const fw_quantity_law *const *law, int n, double end_s, int most,
-                           double *t_s, double *value, bool *all) {
-    ratios r = {.law = law, .n = n, .most = most, .t_s = t_s, .value = value, .all = true};
-    double at[TIMES], break_s[TIMES / 4];
-    int count = 0;
-    at[count++] = end_s * (1 - 1e-9);
-    for (int i = 0; i < n; i++) {
-        const int breaks = fw_quantity_law_breaks_of(law[i], end_s, break_s, TIMES / 4);
-        if (breaks > TIMES / 4 || count + 2 * breaks + 1 > TIMES) r.all = false;
-        for (int k = 0; k < breaks && k < TIMES / 4 && count + 3 <= TIMES; k++)
-            at[count++] = break_s[k] * (1 - 1e-9), at[count++] = break_s[k] * (1 + 1e-9);
-        if (count < TIMES) at[count++] = largest_at(law[i], end_s);
-    }
-    fw_sort_doubles(at, (size_t)count);
-    for (int i = count; i-- > 0;) /* what stands longest is at the end */
-        take_ratio(&r, at[i]);
-    for (int i = 1; i < count; i++)
-        take_ratio(&r, 0.5 * (at[i - 1] + at[i]));
-    *all = r.all;
-    return r.found;
 }

@@ -147,34 +147,49 @@ static double bound_at(const shaking_own *x, double s2, double w, double start) 
     return most;
 }
 
-/* |q - sum of sizes times laws| at w, at most; steps: that it took, -1: a bound */
-static double departs_at(const shaking_own *x, double s2, double w, double damping, double start,
-                         double *steps) {
+/* |q - sum of sizes times laws| at these (lanes), at most; steps: that it took, -1: a bound */
+static double departs_at(const shaking_own *x, double s2, const double *w, double damping,
+                         double start, double *steps) {
+    enum { LANES = FW_QUANTITY_LANES };
     const double one = 1;
-    double most = 0, rest[2] = {0};
-    sizes_at(x, s2, w);
-    const fw_quantity_law_oscillator mode = {w, damping, start, x->size};
-    fw_quantity_law_seen seen = {.by = &one, .less = x->size, .most = &most, .rest = rest, .n = 1};
-    *steps = fw_quantity_law_swings_of(x->load, x->n, &x->pieces, &mode, 1, &seen);
-    return *steps >= 0 ? most : bound_at(x, s2, w, start);
+    double most[LANES], all = 0;
+    fw_quantity_law_row row;
+    const fw_quantity_law_loads on = {x->load, x->n, x->held.n, &x->pieces};
+    fw_quantity_law_oscillator mode = {damping, start, x->size, {0}, {0}};
+    fw_quantity_law_seen seen = {.by = &one, .most = most, .row = &row, .n = 1, .behind = true};
+    for (int j = 0; j < x->n; j++)
+        x->size[j] = x->load[j].size;
+    for (int l = 0; l < LANES; l++)
+        mode.omega_per_s[l] = w[l], mode.scale[l] = 1 / (s2 * w[l] * w[l]);
+    *steps = fw_quantity_law_swings_of(&on, &mode, 1, &seen);
+    for (int l = 0; l < LANES; l++)
+        all = fmax(all, *steps >= 0 ? most[l] : bound_at(x, s2, w[l], start));
+    return all;
 }
 
 /* over [low, high] */
 static double departs(const shaking_own *x, double s2, double low, double high, double damping,
                       double start) {
+    enum { LANES = FW_QUANTITY_LANES };
     const double budget = 1e6, least = 12;
-    double steps, most = departs_at(x, s2, low, damping, start, &steps);
-    if (steps < 0) return fmax(most, departs_at(x, s2, high, damping, start, &steps));
+    double at[LANES], steps, most = 0;
+    int own = 0; /* where the laws' own frequencies are, or the lowest */
+    for (int l = 0; l < LANES; l++)
+        at[l] = low;
+    for (int j = 0; j < x->n; j++) {
+        const double is =
+            fw_quantity_law_wave_of(x->load[j].law).rad_per_s * (x->load[j].squared ? 2 : 1);
+        if (!(is > low && is < high)) continue;
+        at[own++] = is;
+        if (own == LANES) most = fmax(most, departs_at(x, s2, at, damping, start, &steps)), own = 0;
+    }
+    most = fmax(most, departs_at(x, s2, at, damping, start, &steps));
     const double wanted = 2 + ceil((high - low) * x->s->duration_s / 0.5),
                  n = fmin(wanted, fmax(least, budget / fmax(steps, 1)));
-    for (double i = 1; i < n; i++)
-        most =
-            fmax(most, departs_at(x, s2, low + (high - low) * i / (n - 1), damping, start, &steps));
-    for (int j = 0; j < x->n; j++) {
-        const double own =
-            fw_quantity_law_wave_of(x->load[j].law).rad_per_s * (x->load[j].squared ? 2 : 1);
-        if (own > low && own < high)
-            most = fmax(most, departs_at(x, s2, own, damping, start, &steps));
+    for (double i = 0; i < (steps < 0 ? 2 : n); i += LANES) {
+        for (int l = 0; l < LANES; l++)
+            at[l] = low + (high - low) * fmin((i + l) / (n - 1), 1);
+        most = fmax(most, departs_at(x, s2, at, damping, start, &steps));
     }
     return most;
 }

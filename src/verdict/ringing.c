@@ -359,18 +359,16 @@ typedef struct rings { /* of several modes at once */
     const fw_verdict_shaken_mode *mode[FW_QUANTITY_OSCILLATORS];
     int n, rows;
     fw_verdict_softness softer;
-    double strained; /* of an answer, where what is stiffer goes less far and bears as much */
-    double *size, *by, *less;
+    double *by, *less;
     fw_quantity_law_seen seen;
 } rings;
 
 static fw_status make_room(fw_arena *arena, int modes, rings *r) {
     const size_t rows = 3 * (size_t)r->rows, loads = (size_t)r->shaken->nload;
-    FW_NEED(r->size = fw_arena_array(arena, double, (size_t)modes *loads));
     FW_NEED(r->by = fw_arena_array(arena, double, rows *(size_t)modes));
     FW_NEED(r->less = fw_arena_array(arena, double, rows *loads));
-    FW_NEED(r->seen.most = fw_arena_array(arena, double, 3 * rows));
-    r->seen.rest = r->seen.most + rows;
+    FW_NEED(r->seen.most = fw_arena_array(arena, double, FW_QUANTITY_LANES *rows));
+    FW_NEED(r->seen.row = fw_arena_array(arena, fw_quantity_law_row, rows));
     return FW_OK;
 }
 
@@ -381,7 +379,7 @@ static double part_of(bent b, int i) {
 /* what a row sees of the modes, and has less of what is prescribed */
 static void put_rows(rings *r) {
     const fw_verdict_shaken *s = r->shaken;
-    r->seen.by = r->by, r->seen.less = r->less, r->seen.n = 3 * r->rows;
+    r->seen.by = r->by, r->seen.less = s->ways > 0 ? r->less : NULL, r->seen.n = 3 * r->rows;
     for (int i = 0; i < r->seen.n; i++) {
         for (int k = 0; k < r->n; k++)
             r->by[i * r->n + k] = part_of(r->mode[k]->bends[i / 3], i % 3);
@@ -395,24 +393,27 @@ static void put_rows(rings *r) {
     }
 }
 
-/* A of every row with all frequencies `times` as high, each within its own error. Returns the steps, or -1 */
-static double answers_at(rings *r, double times, double *answer) {
+/* A (rows, lanes) with all frequencies times[] as high, each within its own error. Returns the steps, or -1 */
+static double answers_at(rings *r, const double *times, double *answer) {
+    enum { LANES = FW_QUANTITY_LANES };
     const fw_verdict_shaken *s = r->shaken;
+    const fw_quantity_law_loads on = {s->load, s->nload, s->ways, r->pieces};
     fw_quantity_law_oscillator o[FW_QUANTITY_OSCILLATORS];
     for (int k = 0; k < r->n; k++) {
         const fw_verdict_shaken_mode *mode = r->mode[k];
-        const double at = fmin(fmax(times * mode->omega, mode->low), mode->high),
-                     soft = fw_verdict_soft_by(r->softer, mode->omega, at);
-        double *size = r->size + k * s->nload;
-        for (int j = 0; j < s->nload; j++)
-            size[j] = mode->size[j] * (j < s->nload - s->ways ? soft : 1);
-        o[k] = (fw_quantity_law_oscillator){at, mode->damping, mode->start, size};
+        o[k] = (fw_quantity_law_oscillator){mode->damping, mode->start, mode->size, {0}, {0}};
+        for (int l = 0; l < LANES; l++) {
+            const double at = fmin(fmax(times[l] * mode->omega, mode->low), mode->high);
+            o[k].omega_per_s[l] = at;
+            o[k].scale[l] = fw_verdict_soft_by(r->softer, mode->omega, at);
+        }
     }
-    const double steps = fw_quantity_law_swings_of(s->load, s->nload, r->pieces, o, r->n, &r->seen);
-    const double *most = r->seen.most;
-    r->strained = 1 / fmin(1, fw_verdict_soft_by(r->softer, 1, times));
-    for (int i = 0; i < r->rows; i++)
-        answer[i] = most[3 * i] + hypot(most[3 * i + 1], most[3 * i + 2]);
+    const double steps = fw_quantity_law_swings_of(&on, o, r->n, &r->seen);
+    for (int i = 0; steps >= 0 && i < r->rows; i++) {
+        const double *most = r->seen.most + (size_t)(3 * i * LANES);
+        for (int l = 0; l < LANES; l++)
+            answer[i * LANES + l] = most[l] + hypot(most[LANES + l], most[2 * LANES + l]);
+    }
     return steps;
 }
 
@@ -432,35 +433,43 @@ static void as_allowed(const rings *r, double end_s, fw_verdict_answer *to) {
         to[i] = (fw_verdict_answer){1 + bound[i], 0, 1 + bound[i]};
 }
 
+/* strained: what is stiffer goes less far and bears as much */
+static void take_answer(const rings *r, double times, double now, double as_computed,
+                        fw_verdict_answer *to) {
+    const double strained = now / fmin(1, fw_verdict_soft_by(r->softer, 1, times));
+    to->up = fmax(to->up, 1 + now - as_computed);
+    to->down = fmin(to->down, 1 + now - as_computed);
+    to->strained = fmax(to->strained, 1 + strained - as_computed);
+}
+
 /* to: more or less than as computed, 1 where it does as much */
 static fw_status ring(fw_arena *arena, rings *r, double end_s, fw_verdict_answer *to) {
+    enum { LANES = FW_QUANTITY_LANES };
     const double most_steps = 4e6, fewest = 40;
-    double low = 1, high = 1, width = 0;
-    double *as_computed = fw_arena_array(arena, double, 2 * (size_t)r->rows);
-    FW_NEED(as_computed);
-    double *now = as_computed + r->rows;
+    double low = 1, high = 1, width = 0, times[LANES];
+    double *now = fw_arena_array(arena, double, (1 + LANES) * (size_t)r->rows),
+           *as_computed = now + LANES * r->rows;
+    FW_NEED(now);
     for (int k = 0; k < r->n; k++) {
         const fw_verdict_shaken_mode *mode = r->mode[k];
         low = fmin(low, mode->low / mode->omega), high = fmax(high, mode->high / mode->omega);
         width = fmax(width, mode->high - mode->low);
     }
     put_rows(r);
+    for (int l = 0; l < LANES; l++)
+        times[l] = 1;
+    double steps = answers_at(r, times, now);
+    const double n = fmin(2 + ceil(width * end_s / 0.5), fmax(fewest, most_steps / fmax(steps, 1)));
     for (int i = 0; i < r->rows; i++)
-        to[i] = (fw_verdict_answer){1, 1, 1};
-    const double steps = answers_at(r, 1, as_computed),
-                 n = fmin(2 + ceil(width * end_s / 0.5), fmax(fewest, most_steps / fmax(steps, 1)));
-    if (steps < 0) as_allowed(r, end_s, to);
-    for (double k = 0; steps >= 0 && k < n; k++) {
-        if (answers_at(r, low + (high - low) * k / (n - 1), now) < 0) {
-            as_allowed(r, end_s, to);
-            return FW_OK;
-        }
-        for (int i = 0; i < r->rows; i++) {
-            to[i].up = fmax(to[i].up, 1 + now[i] - as_computed[i]);
-            to[i].down = fmin(to[i].down, 1 + now[i] - as_computed[i]);
-            to[i].strained = fmax(to[i].strained, 1 + r->strained * now[i] - as_computed[i]);
-        }
+        to[i] = (fw_verdict_answer){1, 1, 1}, as_computed[i] = now[i * LANES];
+    for (double k = 0; steps >= 0 && k < n; k += LANES) {
+        for (int l = 0; l < LANES; l++)
+            times[l] = low + (high - low) * fmin((k + l) / (n - 1), 1);
+        steps = answers_at(r, times, now);
+        for (int i = 0; steps >= 0 && i < LANES * r->rows; i++)
+            take_answer(r, times[i % LANES], now[i], as_computed[i / LANES], &to[i / LANES]);
     }
+    if (steps < 0) as_allowed(r, end_s, to);
     return FW_OK;
 }
 

@@ -219,14 +219,71 @@ static void swings(void **state) {
 /* the largest of one undamped oscillator from rest, less a share of the first load */
 static double swing_of(const fw_quantity_law_load *load, int n, double end_s, double w, double start_per_s, double less) {
     fw_quantity_law_pieces pieces;
-    double size[4], by = 1, shares[4] = {less}, most, rest[2];
+    double size[4], by = 1, shares[4] = {less}, most[FW_QUANTITY_LANES];
+    fw_quantity_law_row row;
     assert_int_equal(fw_quantity_law_pieces_of(arena, load, n, end_s, &pieces), FW_OK);
     for (int i = 0; i < n; i++)
         size[i] = load[i].size;
-    const fw_quantity_law_oscillator o = {w, 0, start_per_s, size};
-    fw_quantity_law_seen seen = {&by, shares, &most, rest, 1};
-    assert_true(fw_quantity_law_swings_of(load, n, &pieces, &o, 1, &seen) > 0);
+    const fw_quantity_law_loads on = {load, n, 0, &pieces};
+    fw_quantity_law_oscillator o = {0, start_per_s, size, {0}, {0}};
+    for (int l = 0; l < FW_QUANTITY_LANES; l++)
+        o.omega_per_s[l] = w, o.scale[l] = 1;
+    fw_quantity_law_seen seen = {&by, shares, most, &row, 1, false};
+    assert_true(fw_quantity_law_swings_of(&on, &o, 1, &seen) > 0);
+    for (int l = 1; l < FW_QUANTITY_LANES; l++)
+        assert_true(most[l] == most[0]);
+    return most[0];
+}
+
+/* the largest of two oscillators, each at w times `own`, by steps of a thousandth of the shorter period (Runge and Kutta), of
+   which a row sees q_0 + 2 q_1, less 0.5 f of the last load; behind: how far each is from where it is held */
+static double swung_by_steps(const fw_quantity_law *law, double end_s, const double w[2], double damping, const double size[2][2], double scale,
+                             bool behind) {
+    const double h = 2 * pi / fmax(w[0], w[1]) / 1000;
+    double y[4] = {0}, most = 0;
+    for (double t = 0; t < end_s; t += h) {
+        double k[4][4], value[3], f[2];
+        for (int i = 0; i < 4; i++) {
+            const double part = i == 0 ? 0 : i == 3 ? 1 : 0.5;
+            fw_quantity_law_value(law, t + part * h, t + 0.5 * h, value);
+            for (int o = 0; o < 2; o++) {
+                const double q = y[2 * o] + part * h * (i ? k[i - 1][2 * o] : 0), v = y[2 * o + 1] + part * h * (i ? k[i - 1][2 * o + 1] : 0);
+                f[o] = (scale * size[o][0] + size[o][1]) * value[0];
+                k[i][2 * o] = v;
+                k[i][2 * o + 1] = w[o] * w[o] * (f[o] - q) - 2 * damping * w[o] * v;
+            }
+        }
+        for (int i = 0; i < 4; i++)
+            y[i] += h / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
+        const double row = y[0] + 2 * y[2];
+        most = fmax(most, fabs(behind ? row - f[0] - 2 * f[1] : row - 0.5 * value[0]));
+    }
     return most;
+}
+
+/* eight frequencies at a time, two oscillators, sizes that go with the frequency and sizes that do not */
+static void swings_side_by_side(void **state) {
+    (void)state;
+    const fw_quantity_law law = {.kind = fw_quantity_law_find("sine"), .frequency_Hz = 300, .start_s = 1e-3, .end_s = 9e-3};
+    const fw_quantity_law_load load[2] = {{.law = &law, .size = 1}, {.law = &law, .size = 1}};
+    const double size[2][2] = {{1, 0.3}, {-0.4, 0.2}}, by[2] = {1, 2}, less[2] = {0, 0.5}, w = 2 * pi * 900, end = 12e-3;
+    fw_quantity_law_pieces pieces;
+    assert_int_equal(fw_quantity_law_pieces_of(arena, load, 2, end, &pieces), FW_OK);
+    for (int d = 0; d < 4; d++) {
+        const fw_quantity_law_loads on = {load, 2, 1, &pieces};
+        fw_quantity_law_oscillator o[2] = {{0.02 * d, 0, size[0], {0}, {0}}, {0.02 * d, 0, size[1], {0}, {0}}};
+        double most[FW_QUANTITY_LANES];
+        fw_quantity_law_row row;
+        for (int l = 0; l < FW_QUANTITY_LANES; l++)
+            for (int k = 0; k < 2; k++)
+                o[k].omega_per_s[l] = (k ? 2.7 : 1) * w * (1 + 0.1 * l), o[k].scale[l] = 1 / (1 + 0.2 * l);
+        fw_quantity_law_seen seen = {by, d % 2 ? NULL : less, most, &row, 1, d % 2 == 1};
+        assert_true(fw_quantity_law_swings_of(&on, o, 2, &seen) > 0);
+        for (int l = 0; l < FW_QUANTITY_LANES; l++) {
+            const double at[2] = {w * (1 + 0.1 * l), 2.7 * w * (1 + 0.1 * l)};
+            assert_near(most[l] / swung_by_steps(&law, end, at, 0.02 * d, size, 1 / (1 + 0.2 * l), d % 2 == 1), 1, 2e-3);
+        }
+    }
 }
 
 /* two pulses of half a period each, n periods apart from start to start: the first leaves pi/2 of what it does at rest, and
@@ -538,6 +595,7 @@ int main(void) {
         cmocka_unit_test(answers_behind_the_end),
         cmocka_unit_test(swings),
         cmocka_unit_test(swings_of_several),
+        cmocka_unit_test(swings_side_by_side),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }
