@@ -39,7 +39,7 @@ typedef struct fw_diag {
     fw_place place;
     const char *message;
     fw_diag_ended ended;
-    bool unreliable; /* a warning after which the result is not to be relied on */
+    bool unreliable; /* a warning after which the result is not to be relied on, or a finding of a log */
     bool once;       /* said of a place once, however many flows have it */
 } fw_diag;
 

@@ -292,6 +292,17 @@ static void tell_once(fw_diags *diags, size_t before, size_t first, fw_place pla
     diags->count = kept;
 }
 
+/* What is told of an entry is a finding, which no line takes back and somebody must look at before the next step: it is told also
+   to those who want no messages (-q). Test: test_manners.py, Log */
+static void told_to_all(fw_diags *diags, size_t first) {
+    for (size_t i = first; i < diags->count; i++) {
+        fw_diag *said = &diags->item[i];
+        if (said->severity != FW_WARNING || said->unreliable) continue;
+        said->unreliable = true;
+        diags->unreliable++;
+    }
+}
+
 /* the one line that says that the lot goes on by another plan */
 static fw_status replan(fw_plan *plan, const fw_plan_flow *pf, const char *hash,
                         const fw_cli_options *options, fw_text *added, fw_recipe_asrun *run) {
@@ -355,6 +366,7 @@ static fw_status compose(const fw_append *file, fw_plan *plan, const fw_plan_flo
                                         list.place[i], &plan->diags));
         tell_once(&plan->diags, before, first, list.place[i]);
     }
+    told_to_all(&plan->diags, first);
     return fw_text_end(added);
 }
 

@@ -493,6 +493,7 @@ fw_status fw_recipe_asrun_add(fw_arena *arena, const fw_process_flow *flow,
     for (int i = 0; i < e.ncoupon; i++)
         fw_text_printf(&out, "\tcoupon=%s", e.coupon[i].text);
     fw_recipe_asrun_put_planned(&e, &out);
+    fw_recipe_asrun_put_limits(&e, &out);
     FW_TRY(fw_text_end(&out));
     link_of(arena, run->chain, out.data, out.length, chain);
     FW_NEED(chain[0]);

@@ -19,13 +19,17 @@ typedef struct fw_recipe_measured {
     double number; /* mean of the sites in the unit of the run sheet; NaN: yes or no */
     double site[FW_RECIPE_SITES]; /* NaN: not measured there; one value without a name: the first */
     int nsite;                    /* 0: yes or no */
+    const char *low,
+        *high; /* what is accepted, in the same unit; of a line of another plan by that one */
 } fw_recipe_measured;
 
 typedef struct fw_recipe_set { /* what was set, or measured of what was set */
     const char *name, *text;
-    const fw_quantity *q;   /* what was planned; NULL: read without the log's plan */
-    double value;           /* in the unit of q; NaN: a text */
-    const char *low, *high; /* what the step allows, as written in the unit of q; "": any */
+    const fw_quantity *q; /* what was planned; NULL: read without the log's plan */
+    double value;         /* in the unit of q; NaN: a text */
+    double planned;       /* in the unit of q; NaN: not known, or a text */
+    const char *low,
+        *high; /* what the step allows, as written in the unit of q; "": any. planned and these of a line of another plan: by that one */
 } fw_recipe_set;
 
 typedef struct fw_recipe_coupon {
@@ -64,6 +68,8 @@ typedef struct fw_recipe_asrun_entry {
     fw_recipe_coupon *coupon;
     int nmeasured, nset, ncoupon, line;
     bool former; /* of a plan before that of the last lines, and judged by the times of its line */
+    bool
+        limited; /* its line says by what its values are judged, as lines of former versions do not */
     int loads; /* of the step that the entry is of: of the whole lot several, one after the other */
     char chain[65]; /* of its line */
 } fw_recipe_asrun_entry;

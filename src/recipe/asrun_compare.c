@@ -39,6 +39,17 @@ bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asru
     return false;
 }
 
+static fw_status odd_time_of(builder *b, const fw_recipe_asrun *run,
+                             const fw_recipe_asrun_entry *e) {
+    const char *no_time;
+    fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
+    FW_TRY(fw_recipe_asrun_odd_time(b->arena, run, e, &no_time));
+    if (!no_time) return FW_OK;
+    fw_text_add(&planned, no_time);
+    fw_schedule_put_duration(&is, e->end_s - e->start_s);
+    return add(b, e, "duration", &planned, &is);
+}
+
 static fw_status durations_of(builder *b, const fw_recipe_asrun *run,
                               const fw_recipe_asrun_entry *e) {
     int together;
@@ -90,22 +101,16 @@ static fw_status values_of(builder *b, const fw_recipe_asrun_entry *e) {
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_recipe_measured *m = &e->measured[i];
         const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
-        if (fw_recipe_asrun_accepted(a, m)) continue;
+        if (fw_recipe_asrun_accepted(m)) continue;
         fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
         bool word = isnan(m->number);
         if (word) {
             fw_text_add(&planned, "yes");
             fw_text_add(&is, m->value);
         } else {
-            fw_recipe_put_span(&planned, a->low, a->high);
+            fw_recipe_put_span(&planned, m->low, m->high);
             put_unit(&planned, a->unit);
-        }
-        for (int k = 0, n = 0; k < FW_RECIPE_SITES && !word; k++) {
-            if (isnan(m->site[k]) || fw_recipe_asrun_inside(a->low, a->high, m->site[k])) continue;
-            fw_text_add(&is, n++ ? ", " : "");
-            fw_recipe_put_value(&is, m->site[k]);
-            put_unit(&is, a->unit);
-            if (m->nsite > 1) fw_text_printf(&is, " (%s)", fw_recipe_site_name[k]);
+            fw_recipe_asrun_put_out(m, a->unit, &is);
         }
         FW_TRY(add(b, e, m->measure, &planned, &is));
     }
@@ -116,8 +121,7 @@ static fw_status amount_of(builder *b, const fw_recipe_asrun *run, const fw_reci
     fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
     fw_recipe_amount_in_time a;
     FW_TRY(fw_recipe_asrun_amount_by_law(b->arena, run, e, &a, &planned, &is));
-    if (a.fits ||
-        !fw_recipe_asrun_accepted(fw_recipe_asrun_accept(e->step, a.measured->measure), a.measured))
+    if (a.fits || !fw_recipe_asrun_accepted(a.measured))
         return FW_OK; /* what is not accepted is in the list already */
     return add(b, e, fw_arena_printf(b->arena, "%s for its time", a.measured->measure), &planned,
                &is);
@@ -128,14 +132,13 @@ static fw_status settings_of(builder *b, const fw_recipe_asrun_entry *e) {
         const fw_recipe_set *s = &e->set[i];
         if (fw_recipe_asrun_allowed(s)) continue;
         fw_text planned = fw_text_new(b->arena), is = fw_text_new(b->arena);
-        if (!s->q->unknown) {
-            fw_recipe_put_value(&planned, fw_quantity_in_unit(s->q));
+        if (!isnan(s->planned)) {
+            fw_recipe_put_value(&planned, s->planned);
             fw_text_add(&planned, "; ");
         }
         fw_recipe_put_span(&planned, s->low, s->high);
         put_unit(&planned, s->q->unit);
-        fw_recipe_put_value(&is, s->value);
-        put_unit(&is, s->q->unit);
+        fw_recipe_asrun_put_set(s, &is);
         FW_TRY(add(b, e, fw_arena_printf(b->arena, "setting %s", s->name), &planned, &is));
     }
     return FW_OK;
@@ -204,6 +207,7 @@ fw_status fw_recipe_asrun_deviations(fw_arena *arena, const fw_process_flow *flo
             const bool last = fw_recipe_asrun_is_last(run, e), added = !last && goes_on(run, i);
             b.repeated = !last && !added;
             if (!added) FW_TRY(durations_of(&b, run, e));
+            if (!added) FW_TRY(odd_time_of(&b, run, e));
             if (!added) FW_TRY(at_once_of(&b, run, e));
             if (!added) FW_TRY(bath_of_entry(&b, run, e));
             FW_TRY(values_of(&b, e));
@@ -248,32 +252,40 @@ static void put_overtaken(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
 static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e, bool overtaken,
                          const fw_recipe_measured *m) {
     const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
-    bool fine = fw_recipe_asrun_accepted(a, m), yes = isnan(m->number);
-    bool unit = !yes && strcmp(a->unit, "1") != 0;
+    bool fine = fw_recipe_asrun_accepted(m), yes = isnan(m->number), out_of = !fine && !overtaken;
     fw_text_printf(out, "      %s = ", m->measure);
     if (yes)
         fw_text_add(out, m->value);
     else
         fw_recipe_put_value(out, m->number);
-    fw_text_printf(out, "%s%s", unit ? " " : "", unit ? a->unit : "");
+    if (!yes) put_unit(out, a->unit);
     if (m->nsite > 1) fw_text_printf(out, ", mean of %d sites", m->nsite);
-    fw_text_printf(out, ": %s", overtaken ? "of before" : fine ? "accepted" : "OUT of ");
-    if (!fine && !overtaken && yes)
-        fw_text_add(out, "yes");
-    else if (!fine && !overtaken)
-        fw_recipe_put_span(out, a->low, a->high);
+    fw_text_printf(out, ": %s", overtaken ? "of before" : fine ? "accepted" : "");
+    if (out_of && m->nsite > 1) /* it is said of a site, and not of their mean */
+        fw_recipe_asrun_put_out(m, a->unit, out);
+    if (out_of) fw_text_printf(out, "%sOUT of %s", m->nsite > 1 ? " " : "", yes ? "yes" : "");
+    if (out_of && !yes) {
+        fw_recipe_put_span(out, m->low, m->high);
+        put_unit(out, a->unit);
+    }
     fw_text_add(out, "\n");
 }
 
+void fw_recipe_asrun_put_set_beside_planned(const fw_recipe_set *s, fw_text *out) {
+    fw_recipe_asrun_put_set(s, out);
+    if (isnan(s->planned)) return;
+    fw_text_add(out, ", planned ");
+    fw_recipe_put_value(out, s->planned);
+    put_unit(out, s->q->unit);
+}
+
 static void put_setting(fw_text *out, const fw_recipe_set *s) {
-    fw_text_printf(out, "      set %s = %s", s->name, s->text);
-    if (s->q && !s->q->unknown) {
-        fw_text_add(out, ", planned ");
-        fw_recipe_put_value(out, fw_quantity_in_unit(s->q));
-    }
+    fw_text_printf(out, "      set %s = ", s->name);
+    fw_recipe_asrun_put_set_beside_planned(s, out);
     if (!fw_recipe_asrun_allowed(s)) {
         fw_text_add(out, ": OUT of ");
         fw_recipe_put_span(out, s->low, s->high);
+        put_unit(out, s->q->unit);
     }
     fw_text_add(out, "\n");
 }
@@ -383,6 +395,9 @@ fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_as
                 t->repeated++;
         }
         t->logged += any;
+        for (int k = 0; k < run->nwafer; k++)
+            t->left_out += fw_recipe_asrun_left_out(run, s, run->wafer[k]);
+        if (run->nwafer == 0) t->left_out += fw_recipe_asrun_left_out(run, s, NULL);
         t->unplanned += any && !s->time.computable;
     }
     int n;
@@ -414,8 +429,9 @@ static void put_step(const fw_recipe_asrun *run, const fw_process_step *s,
         put_cell(out, cell[k], 15);
     const bool overtaken = e && fw_recipe_asrun_overtaken(run, e, e->wafer);
     fw_text_printf(out, "  %-9s %s",
-                   !e          ? "open"
-                   : overtaken ? "overtaken"
+                   !e && run->nwafer == 0 && fw_recipe_asrun_left_out(run, s, NULL) ? "LEFT OUT"
+                   : !e                                                             ? "open"
+                   : overtaken                                                      ? "overtaken"
                                : fw_recipe_asrun_in_time(run, e),
                    s->title);
     if (e && e->wafer) fw_text_printf(out, ", wafer %s", e->wafer);
@@ -424,13 +440,21 @@ static void put_step(const fw_recipe_asrun *run, const fw_process_step *s,
     if (e) details(run, e, out);
 }
 
-/* wafers of which a step that others have run is not in the log yet */
-static void put_expected(const fw_recipe_asrun *run, const fw_process_step *s, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nwafer; i++)
-        if (fw_recipe_asrun_expects(run, s, run->wafer[i]))
-            fw_text_printf(out, "%s%s", n++ ? ", " : "      not yet: wafer ", run->wafer[i]);
-    if (n) fw_text_add(out, "\n");
+/* wafers of which a step that others have run is not in the log yet, or that went on without it */
+static void put_expected(const fw_recipe_asrun *run, const fw_process_step *s, bool any,
+                         fw_text *out) {
+    for (int gone_on = 0, n = 0; gone_on < 2; gone_on++, n = 0) {
+        for (int i = 0; i < run->nwafer; i++) {
+            const bool left = fw_recipe_asrun_left_out(run, s, run->wafer[i]);
+            if (gone_on ? left : any && !left && fw_recipe_asrun_expects(run, s, run->wafer[i]))
+                fw_text_printf(out, "%s%s",
+                               n++       ? ", "
+                               : gone_on ? "      LEFT OUT, and gone on without it: wafer "
+                                         : "      not yet: wafer ",
+                               run->wafer[i]);
+        }
+        if (n) fw_text_add(out, "\n");
+    }
 }
 
 static void put_fates(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
@@ -474,6 +498,40 @@ static void put_read_again(const fw_recipe_asrun *run, fw_text *out) {
     if (n) fw_text_add(out, FW_RECIPE_KEEP_BOTH "\n");
 }
 
+/* by what lines of former plans are judged */
+static void put_former(const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    if (run->nreplan == 0) return;
+    fw_text_add(out, "lines before are judged by the times and the limits that stand in them, and "
+                     "what wafers waited by the last plan\n");
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++) {
+        bool any = false;
+        for (int i = 0; i < e->nmeasured; i++)
+            any = any || !isnan(e->measured[i].number);
+        for (int i = 0; i < e->nset; i++)
+            any = any || !isnan(e->set[i].value);
+        if (!e->former || e->limited || !any) continue;
+        fw_text_printf(out, "%s%d",
+                       n++ ? ", " : "without limits, and judged by the last plan's: line ",
+                       e->line);
+    }
+    if (n) fw_text_add(out, "\n");
+}
+
+void fw_recipe_asrun_put_clock(const fw_recipe_asrun *run, fw_text *out) {
+    if (run->zone || run->nentry == 0) return;
+    if (isnan(run->ahead_s)) {
+        fw_text_add(out, "times without a zone: taken to be of one clock that is never changed; "
+                         "where it was (in summer), what lies over the change is an hour off");
+        return;
+    }
+    const long minutes = lround(fabs(run->ahead_s) / 60.0);
+    fw_text_printf(out,
+                   "times without a zone: those that do not say how far they are ahead of UTC are "
+                   "taken to be %c%02ld:%02ld",
+                   run->ahead_s < 0.0 ? '-' : '+', minutes / 60, minutes % 60);
+}
+
 fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out) {
     fw_text_printf(out, "as run: flow %s%s%s, plan %.12s%s%s\n", flow->id, run->lot ? ", lot " : "",
@@ -484,10 +542,9 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
                        run->replan[i].plan, run->replan[i].start, run->replan[i].by,
                        run->replan[i].note ? ": " : "",
                        run->replan[i].note ? run->replan[i].note : "");
-    if (run->nreplan > 0)
-        fw_text_add(out, "lines before are judged by the times that stand in them, and values by "
-                         "the limits of the last plan\n");
-    fw_text_add(out, "\n");
+    put_former(run, out);
+    fw_recipe_asrun_put_clock(run, out);
+    fw_text_add(out, "\n\n");
     fw_text_printf(out, "%-5s %14s %14s %14s %14s %14s  %-9s %s\n", "step", "planned", "first look",
                    "stop", "at the machine", "actual", "judged", "title");
     for (int i = 0; i < flow->nstep; i++) {
@@ -500,14 +557,13 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
             any = true;
         }
         if (!any) put_step(run, s, NULL, out);
-        if (any) put_expected(run, s, out);
+        put_expected(run, s, any, out);
     }
     fw_recipe_asrun_total t;
     FW_TRY(fw_recipe_asrun_sum_up(flow, run, out->arena, &t));
-    fw_text_printf(out,
-                   "\n%d of %d steps run, %d repeated, %d outside of their limits; planned "
-                   "at the machine ",
-                   t.logged, flow->nstep, t.repeated, t.out);
+    fw_text_printf(out, "\n%d of %d steps run, %d repeated, %d outside of their limits", t.logged,
+                   flow->nstep, t.repeated, t.out);
+    fw_text_add(out, "; planned at the machine ");
     fw_schedule_put_duration(out, t.planned_s);
     fw_text_add(out, t.unplanned ? " for those that have a planned time, actual "
                                  : " for them, actual ");
@@ -521,62 +577,11 @@ fw_status fw_recipe_asrun_write_text(const fw_process_flow *flow, const fw_recip
         fw_text_printf(out, "; %d without a planned time took ", t.unplanned);
         fw_schedule_put_duration(out, t.unplanned_s);
     }
+    if (t.left_out) fw_text_printf(out, "; steps left out: %d", t.left_out);
     fw_text_add(out, "\n");
     put_fates(flow, run, out);
     FW_TRY(put_repeated(flow, run, out));
     fw_recipe_asrun_put_declared(run, out);
     put_read_again(run, out);
     return fw_text_end(out);
-}
-
-/* ---- what somebody wrote down as a deviation, of every entry, in the order of the log ---- */
-
-void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        fw_text_printf(out, "%s%s, %s%s, by %s: %s\n", n++ ? "" : "\ndeviations written down:\n",
-                       e->at->id, e->wafer ? "wafer " : "lot", e->wafer ? e->wafer : "", e->by,
-                       e->deviation);
-    }
-}
-
-void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        if (n++ == 0)
-            fw_text_add(out, "<h3>Written down</h3>\n<table><thead><tr><th>Step</th><th>Wafer</th>"
-                             "<th>When</th><th>What was done otherwise, and why</th><th>Who</th>"
-                             "</tr></thead><tbody>\n");
-        const char *cell[] = {e->at->id, e->wafer ? e->wafer : "lot", e->start, e->deviation,
-                              e->by};
-        fw_text_add(out, "<tr>");
-        for (size_t k = 0; k < sizeof cell / sizeof cell[0]; k++) {
-            fw_text_add(out, "<td>");
-            fw_text_escaped(out, cell[k]);
-            fw_text_add(out, "</td>");
-        }
-        fw_text_add(out, "</tr>\n");
-    }
-    if (n) fw_text_add(out, "</tbody></table>\n");
-}
-
-void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out) {
-    fw_json_list(out, "written_down");
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (!e->deviation) continue;
-        fw_json_object(out, NULL);
-        fw_json_text(out, "step", e->at->id);
-        if (e->wafer) fw_json_text(out, "wafer", e->wafer);
-        fw_json_text(out, "at", e->start);
-        fw_json_text(out, "by", e->by);
-        fw_json_text(out, "deviation", e->deviation);
-        fw_json_whole(out, "line", e->line);
-        fw_json_end(out);
-    }
-    fw_json_end(out);
 }

@@ -95,6 +95,7 @@ static fw_status read_measure(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     }
     FW_NEED(value = none_is_zero(r->arena, r->flow, a, value));
     fw_recipe_measured m = {.measure = a->measure, .value = value, .number = (double)NAN};
+    m.low = a->low, m.high = a->high;
     for (int i = 0; i < FW_RECIPE_SITES; i++)
         m.site[i] = (double)NAN;
     int answers = answers_of(value);
@@ -146,6 +147,7 @@ static fw_status setting_of(const fw_recipe_asrun_reader *r, const fw_process_st
             set->q = row[i].q;
             set->low = row[i].low;
             set->high = row[i].high;
+            if (!set->q->unknown) set->planned = fw_quantity_in_unit(set->q);
             return FW_OK;
         }
         if (names < MOST_NAMES) known[names++] = row[i].name;
@@ -159,6 +161,7 @@ static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
                               const char *name, const char *value) {
     name += strspn(name, " ");
     fw_recipe_set set = {.name = name, .text = value, .value = (double)NAN, .low = "", .high = ""};
+    set.planned = (double)NAN;
     for (int i = 0; i < e->nset; i++)
         if (strcmp(e->set[i].name, name) == 0)
             return fw_diag_error(r->diags, 282, r->place, "set %s is given twice", name);
@@ -394,6 +397,8 @@ static fw_status read_word(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entr
         if (strcmp(name, fw_recipe_fate_word(fate)) == 0) return read_fate(r, e, fate, value);
     if (strcmp(name, planned_word) == 0 && !fw_recipe_asrun_accept(e->step, name))
         return read_planned(r, e, value);
+    if (!r->fresh && fw_recipe_asrun_is_limits(name)) /* of its own plan they are the flow's */
+        return r->bound ? FW_OK : fw_recipe_asrun_take_limits(r->arena, e, name, value);
     if (strncmp(name, "set ", 4) == 0) return read_setting(r, e, name + 4, value);
     if (strcmp(name, "coupon") == 0) return read_coupon(r, e, value);
     if (r->bound || r->former) return read_measure(r, e, name, value);

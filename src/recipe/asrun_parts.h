@@ -26,6 +26,8 @@ fw_status fw_recipe_asrun_entry_read(const fw_recipe_asrun_reader *r, const char
 /* recipe_words.c: YYYY-MM-DDTHH:MM or with :SS behind, of the years 1 to 9999; behind that Z, +02:00, or " UTC+02:00" as of a
    plan, where it says how far that clock is ahead of UTC: *ahead_s, else NaN. time_s: of that clock */
 bool fw_recipe_asrun_time_read(const char *s, double *time_s, double *ahead_s);
+/* of which clock its times are, and what that leaves out, where no zone is stated; nothing where one is, or nothing is logged */
+void fw_recipe_asrun_put_clock(const fw_recipe_asrun *run, fw_text *out);
 /* asrun_values.c: start_s and end_s of an entry, from what is written; FW-D717, FW-D718 */
 fw_status fw_recipe_asrun_times(const fw_recipe_asrun_reader *r, fw_recipe_asrun_entry *e);
 /* the times that it is judged by, as a word of its line; nothing where it has none */
@@ -91,8 +93,19 @@ const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, con
 double fw_recipe_asrun_limit(const char *text, double absent);
 /* is it within these limits? An empty one is none */
 bool fw_recipe_asrun_inside(const char *low, const char *high, double value);
-bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
+bool fw_recipe_asrun_accepted(const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
+/* recipe_words.c: "7.9 um (left), 8 um (top)" of the sites that are not accepted */
+void fw_recipe_asrun_put_out(const fw_recipe_measured *m, const char *unit, fw_text *out);
+/* "80.3 mTorr", in the unit of the plan; behind that " (written 10.7 Pa)" where it was written in another one */
+void fw_recipe_asrun_put_set(const fw_recipe_set *s, fw_text *out);
+void fw_recipe_asrun_put_set_beside_planned(const fw_recipe_set *s, fw_text *out);
+/* What the values of an entry are judged by, as words of its line: limits of NAME=LOW HIGH PLANNED UNIT, "-" for none; and into an
+   entry that has a value of that name: a line is judged by the plan that held when it was written */
+bool fw_recipe_asrun_is_limits(const char *name);
+void fw_recipe_asrun_put_limits(const fw_recipe_asrun_entry *e, fw_text *out);
+fw_status fw_recipe_asrun_take_limits(fw_arena *arena, fw_recipe_asrun_entry *e, const char *name,
+                                      const char *text);
 
 /* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set */
 typedef struct fw_recipe_amount_in_time {
@@ -103,6 +116,12 @@ typedef struct fw_recipe_amount_in_time {
     double time_s, law_m, off; /* what the law makes of that time, and relatively how surely */
     const char *formula;
 } fw_recipe_amount_in_time;
+
+/* recipe_words.c: the amount that the step's law takes and that it adds or removes; NULL: its time is not that of an outcome (a bake,
+   a spin). What was measured of it, SI; NaN: nothing */
+const fw_process_argument *fw_recipe_asrun_amount_of_law(const fw_process_step *s);
+double fw_recipe_asrun_amount_measured(const fw_recipe_asrun_entry *e, const fw_quantity *planned,
+                                       const fw_recipe_measured **as);
 
 /* ---- runs of one step on one wafer, one after the other: asrun_runs.c ---- */
 
@@ -119,6 +138,10 @@ void fw_recipe_asrun_etched_at(const fw_recipe_asrun *run, const fw_recipe_asrun
 /* asrun_runs.c: does e say that it stands in the place of o? did any entry say so of o? Then o never was */
 bool fw_recipe_asrun_replaces(const fw_recipe_asrun_entry *e, const fw_recipe_asrun_entry *o);
 bool fw_recipe_asrun_taken_back(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *o);
+
+/* asrun_runs.c: did the wafer (NULL: of a log without) go on to later steps without that one? */
+bool fw_recipe_asrun_left_out(const fw_recipe_asrun *run, const fw_process_step *step,
+                              const char *wafer);
 /* asrun_compare.c: does a later run go on from this one? Then it is neither short nor repeated: both come to one */
 bool fw_recipe_asrun_is_gone_on(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 /* The run of an earlier step that was done again after e, of the wafer (NULL: of any), or of the step that e inspects where
@@ -151,6 +174,17 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
    with ..."; false: it is not */
 bool fw_recipe_asrun_put_left_in_it(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                     fw_text *out);
+/* recipe_words.c, FW-D703: where the plan has no time for a step that goes on for as long as the wafer is in it, did this one take much less or more
+   than other wafers of the lot, or more than a working day? *planned: "no planned time (missing ...); other wafers took 15 min" */
+fw_status fw_recipe_asrun_odd_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, const char **planned);
+/* recipe_words.c: what a liquid takes along in so long, by the rates that the pack states: ", up to 2.1 um of aluminium where it is open" */
+void fw_recipe_asrun_put_taken(const fw_recipe_asrun_entry *e, double time_s, fw_text *out);
+/* recipe_words.c: "temperature = 32 Cel" of whatever the entry says that was set otherwise */
+void fw_recipe_asrun_put_settings(fw_text *out, const fw_recipe_asrun_entry *e);
+/* as members "overtaken_by" and "as_set", where it was */
+void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 fw_json *out);
 /* FW-D708: has the filling that the entry names served more wafers by then, or for longer, than it does? *is NULL: no, or it is
    not known; else "wafer 3 of one filling", and "a filling of SC1 serves 2 (ID)" */
 fw_status fw_recipe_asrun_bath_life(fw_arena *arena, const fw_recipe_asrun *run,
@@ -161,9 +195,6 @@ fw_status fw_recipe_asrun_bath_life(fw_arena *arena, const fw_recipe_asrun *run,
 fw_status fw_recipe_asrun_ask_contradictions(const fw_recipe_asrun *run,
                                              const fw_recipe_asrun_entry *e, fw_place place,
                                              fw_diags *diags);
-/* as members "overtaken_by" and "as_set", where it was */
-void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                                 fw_json *out);
 /* Runs that add up are to stop when one run is, with handling once more for each; *surely NULL, or where handling may be in
    every run: so much is too long in any case. One run: its loads together */
 double fw_recipe_asrun_stop_by(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
@@ -219,6 +250,7 @@ fw_status fw_recipe_asrun_ask_waits(const fw_recipe_asrun *run, const fw_recipe_
 
 typedef struct fw_recipe_asrun_total {
     int logged, out, repeated;
+    int left_out; /* steps that a wafer went on without, of each of them */
     /* of the steps in the log that have a planned time; what several wafers share counts once. earlier_s: what of actual_s
        went into runs before the last one of a wafer */
     double planned_s, actual_s, earlier_s;
@@ -228,10 +260,11 @@ typedef struct fw_recipe_asrun_total {
 fw_status fw_recipe_asrun_sum_up(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                  fw_arena *arena, fw_recipe_asrun_total *total);
 
-/* what somebody wrote down as a deviation, of every entry: asrun_compare.c */
+/* what became of wafers as a table, and what somebody wrote down as a deviation, of every entry: html_wafers.c, asrun_compare.c */
+void fw_recipe_asrun_fates_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                fw_text *out);
 void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out);
 void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out);
-void fw_recipe_asrun_declared_json(const fw_recipe_asrun *run, fw_json *out);
 
 /* ---- what became of wafers: asrun_runs.c ---- */
 

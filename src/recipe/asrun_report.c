@@ -37,8 +37,10 @@ static void heading(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
         fw_text_add(out, i ? ", " : ", wafers ");
         fw_text_escaped(out, run->wafer[i]);
     }
-    fw_text_printf(out, ". Plan %.12s, log up to %.12s, %d entries.</p>\n", run->plan, run->chain,
+    fw_text_printf(out, ". Plan %.12s, log up to %.12s, %d entries.<br>", run->plan, run->chain,
                    run->nentry);
+    fw_recipe_asrun_put_clock(run, out);
+    fw_text_add(out, "</p>\n");
 }
 
 /* ---- deviations ---- */
@@ -49,45 +51,18 @@ static void cell(fw_text *out, const char *text) {
     fw_text_add(out, "</td>");
 }
 
-/* what became of wafers, and how many there still are */
-static void fates(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
-    int n = 0;
-    for (int i = 0; i < run->nentry; i++) {
-        const fw_recipe_asrun_entry *e = &run->entry[i];
-        if (e->fate == FW_FATE_RUN) continue;
-        if (n++ == 0)
-            fw_text_printf(
-                out,
-                "<h2>Wafers</h2>\n<p>%d in, %d out, %d held, %d scrapped.</p>\n<table><thead>"
-                "<tr><th>Wafer</th><th>What became of it</th><th>At</th><th>When</th><th>Why</th>"
-                "<th>Who; note</th></tr></thead><tbody>\n",
-                run->nwafer, fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_RUN),
-                fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_HELD),
-                fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_SCRAPPED));
-        fw_text_add(out, "<tr>");
-        cell(out, e->wafer);
-        cell(out, fw_recipe_fate_word(e->fate));
-        fw_text_printf(out, "<td>%s ", e->at->id);
-        fw_text_escaped(out, e->at->title);
-        fw_text_add(out, "</td>");
-        cell(out, e->start);
-        cell(out, e->why);
-        fw_text_add(out, "<td>");
-        fw_text_escaped(out, e->by);
-        if (e->note) fw_text_add(out, "; ");
-        fw_text_escaped(out, e->note ? e->note : "");
-        fw_text_add(out, "</td></tr>\n");
-    }
-    if (n) fw_text_add(out, "</tbody></table>\n");
-}
-
 static fw_status deviations(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_text *out) {
     fw_recipe_deviation *list;
     int n;
     FW_TRY(fw_recipe_asrun_deviations(out->arena, flow, run, &list, &n));
     fw_text_add(out, "<h2>Deviations</h2>\n");
+    for (const fw_process_step *s = flow->step; s < flow->step + flow->nstep; s++)
+        for (int i = 0; i < run->nwafer; i++)
+            if (fw_recipe_asrun_left_out(run, s, run->wafer[i]))
+                fw_text_printf(out, "<p class=\"bad\">%s of wafer %s: left out</p>\n", s->id,
+                               run->wafer[i]);
     if (n == 0) {
-        fw_text_add(out, "<p>None: everything that was logged is inside of its limits.</p>\n");
+        fw_text_add(out, "<p>Everything that was logged is inside of its limits.</p>\n");
         return FW_OK;
     }
     fw_text_add(
@@ -145,7 +120,7 @@ static fw_status collect(fw_arena *arena, const fw_recipe_asrun *run, const fw_p
                                         .mean = m->number,
                                         .range = range_of(m),
                                         .n = m->nsite,
-                                        .outside = !fw_recipe_asrun_accepted(a, m)};
+                                        .outside = !fw_recipe_asrun_accepted(m)};
         }
     }
     return FW_OK;
@@ -230,7 +205,7 @@ static void put_values(const fw_recipe_asrun_entry *e, fw_text *out) {
     const char *between = "";
     for (int i = 0; i < e->nmeasured; i++) {
         const fw_recipe_measured *m = &e->measured[i];
-        bool fine = fw_recipe_asrun_accepted(fw_recipe_asrun_accept(e->step, m->measure), m);
+        bool fine = fw_recipe_asrun_accepted(m);
         fw_text_printf(out, "%s%s", between, fine ? "" : "<span class=\"bad\">");
         fw_text_escaped(out, m->measure);
         fw_text_add(out, " = ");
@@ -244,12 +219,10 @@ static void put_values(const fw_recipe_asrun_entry *e, fw_text *out) {
         fw_text_printf(out, "%s%sset ", between, fine ? "" : "<span class=\"bad\">");
         fw_text_escaped(out, s->name);
         fw_text_add(out, " = ");
-        fw_text_escaped(out, s->text);
-        if (s->q && !s->q->unknown) {
-            fw_text_add(out, " (planned ");
-            fw_recipe_put_value(out, fw_quantity_in_unit(s->q));
-            fw_text_add(out, ")");
-        }
+        fw_text set = fw_text_new(out->arena);
+        fw_recipe_asrun_put_set_beside_planned(s, &set);
+        out->failed = out->failed || fw_text_end(&set) != FW_OK;
+        fw_text_escaped(out, set.data ? set.data : "");
         fw_text_add(out, fine ? "" : "</span>");
         between = "<br>";
     }
@@ -299,7 +272,7 @@ static void entries(const fw_process_flow *flow, const fw_recipe_asrun *run, fw_
 fw_status fw_recipe_asrun_write_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
                                      fw_text *out) {
     heading(flow, run, out);
-    fates(flow, run, out);
+    fw_recipe_asrun_fates_html(flow, run, out);
     FW_TRY(deviations(flow, run, out));
     fw_recipe_asrun_declared_html(run, out);
     FW_TRY(charts(flow, run, out));
@@ -346,7 +319,7 @@ static void measured_json(const fw_recipe_asrun_entry *e, bool overtaken, fw_jso
         if (overtaken)
             fw_json_null(out, "accepted");
         else
-            fw_json_truth(out, "accepted", fw_recipe_asrun_accepted(a, m));
+            fw_json_truth(out, "accepted", fw_recipe_asrun_accepted(m));
         sites_json(m, out);
         fw_json_end(out);
     }
@@ -364,8 +337,7 @@ static void settings_json(const fw_recipe_asrun_entry *e, fw_json *out) {
         else
             put_number(out, "value", s->value);
         /* a log that was read without its plan may set what no step has */
-        const bool planned = s->q && !s->q->unknown;
-        put_number(out, "planned", planned ? fw_quantity_in_unit(s->q) : (double)NAN);
+        put_number(out, "planned", s->planned);
         put_text(out, "unit", s->q ? s->q->unit : NULL);
         fw_json_truth(out, "accepted", fw_recipe_asrun_allowed(s));
         fw_json_end(out);
@@ -483,6 +455,23 @@ static void read_again_json(const fw_recipe_asrun *run, fw_json *out) {
     fw_json_end(out);
 }
 
+static void declared_json(const fw_recipe_asrun *run, fw_json *out) {
+    fw_json_list(out, "written_down");
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        fw_json_object(out, NULL);
+        fw_json_text(out, "step", e->at->id);
+        if (e->wafer) fw_json_text(out, "wafer", e->wafer);
+        fw_json_text(out, "at", e->start);
+        fw_json_text(out, "by", e->by);
+        fw_json_text(out, "deviation", e->deviation);
+        fw_json_whole(out, "line", e->line);
+        fw_json_end(out);
+    }
+    fw_json_end(out);
+}
+
 static void fates_json(const fw_recipe_asrun *run, fw_json *out) {
     fw_json_list(out, "fates");
     for (int i = 0; i < run->nentry; i++) {
@@ -511,6 +500,11 @@ static void wafers_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
     fw_json_list(out, "expected");
     for (int i = 0; i < run->nwafer; i++)
         if (fw_recipe_asrun_expects(run, &flow->step[step], run->wafer[i]))
+            fw_json_text(out, NULL, run->wafer[i]);
+    fw_json_end(out);
+    fw_json_list(out, "left_out");
+    for (int i = 0; i < run->nwafer; i++)
+        if (fw_recipe_asrun_left_out(run, &flow->step[step], run->wafer[i]))
             fw_json_text(out, NULL, run->wafer[i]);
     fw_json_end(out);
 }
@@ -586,6 +580,7 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
     fw_json_whole(out, "logged", t.logged);
     fw_json_whole(out, "repeated", t.repeated);
     fw_json_whole(out, "outside", t.out);
+    fw_json_whole(out, "left_out", t.left_out);
     put_number(out, "at_machine_s", t.planned_s);
     put_number(out, "actual_s", t.actual_s);
     put_number(out, "earlier_runs_s", t.earlier_s);
@@ -593,7 +588,7 @@ fw_status fw_recipe_asrun_write_json(const fw_process_flow *flow, const fw_recip
     put_number(out, "unplanned_s", t.unplanned_s);
     FW_TRY(deviations_json(flow, run, out, text->arena));
     read_again_json(run, out);
-    fw_recipe_asrun_declared_json(run, out);
+    declared_json(run, out);
     fates_json(run, out);
     fw_json_end(out);
     return fw_json_finish(out, "\n");

@@ -413,6 +413,18 @@ static const fw_process_step *step_before(const fw_recipe_asrun *run,
     return before;
 }
 
+bool fw_recipe_asrun_left_out(const fw_recipe_asrun *run, const fw_process_step *step,
+                              const char *wafer) {
+    bool later = false;
+    if (run->nentry == 0 || is_beside(run->flow, step)) return false;
+    for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++) {
+        if (!e->step || !is_of(e, wafer)) continue;
+        if (e->step == step) return false;
+        later = later || (e->step > step && !is_beside(run->flow, e->step));
+    }
+    return later;
+}
+
 /* of several loads in one entry, or in entries that share their time, one wafer is through while another is not */
 static bool in_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     int together;

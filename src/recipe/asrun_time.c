@@ -7,20 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-/* "temperature = 32 Cel" of whatever the entry says that was set otherwise */
-static void put_settings(fw_text *out, const fw_recipe_asrun_entry *e) {
-    const char *between = "";
-    for (int i = 0; i < e->nset; i++) {
-        const fw_recipe_set *s = &e->set[i];
-        if (!s->q || isnan(s->value) || (!s->q->unknown && s->value == fw_quantity_in_unit(s->q)))
-            continue;
-        fw_text_printf(out, "%s%s = ", between, s->name);
-        fw_recipe_put_value(out, s->value);
-        if (strcmp(s->q->unit, "1") != 0) fw_text_printf(out, " %s", s->q->unit);
-        between = ", ";
-    }
-}
-
 /* what is at the bench or the machine beside the step's own time, in every run of it */
 static double handling_s(const fw_process_step *s) {
     return s->finish_s + s->booked_stop_s - s->booked_stop_own_s;
@@ -29,35 +15,6 @@ static double handling_s(const fw_process_step *s) {
 /* ---- does what was measured go with the time that it took? ----
    Where the step's own law has the time of a thickness that the step adds or takes away, and what is accepted holds that
    thickness from both sides, time and reading say one thing twice. */
-
-/* the amount that the law takes; NULL: its time is not that of an outcome (a bake, a spin) */
-static const fw_process_argument *amount_of_law(const fw_process_step *s) {
-    for (int i = 0; i < s->nargument; i++) {
-        const fw_process_argument *a = &s->argument[i];
-        if (strcmp(a->name, "thickness") != 0 && strcmp(a->name, "depth") != 0) continue;
-        for (int k = 0; k < s->nchange; k++)
-            if (s->change[k].thickness == a->q) return a;
-    }
-    return NULL;
-}
-
-/* what was measured of it, SI; NaN: nothing */
-static double amount_measured(const fw_recipe_asrun_entry *e, const fw_quantity *planned,
-                              const fw_recipe_measured **as) {
-    for (int i = 0; i < e->nmeasured; i++) {
-        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, e->measured[i].measure);
-        fw_quantity_unit unit;
-        if (!a || isnan(e->measured[i].number) || !a->low[0] || !a->high[0] ||
-            !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
-            !fw_quantity_dimension_equal(unit.dimension, planned->dimension) ||
-            !fw_recipe_asrun_inside(a->low, a->high,
-                                    fw_quantity_unit_from_si(&unit, planned->value)))
-            continue;
-        *as = &e->measured[i];
-        return fw_quantity_unit_to_si(&unit, e->measured[i].number);
-    }
-    return (double)NAN;
-}
 
 typedef struct timing { /* the law of a step as it was set, for another amount */
     fw_arena *arena;
@@ -133,9 +90,10 @@ static fw_status amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
     timing t;
     fw_process_law_answer answer;
     *out = (fw_recipe_amount_in_time){.fits = true};
-    const fw_process_argument *amount = s && e->fate == FW_FATE_RUN ? amount_of_law(s) : NULL;
+    const fw_process_argument *amount =
+        s && e->fate == FW_FATE_RUN ? fw_recipe_asrun_amount_of_law(s) : NULL;
     if (!amount || amount->q->unknown || !e->as_set->time.computable) return FW_OK;
-    const double measured = amount_measured(e, amount->q, &out->measured);
+    const double measured = fw_recipe_asrun_amount_measured(e, amount->q, &out->measured);
     if (!(measured > 0) || !as_run(arena, e, amount, &t)) return FW_OK;
     FW_TRY(time_for(&t, measured, &answer));
     if (!answer.computable || !(answer.value > 0)) return FW_OK;
@@ -194,8 +152,7 @@ static const char *by_the_window(const fw_recipe_asrun *run, const fw_recipe_asr
 }
 
 /* Where what a step does goes on for as long as the wafer is in it (a bath, a current), handling may explain only so much: the
-   stop time with its pauses, its finishes, and a minute for each finish that has no time of its own. *by_s: to the end of
-   these. Test: test_asrun.c, left_in_the_bath */
+   stop time with its pauses, its finishes, a minute for each without a time; or what the plan books. Test: left_in_the_bath */
 static bool is_left_in_it(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                           double *by_s) {
     static const double untimed_s = 60.0;
@@ -207,6 +164,8 @@ static bool is_left_in_it(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
         untimed += e->step->finish[i].time == NULL;
     *by_s = loads * (s->booked_stop_own_s + untimed * untimed_s) +
             (runs.n - 1) * (s->finish_s + untimed * untimed_s);
+    if (runs.n == 1)
+        *by_s = fmax(*by_s, loads * s->booked_s); /* nobody asks what went as scheduled */
     return s->time.computable && fw_process_step_runs_on(e->step) &&
            took_s(e, &runs) - runs.n * fw_recipe_asrun_clock_s(e) > *by_s;
 }
@@ -279,7 +238,7 @@ void fw_recipe_asrun_put_took(fw_text *out, const fw_recipe_asrun_entry *e,
 static void put_as_set(fw_text *out, const fw_recipe_asrun_entry *e, double planned_s) {
     fw_text set = fw_text_new(out->arena);
     if (e->as_set == e->step) return;
-    put_settings(&set, e);
+    fw_recipe_asrun_put_settings(&set, e);
     out->failed = out->failed || fw_text_end(&set) != FW_OK;
     fw_text_printf(out, ", at what was set (%s%s", set.data ? set.data : "",
                    set.length > 0 ? "; planned " : "planned ");
@@ -288,6 +247,36 @@ static void put_as_set(fw_text *out, const fw_recipe_asrun_entry *e, double plan
     else
         fw_text_add(out, "was no time");
     fw_text_add(out, ")");
+}
+
+/* what the law makes of the time, less what may be handling where it was long: "; by its law that makes 49 um (planned 1 um), and as
+   much sideways from every edge"; nothing where it has no amount */
+static fw_status put_amount(fw_arena *arena, const fw_recipe_asrun *run,
+                            const fw_recipe_asrun_entry *e, bool brief, fw_text *out) {
+    const fw_process_argument *a = fw_recipe_asrun_amount_of_law(e->step);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    int together;
+    const double loads = runs.n > 1 ? 1.0 : fw_recipe_asrun_loads(run, e, &together),
+                 handling = brief ? 0.0 : e->as_set->booked_stop_s - e->as_set->time.stop_s,
+                 time = took_s(e, &runs) / loads - handling;
+    bool sideways = false;
+    char value[2][32];
+    timing t;
+    fw_quantity_unit unit;
+    if (!a || a->q->unknown || !(a->q->value > 0.0) || !(time > 0.0) || !as_run(arena, e, a, &t) ||
+        !fw_quantity_unit_parse(a->q->unit, strlen(a->q->unit), &unit, NULL, NULL))
+        return FW_OK;
+    double amount = a->q->value;
+    FW_TRY(amount_in(&t, time, &amount));
+    for (int k = 0; k < e->step->nchange; k++)
+        sideways =
+            sideways || (e->step->change[k].isotropic && e->step->change[k].thickness == a->q);
+    fw_text_printf(
+        out, "; by its law that makes %s%s %s (planned %s %s)%s", brief ? "at most " : "at least ",
+        fw_number_text(value[0], sizeof value[0], fw_quantity_unit_from_si(&unit, amount), 3),
+        a->q->unit, fw_number_text(value[1], sizeof value[1], fw_quantity_in_unit(a->q), 3),
+        a->q->unit, sideways ? ", and as much sideways from every edge" : "");
+    return FW_OK;
 }
 
 /* "it took 45 min, and is to stop by 26 min"; NULL: in its window, or there is no plan */
@@ -306,6 +295,8 @@ static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
     fw_text_add(&text, brief ? ", before the first look at " : ", and is to stop by ");
     fw_schedule_put_duration(&text, brief ? e->as_set->time.first_look_s : surely);
     put_as_set(&text, e, brief ? e->step->time.first_look_s : e->step->booked_stop_s);
+    FW_TRY(put_amount(arena, run, e, brief, &text));
+    if (!brief) fw_recipe_asrun_put_taken(e, runs.took_s, &text);
     FW_TRY(fw_text_end(&text));
     *how = text.data;
     return FW_OK;
@@ -520,12 +511,21 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     FW_TRY(ask_bath(arena, run, e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_contradictions(run, e, place, diags));
     FW_TRY(fw_recipe_asrun_ask_overtaken(run, e, place, diags));
+    FW_TRY(fw_recipe_asrun_odd_time(arena, run, e, &how));
+    if (how)
+        fw_diag_warning(diags, 703, place,
+                        "step %s%s%s took otherwise than others: %s. What that leaves nobody has "
+                        "computed: look at it before the next step%s",
+                        e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", how,
+                        e->deviation ? "" : ", and write down why (deviation=...)");
     FW_TRY(out_of_time(arena, run, e, &how));
     if (!how) return FW_OK;
-    fw_diag_warning(diags, 283, place,
-                    "step %s went otherwise than planned: %s; look at what that leaves before the "
-                    "next step%s",
-                    e->at->id, how, e->deviation ? "" : ", and write down why (deviation=...)");
+    fw_diag_warning(
+        diags, 283, place,
+        "step %s%s%s went otherwise than planned: %s; look at what that leaves before the "
+        "next step%s",
+        e->at->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", how,
+        e->deviation ? "" : ", and write down why (deviation=...)");
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 

@@ -12,9 +12,6 @@
 
 /* ---- numbers at the sites of a wafer with their unit ---- */
 
-const char *const fw_recipe_site_name[FW_RECIPE_SITES] = {"centre", "top", "left", "bottom",
-                                                          "right"};
-
 static int site_of(const char *name, size_t n) {
     if (n == 6 && strncmp(name, "center", 6) == 0) return 0;
     for (int i = 0; i < FW_RECIPE_SITES; i++)
@@ -576,20 +573,22 @@ fw_status fw_recipe_asrun_ask_values(const fw_recipe_asrun_entry *e, fw_place pl
     for (const fw_recipe_measured *m = e->measured; m < e->measured + e->nmeasured; m++) {
         const fw_process_accept *a = fw_recipe_asrun_accept(e->step, m->measure);
         fw_text text = fw_text_new(diags->arena);
-        if (fw_recipe_asrun_accepted(a, m)) continue;
+        if (fw_recipe_asrun_accepted(m)) continue;
         fw_text_printf(&text, "%s, accepted is ", m->value);
         if (isnan(m->number))
             fw_text_add(&text, "yes");
         else
-            fw_recipe_put_span(&text, a->low, a->high);
+            fw_recipe_put_span(&text, m->low, m->high);
         if (!isnan(m->number) && strcmp(a->unit, "1") != 0) fw_text_printf(&text, " %s", a->unit);
         FW_TRY(ask_value(e, m->measure, &text, place, diags));
     }
     for (const fw_recipe_set *s = e->set; s < e->set + e->nset; s++) {
         fw_text text = fw_text_new(diags->arena);
         if (fw_recipe_asrun_allowed(s)) continue;
-        fw_text_printf(&text, "%s, the step allows ", s->text);
+        fw_recipe_asrun_put_set(s, &text);
+        fw_text_add(&text, ", the step allows ");
         fw_recipe_put_span(&text, s->low, s->high);
+        if (strcmp(s->q->unit, "1") != 0) fw_text_printf(&text, " %s", s->q->unit);
         FW_TRY(ask_value(e, s->name, &text, place, diags));
     }
     return FW_OK;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What people write on the run sheet: a column for every wafer and a cell for every site, what becomes of the lot, what
    deviated; and the hazards, each once, by the bench where they are met. */
+#include "recipe/asrun_parts.h"
 #include "recipe/recipe.h"
 #include "base/constants.h"
 #include <math.h>
@@ -514,4 +515,80 @@ void fw_recipe_wafer_rows(const fw_process_flow *flow, const fw_recipe_header *h
     wafer_rows(flow, h, out);
     crystal_row(h, out);
     test_die(flow, h, out);
+}
+
+/* ---- what became of the wafers of a log, and what was written down ---- */
+
+static void put_cell_text(fw_text *out, const char *text) {
+    fw_text_add(out, "<td>");
+    fw_text_escaped(out, text ? text : "");
+    fw_text_add(out, "</td>");
+}
+
+/* what became of wafers, and how many there still are */
+void fw_recipe_asrun_fates_html(const fw_process_flow *flow, const fw_recipe_asrun *run,
+                                fw_text *out) {
+    int n = 0;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (e->fate == FW_FATE_RUN) continue;
+        if (n++ == 0)
+            fw_text_printf(
+                out,
+                "<h2>Wafers</h2>\n<p>%d in, %d out, %d held, %d scrapped.</p>\n<table><thead>"
+                "<tr><th>Wafer</th><th>What became of it</th><th>At</th><th>When</th><th>Why</th>"
+                "<th>Who; note</th></tr></thead><tbody>\n",
+                run->nwafer, fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_RUN),
+                fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_HELD),
+                fw_recipe_asrun_count(flow, run, flow->nstep, FW_FATE_SCRAPPED));
+        fw_text_add(out, "<tr>");
+        put_cell_text(out, e->wafer);
+        put_cell_text(out, fw_recipe_fate_word(e->fate));
+        fw_text_printf(out, "<td>%s ", e->at->id);
+        fw_text_escaped(out, e->at->title);
+        fw_text_add(out, "</td>");
+        put_cell_text(out, e->start);
+        put_cell_text(out, e->why);
+        fw_text_add(out, "<td>");
+        fw_text_escaped(out, e->by);
+        if (e->note) fw_text_add(out, "; ");
+        fw_text_escaped(out, e->note ? e->note : "");
+        fw_text_add(out, "</td></tr>\n");
+    }
+    if (n) fw_text_add(out, "</tbody></table>\n");
+}
+
+void fw_recipe_asrun_declared_html(const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        if (n++ == 0)
+            fw_text_add(out, "<h3>Written down</h3>\n<table><thead><tr><th>Step</th><th>Wafer</th>"
+                             "<th>When</th><th>What was done otherwise, and why</th><th>Who</th>"
+                             "</tr></thead><tbody>\n");
+        const char *cell[] = {e->at->id, e->wafer ? e->wafer : "lot", e->start, e->deviation,
+                              e->by};
+        fw_text_add(out, "<tr>");
+        for (size_t k = 0; k < sizeof cell / sizeof cell[0]; k++) {
+            fw_text_add(out, "<td>");
+            fw_text_escaped(out, cell[k]);
+            fw_text_add(out, "</td>");
+        }
+        fw_text_add(out, "</tr>\n");
+    }
+    if (n) fw_text_add(out, "</tbody></table>\n");
+}
+
+/* ---- what somebody wrote down as a deviation, of every entry, in the order of the log ---- */
+
+void fw_recipe_asrun_put_declared(const fw_recipe_asrun *run, fw_text *out) {
+    int n = 0;
+    for (int i = 0; i < run->nentry; i++) {
+        const fw_recipe_asrun_entry *e = &run->entry[i];
+        if (!e->deviation) continue;
+        fw_text_printf(out, "%s%s, %s%s, by %s: %s\n", n++ ? "" : "\ndeviations written down:\n",
+                       e->at->id, e->wafer ? "wafer " : "lot", e->wafer ? e->wafer : "", e->by,
+                       e->deviation);
+    }
 }

@@ -331,129 +331,6 @@ void fw_recipe_put_schedule_summary(fw_text *out, const fw_schedule *s) {
     }
 }
 
-/* what the wafer is like, where that is what limits the pause after a task */
-static void put_why(fw_text *out, const fw_schedule_shop *shop, int task, double pause_s) {
-    for (int k = 0; k < shop->nhold; k++) {
-        const fw_schedule_hold *h = &shop->hold[k];
-        if (!h->why || h->from > task || h->to <= task || h->max_s > pause_s * (1 + 1e-9) + 1.0)
-            continue;
-        fw_text_add(out, ", ");
-        fw_text_escaped(out, h->why);
-        return;
-    }
-}
-
-/* "safe stopping points" of the flow, with the longest pause at each; escaped */
-static void put_stops(fw_text *out, const fw_schedule *s) {
-    const fw_schedule_shop *shop = s->shop;
-    const double night_s = 86400.0 - (shop->calendar.close_s - shop->calendar.open_s);
-    int started = 0;
-    if (!s->pause_s) return;
-    for (int kind = 0; kind < 3; kind++) {
-        static const char *const head[] = {"for any time after ",
-                                           "over night, for so long at most: ", "never between "};
-        int n = 0;
-        for (int i = 0; i + 1 < shop->ntask; i++) {
-            double pause = s->pause_s[i];
-            bool company = shop->task[i].by_day && shop->task[i + 1].by_day;
-            int is = company ? 2 : pause >= 1e15 ? 0 : pause >= fmax(night_s, 8.0 * 3600.0) ? 1 : 2;
-            if (is != kind) continue;
-            fw_text_add(out, n++ ? ", " : started++ ? "; " : "");
-            fw_text_add(out, n > 1 ? "" : head[kind]);
-            fw_text_escaped(out, shop->task[i].id);
-            if (kind == 2) {
-                fw_text_add(out, " and ");
-                fw_text_escaped(out, shop->task[i + 1].id);
-            }
-            if (kind == 0) continue;
-            if (company) {
-                fw_text_add(out, " (not alone, the same day)");
-                continue;
-            }
-            fw_text_add(out, " (");
-            fw_schedule_put_duration(out, fmax(0.0, pause));
-            put_why(out, shop, i, pause);
-            fw_text_add(out, ")");
-        }
-    }
-}
-
-/* a line for the one wafer: every step and when it begins */
-static void one_wafer(fw_text *out, const fw_schedule *s) {
-    double day = -1.0;
-    fw_text_add(out, "<p class=\"small\"><b>Begins:</b> ");
-    for (int k = 0; k < s->nrun; k++) {
-        const fw_schedule_run *r = &s->run[k];
-        const double clock_s = fw_schedule_calendar_clock(&s->shop->calendar, r->start_s);
-        long minutes = lround(clock_s / 60.0);
-        fw_text_add(out, k ? ", " : "");
-        fw_text_escaped(out, s->shop->task[r->task].id);
-        fw_text_add(out, s->shop->task[r->task].unknown ? " (time unknown) " : " ");
-        if (floor(clock_s / 86400.0) > day)
-            fw_recipe_put_moment(out, &s->shop->calendar, r->start_s);
-        else
-            fw_text_printf(out, "%02ld:%02ld", minutes / 60 % 24, minutes % 60);
-        day = floor(clock_s / 86400.0);
-    }
-    fw_text_add(out, ".</p>\n");
-}
-
-/* with its day where that is another one than that of the moment before; *day is kept */
-static void put_after(fw_text *out, const fw_schedule_calendar *c, double seconds, long *day) {
-    const long minutes = lround(fw_schedule_calendar_clock(c, seconds) / 60.0);
-    if (minutes / 1440 != *day)
-        fw_recipe_put_moment(out, c, seconds);
-    else
-        fw_text_printf(out, "%02ld:%02ld", minutes / 60 % 24, minutes % 60);
-    *day = minutes / 1440;
-}
-
-static void all_wafers(fw_text *out, const fw_schedule *s) {
-    const bool several = s->shop->operators > 1;
-    fw_text_printf(out,
-                   "<table class=\"small\"><thead><tr><th>Step</th><th>Wafers: start to end"
-                   "%s</th></tr></thead><tbody>\n",
-                   several ? " (operator)" : "");
-    for (int i = 0; i < s->shop->ntask; i++) {
-        int n = 0;
-        long day = -1;
-        fw_text_add(out, "<tr><td class=\"id\">");
-        fw_text_escaped(out, s->shop->task[i].id);
-        fw_text_add(out, s->shop->task[i].unknown ? " (time unknown)</td><td>" : "</td><td>");
-        for (int k = 0; k < s->nrun; k++) {
-            const fw_schedule_run *r = &s->run[k];
-            if (r->task != i) continue;
-            fw_text_add(out, n++ ? "; " : "");
-            fw_recipe_put_wafers(out, r);
-            fw_text_add(out, ": ");
-            put_after(out, &s->shop->calendar, r->start_s, &day);
-            fw_text_add(out, " to ");
-            put_after(out, &s->shop->calendar, r->end_s, &day);
-            if (several && r->operator_ >= 0) fw_text_printf(out, " (%d)", r->operator_ + 1);
-        }
-        fw_text_add(out, "</td></tr>\n");
-    }
-    fw_text_add(out, "</tbody></table>\n");
-}
-
-void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
-    const fw_schedule *s = header->schedule;
-    if (!s) return;
-    fw_text_add(out, "<h3>Schedule</h3>\n<p class=\"small\">");
-    fw_recipe_put_schedule_summary(out, s);
-    fw_text_add(out, "</p>\n");
-    if (!s->pause_s) return;
-    fw_text_add(out, "<p class=\"small\"><b>Safe stopping points</b>, where every wafer is dry and "
-                     "safe and no hold window of the process file is running: ");
-    put_stops(out, s);
-    fw_text_add(out, " (longest pause that the windows and the wafers allow).</p>\n");
-    if (!s->feasible) return;
-    if (s->shop->wafers == 1)
-        one_wafer(out, s);
-    else
-        all_wafers(out, s);
-}
-
 /* ---- times as they are written in a log ---- */
 
 static bool digits(const char *s, int n, int *value) {
@@ -495,6 +372,9 @@ bool fw_recipe_asrun_time_read(const char *s, double *time_s, double *ahead_s) {
 
 /* ---- is it within its limits? ---- */
 
+const char *const fw_recipe_site_name[FW_RECIPE_SITES] = {"centre", "top", "left", "bottom",
+                                                          "right"};
+
 double fw_recipe_asrun_limit(const char *text, double absent) {
     double value;
     return text[0] && fw_number_parse(text, strlen(text), &value) ? value : absent;
@@ -515,24 +395,203 @@ const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, con
     return NULL;
 }
 
-bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m) {
+bool fw_recipe_asrun_accepted(const fw_recipe_measured *m) {
     if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
     for (int i = 0; i < FW_RECIPE_SITES; i++)
-        if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(a->low, a->high, m->site[i]))
+        if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(m->low, m->high, m->site[i]))
             return false;
     return true;
 }
 
 const fw_recipe_measured *fw_recipe_asrun_not_accepted(const fw_recipe_asrun_entry *o) {
     for (int i = 0; i < o->nmeasured; i++)
-        if (!fw_recipe_asrun_accepted(fw_recipe_asrun_accept(o->step, o->measured[i].measure),
-                                      &o->measured[i]))
-            return &o->measured[i];
+        if (!fw_recipe_asrun_accepted(&o->measured[i])) return &o->measured[i];
     return NULL;
+}
+
+static const char limits_of[] = "limits of ";
+
+bool fw_recipe_asrun_is_limits(const char *name) {
+    return strncmp(name, limits_of, sizeof limits_of - 1) == 0;
+}
+
+static void put_limits_of(const char *before, const char *name, const char *low, const char *high,
+                          double planned, const char *unit, fw_text *out) {
+    fw_text_printf(out, "\t%s%s%s=%s %s ", limits_of, before, name, low[0] ? low : "-",
+                   high[0] ? high : "-");
+    if (isnan(planned))
+        fw_text_add(out, "-");
+    else
+        fw_text_number(out, planned, FW_PLAIN_DIGITS);
+    fw_text_printf(out, " %s", unit);
+}
+
+void fw_recipe_asrun_put_limits(const fw_recipe_asrun_entry *e, fw_text *out) {
+    for (const fw_recipe_measured *m = e->measured; m < e->measured + e->nmeasured; m++)
+        if (!isnan(m->number))
+            put_limits_of("", m->measure, m->low, m->high, (double)NAN,
+                          fw_recipe_asrun_accept(e->step, m->measure)->unit, out);
+    for (const fw_recipe_set *s = e->set; s < e->set + e->nset; s++)
+        if (s->q && !isnan(s->value))
+            put_limits_of("set ", s->name, s->low, s->high, s->planned, s->q->unit, out);
+}
+
+/* a number of a line in the unit that the flow has now; "-": "" */
+static const char *in_unit(fw_arena *arena, fw_word word, const fw_quantity_unit *is,
+                           const fw_quantity_unit *want) {
+    double value;
+    fw_text text = fw_text_new(arena);
+    if (fw_word_is(word, "-")) return "";
+    if (!fw_number_parse(word.at, word.length, &value)) return NULL;
+    if (!want) return fw_arena_strndup(arena, word.at, word.length);
+    value = fw_quantity_unit_from_si(want, fw_quantity_unit_to_si(is, value));
+    fw_text_number(&text, value, FW_PLAIN_DIGITS);
+    return fw_text_end(&text) == FW_OK ? text.data : NULL;
+}
+
+fw_status fw_recipe_asrun_take_limits(fw_arena *arena, fw_recipe_asrun_entry *e, const char *name,
+                                      const char *text) {
+    const char *unit = NULL, *number[3];
+    fw_recipe_measured *m = NULL;
+    fw_recipe_set *s = NULL;
+    fw_quantity_unit is, want;
+    fw_word word[3];
+    name += sizeof limits_of - 1;
+    for (int i = 0; i < e->nmeasured; i++)
+        if (strcmp(e->measured[i].measure, name) == 0) m = &e->measured[i];
+    for (int i = 0; i < e->nset && strncmp(name, "set ", 4) == 0; i++)
+        if (strcmp(e->set[i].name, name + 4) == 0 && e->set[i].q) s = &e->set[i];
+    if (!m && !s) return FW_OK;
+    for (int i = 0; i < 3; i++)
+        if (!fw_word_next(&text, " ", &word[i])) return FW_OK;
+    text += strspn(text, " ");
+    unit = m ? fw_recipe_asrun_accept(e->step, name)->unit : s->q->unit;
+    const bool same = strcmp(unit, text) == 0;
+    if (!same && (!fw_quantity_unit_parse(text, strlen(text), &is, NULL, NULL) ||
+                  !fw_quantity_unit_parse(unit, strlen(unit), &want, NULL, NULL) ||
+                  !fw_quantity_dimension_equal(is.dimension, want.dimension)))
+        return FW_OK; /* it is another thing now */
+    for (int i = 0; i < 3; i++)
+        FW_NEED(number[i] = in_unit(arena, word[i], &is, same ? NULL : &want));
+    e->limited = true;
+    *(m ? &m->low : &s->low) = number[0];
+    *(m ? &m->high : &s->high) = number[1];
+    if (s) s->planned = fw_recipe_asrun_limit(number[2], (double)NAN);
+    return FW_OK;
+}
+
+static void put_with_unit(fw_text *out, double value, const char *unit) {
+    fw_recipe_put_value(out, value);
+    if (strcmp(unit, "1") != 0) fw_text_printf(out, " %s", unit);
+}
+
+void fw_recipe_asrun_put_out(const fw_recipe_measured *m, const char *unit, fw_text *out) {
+    for (int k = 0, n = 0; k < FW_RECIPE_SITES; k++) {
+        if (isnan(m->site[k]) || fw_recipe_asrun_inside(m->low, m->high, m->site[k])) continue;
+        fw_text_add(out, n++ ? ", " : "");
+        put_with_unit(out, m->site[k], unit);
+        if (m->nsite > 1) fw_text_printf(out, " (%s)", fw_recipe_site_name[k]);
+    }
+}
+
+void fw_recipe_asrun_put_set(const fw_recipe_set *s, fw_text *out) {
+    if (!s->q || isnan(s->value)) {
+        fw_text_add(out, s->text);
+        return;
+    }
+    put_with_unit(out, s->value, s->q->unit);
+    const char *written = s->text + strcspn(s->text, " ");
+    written += strspn(written, " ");
+    const char *unit = *written ? fw_recipe_unit_of_printed(out->arena, written) : s->q->unit;
+    if (unit && strcmp(unit, s->q->unit) != 0) fw_text_printf(out, " (written %s)", s->text);
 }
 
 /* "48 to 52", "at most 52" */
 void fw_recipe_put_span(fw_text *out, const char *low, const char *high) {
     const char *between = low[0] && high[0] ? " to " : low[0] ? " or more" : "at most ";
     fw_text_printf(out, "%s%s%s", low, between, high);
+}
+
+void fw_recipe_asrun_put_taken(const fw_recipe_asrun_entry *e, double time_s, fw_text *out) {
+    for (int i = 0; i < e->step->nexposed && fw_process_step_runs_on(e->step); i++) {
+        const fw_process_exposed *x = &e->step->exposed[i];
+        char um[32];
+        if (!x->rate || x->rate->unknown || !(x->rate->value > 0.0)) continue;
+        fw_text_printf(out, "; up to %s um of %s where it is open",
+                       fw_number_text(um, sizeof um, 1e6 * x->rate->value * time_s, 3),
+                       x->material);
+    }
+}
+
+/* the amount that the law takes; NULL: its time is not that of an outcome (a bake, a spin) */
+const fw_process_argument *fw_recipe_asrun_amount_of_law(const fw_process_step *s) {
+    for (int i = 0; i < s->nargument; i++) {
+        const fw_process_argument *a = &s->argument[i];
+        if (strcmp(a->name, "thickness") != 0 && strcmp(a->name, "depth") != 0) continue;
+        for (int k = 0; k < s->nchange; k++)
+            if (s->change[k].thickness == a->q) return a;
+    }
+    return NULL;
+}
+
+/* what was measured of it, SI; NaN: nothing */
+double fw_recipe_asrun_amount_measured(const fw_recipe_asrun_entry *e, const fw_quantity *planned,
+                                       const fw_recipe_measured **as) {
+    for (int i = 0; i < e->nmeasured; i++) {
+        const fw_process_accept *a = fw_recipe_asrun_accept(e->step, e->measured[i].measure);
+        fw_quantity_unit unit;
+        if (!a || isnan(e->measured[i].number) || !a->low[0] || !a->high[0] ||
+            !fw_quantity_unit_parse(a->unit, strlen(a->unit), &unit, NULL, NULL) ||
+            !fw_quantity_dimension_equal(unit.dimension, planned->dimension) ||
+            !fw_recipe_asrun_inside(a->low, a->high,
+                                    fw_quantity_unit_from_si(&unit, planned->value)))
+            continue;
+        *as = &e->measured[i];
+        return fw_quantity_unit_to_si(&unit, e->measured[i].number);
+    }
+    return (double)NAN;
+}
+
+/* "temperature = 32 Cel" of whatever the entry says that was set otherwise */
+void fw_recipe_asrun_put_settings(fw_text *out, const fw_recipe_asrun_entry *e) {
+    const char *between = "";
+    for (int i = 0; i < e->nset; i++) {
+        const fw_recipe_set *s = &e->set[i];
+        if (!s->q || isnan(s->value) || (!s->q->unknown && s->value == fw_quantity_in_unit(s->q)))
+            continue;
+        fw_text_printf(out, "%s%s = ", between, s->name);
+        fw_recipe_put_value(out, s->value);
+        if (strcmp(s->q->unit, "1") != 0) fw_text_printf(out, " %s", s->q->unit);
+        between = ", ";
+    }
+}
+
+fw_status fw_recipe_asrun_odd_time(fw_arena *arena, const fw_recipe_asrun *run,
+                                   const fw_recipe_asrun_entry *e, const char **planned) {
+    static const double times = 2.0, day_s = 8.0 * 3600.0;
+    const double took = e->end_s - e->start_s, clock_s = fw_recipe_asrun_clock_s(e);
+    double least = (double)INFINITY, most = 0.0;
+    *planned = NULL;
+    if (!e->step || e->as_set->time.computable || !fw_process_step_runs_on(e->step)) return FW_OK;
+    for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++) {
+        if (o->step != e->step || fw_text_same(o->wafer, e->wafer) ||
+            fw_recipe_asrun_taken_back(run, o) || !fw_recipe_asrun_is_last(run, o))
+            continue;
+        least = fmin(least, o->end_s - o->start_s), most = fmax(most, o->end_s - o->start_s);
+    }
+    const bool other = most > 0.0;
+    if (other ? took - clock_s <= times * most && took + clock_s >= least / times : took <= day_s)
+        return FW_OK;
+    fw_text text = fw_text_new(arena);
+    const char *missing = fw_recipe_missing_list(arena, &e->as_set->time);
+    FW_NEED(missing);
+    fw_text_printf(&text, "no planned time%s%s%s; ", *missing ? " (missing " : "", missing,
+                   *missing ? ")" : "");
+    fw_text_add(&text, other ? "other wafers took " : "it took longer than a working day");
+    if (other) fw_schedule_put_duration(&text, least);
+    if (other && most > least) fw_text_add(&text, " to ");
+    if (other && most > least) fw_schedule_put_duration(&text, most);
+    FW_TRY(fw_text_end(&text));
+    *planned = text.data;
+    return FW_OK;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The schedule as a picture: a panel per working day, in it a row for every machine in use, for
    every operator and for every hold window. The night behind a day is a narrow strip of its panel,
-   so that no run is outside the picture. */
+   so that no run is outside the picture. Behind it what the run sheet says of the schedule. */
 #include "base/svg.h"
 #include "recipe/recipe.h"
 #include <math.h>
@@ -377,4 +377,129 @@ fw_status fw_recipe_write_schedule_svg(const fw_process_flow *flow, const fw_rec
     fw_text_add(out, body.data);
     fw_svg_end(out);
     return fw_text_end(out);
+}
+
+/* ---- on the run sheet ---- */
+
+/* what the wafer is like, where that is what limits the pause after a task */
+static void put_why(fw_text *out, const fw_schedule_shop *shop, int task, double pause_s) {
+    for (int k = 0; k < shop->nhold; k++) {
+        const fw_schedule_hold *h = &shop->hold[k];
+        if (!h->why || h->from > task || h->to <= task || h->max_s > pause_s * (1 + 1e-9) + 1.0)
+            continue;
+        fw_text_add(out, ", ");
+        fw_text_escaped(out, h->why);
+        return;
+    }
+}
+
+/* "safe stopping points" of the flow, with the longest pause at each; escaped */
+static void put_stops(fw_text *out, const fw_schedule *s) {
+    const fw_schedule_shop *shop = s->shop;
+    const double night_s = 86400.0 - (shop->calendar.close_s - shop->calendar.open_s);
+    int started = 0;
+    if (!s->pause_s) return;
+    for (int kind = 0; kind < 3; kind++) {
+        static const char *const head[] = {"for any time after ",
+                                           "over night, for so long at most: ", "never between "};
+        int n = 0;
+        for (int i = 0; i + 1 < shop->ntask; i++) {
+            double pause = s->pause_s[i];
+            bool company = shop->task[i].by_day && shop->task[i + 1].by_day;
+            int is = company ? 2 : pause >= 1e15 ? 0 : pause >= fmax(night_s, 8.0 * 3600.0) ? 1 : 2;
+            if (is != kind) continue;
+            fw_text_add(out, n++ ? ", " : started++ ? "; " : "");
+            fw_text_add(out, n > 1 ? "" : head[kind]);
+            fw_text_escaped(out, shop->task[i].id);
+            if (kind == 2) {
+                fw_text_add(out, " and ");
+                fw_text_escaped(out, shop->task[i + 1].id);
+            }
+            if (kind == 0) continue;
+            if (company) {
+                fw_text_add(out, " (not alone, the same day)");
+                continue;
+            }
+            fw_text_add(out, " (");
+            fw_schedule_put_duration(out, fmax(0.0, pause));
+            put_why(out, shop, i, pause);
+            fw_text_add(out, ")");
+        }
+    }
+}
+
+/* a line for the one wafer: every step and when it begins */
+static void one_wafer(fw_text *out, const fw_schedule *s) {
+    double day = -1.0;
+    fw_text_add(out, "<p class=\"small\"><b>Begins:</b> ");
+    for (int k = 0; k < s->nrun; k++) {
+        const fw_schedule_run *r = &s->run[k];
+        const double clock_s = fw_schedule_calendar_clock(&s->shop->calendar, r->start_s);
+        long minutes = lround(clock_s / 60.0);
+        fw_text_add(out, k ? ", " : "");
+        fw_text_escaped(out, s->shop->task[r->task].id);
+        fw_text_add(out, s->shop->task[r->task].unknown ? " (time unknown) " : " ");
+        if (floor(clock_s / 86400.0) > day)
+            fw_recipe_put_moment(out, &s->shop->calendar, r->start_s);
+        else
+            fw_text_printf(out, "%02ld:%02ld", minutes / 60 % 24, minutes % 60);
+        day = floor(clock_s / 86400.0);
+    }
+    fw_text_add(out, ".</p>\n");
+}
+
+/* with its day where that is another one than that of the moment before; *day is kept */
+static void put_after(fw_text *out, const fw_schedule_calendar *c, double seconds, long *day) {
+    const long minutes = lround(fw_schedule_calendar_clock(c, seconds) / 60.0);
+    if (minutes / 1440 != *day)
+        fw_recipe_put_moment(out, c, seconds);
+    else
+        fw_text_printf(out, "%02ld:%02ld", minutes / 60 % 24, minutes % 60);
+    *day = minutes / 1440;
+}
+
+static void all_wafers(fw_text *out, const fw_schedule *s) {
+    const bool several = s->shop->operators > 1;
+    fw_text_printf(out,
+                   "<table class=\"small\"><thead><tr><th>Step</th><th>Wafers: start to end"
+                   "%s</th></tr></thead><tbody>\n",
+                   several ? " (operator)" : "");
+    for (int i = 0; i < s->shop->ntask; i++) {
+        int n = 0;
+        long day = -1;
+        fw_text_add(out, "<tr><td class=\"id\">");
+        fw_text_escaped(out, s->shop->task[i].id);
+        fw_text_add(out, s->shop->task[i].unknown ? " (time unknown)</td><td>" : "</td><td>");
+        for (int k = 0; k < s->nrun; k++) {
+            const fw_schedule_run *r = &s->run[k];
+            if (r->task != i) continue;
+            fw_text_add(out, n++ ? "; " : "");
+            fw_recipe_put_wafers(out, r);
+            fw_text_add(out, ": ");
+            put_after(out, &s->shop->calendar, r->start_s, &day);
+            fw_text_add(out, " to ");
+            put_after(out, &s->shop->calendar, r->end_s, &day);
+            if (several && r->operator_ >= 0) fw_text_printf(out, " (%d)", r->operator_ + 1);
+        }
+        fw_text_add(out, "</td></tr>\n");
+    }
+    fw_text_add(out, "</tbody></table>\n");
+}
+
+void fw_recipe_html_schedule(const fw_recipe_header *header, fw_text *out) {
+    const fw_schedule *s = header->schedule;
+    if (!s) return;
+    fw_text_add(out, "<h3>Schedule</h3>\n<p class=\"small\">");
+    fw_recipe_put_schedule_summary(out, s);
+    fw_text_add(out, "</p>\n");
+    if (!s->pause_s) return;
+    fw_text_add(out, "<p class=\"small\"><b>Safe stopping points</b>, where every wafer is dry and "
+                     "safe and no hold window of the process file is running: ");
+    put_stops(out, s);
+    fw_text_add(out, " (longest pause that the windows and the wafers allow).</p>\n");
+    if (!s->feasible) return;
+    if (s->shop->wafers == 1)
+        one_wafer(out, s);
+    else
+        all_wafers(out, s);
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Measured values flow back: a mock lot of six wafers is logged, reported, calibrated and planned again, in one command
 each and with nothing copied between them; what cannot be is refused, with what there is."""
+import datetime
 import hashlib
 import html
 import json
@@ -338,6 +339,96 @@ class Flowback(unittest.TestCase):
         day.write_text("# nothing\n")
         self.assertIn("no entry", self.expect(self.command("--entries", day), 3).stderr)
         self.assertIn("use one of them", self.expect(self.command("--entries", day, "--entry", "S01"), 2).stderr)
+
+    def scheduled(self, device, flow, wafers, few):
+        """the entries of a lot that was run as its schedule says, in the order of their ends; what the log asks for"""
+        out = self.here / f"plan-{flow}"
+        self.expect(run("plan", device, *few, "--wafers", wafers, "--operators", 2, "--day", "08:00-18:00 from 2026-11-02", "--advice", "none", "-o", out))
+        plan = json.loads((out / f"recipes/{flow}.schedule.json").read_text())
+        asked = {s["id"]: s for s in json.loads(self.expect(run("log", device, *few, "--json")).stdout)["steps"]}
+        entries = []
+        for one in plan["runs"]:
+            first, step = one["first_wafer"], asked[one["step"]]
+            words = {}
+            for m in step["measures"]:
+                low, high = (float(m[k]) if m[k] else None for k in ("low", "high"))
+                if m["unit"] == "yes/no":
+                    words[m["measure"]] = "yes"
+                elif low is not None or high is not None:
+                    value = high / 2 if low is None else 1.2 * low if high is None else (low + high) / 2
+                    words[m["measure"]] = f"{value:g}" + ("" if m["unit"] == "1" else " " + m["unit"])
+            for q in step["sets"]:
+                if q["planned"] is not None:
+                    words["set " + q["name"]] = f"{q['planned']:.10g}" + ("" if q["unit"] == "1" else " " + q["unit"])
+            for wafer in range(first, first + one["wafers"]) if first else [None]:
+                entries.append({"step": one["step"], "wafer": wafer, "start": one["start_s"], "end": one["end_s"], "words": words})
+        return sorted(entries, key=lambda e: (e["end"], e["start"]))
+
+    def logged(self, device, few, wafers, entries, minutes=False):
+        """what is said of the entries, with -q, and the log"""
+        day, log = self.here / "day.txt", self.here / "day.log"
+        for old in (log, self.here / "day.log.head"):
+            old.unlink(missing_ok=True)
+
+        def moment(seconds):
+            when = datetime.datetime(2026, 11, 2) + datetime.timedelta(seconds=seconds)
+            return when.strftime("%Y-%m-%dT%H:%M" if minutes else "%Y-%m-%dT%H:%M:%S")
+        day.write_text("".join("; ".join([e["step"], f"start={moment(e['start'])}", f"end={moment(e['end'])}", "by=AB", "second=CD"]
+                                         + ([f"wafer={e['wafer']}"] if e["wafer"] else [])
+                                         + [f"{k}={v}" for k, v in e["words"].items()]) + "\n" for e in entries))
+        said = self.expect(run("log", device, *few, "--run", log, "--wafers", wafers, "--entries", day, "-q")).stderr
+        read = json.loads(self.expect(run("log", device, *few, "--run", log, "--json")).stdout)
+        return [line for line in said.splitlines() if "day.txt" in line], read
+
+    def test_a_lot_as_it_was_scheduled(self):
+        """of it nothing is asked, nothing unclear and nothing out; and whatever went otherwise with one wafer is named, to the quiet too"""
+        other = self.here / "six-bar.xml"
+        other.write_text(device_for(COPPER))
+        lots = ((self.stage, SILICON), (other, COPPER), (GALLERY_STAGE, "silicon-on-glass"))
+        for device, flow in lots:
+            few = ("--flow", flow, "--corners", "none", "--accuracy", "3e-2")
+            entries = self.scheduled(device, flow, 3, few)
+            for minutes in (False, True):
+                said, read = self.logged(device, few, 3, entries, minutes)
+                self.assertEqual([line for line in said if "the entry does not give" not in line], [], flow)
+                judged = {e.get("judged") for s in read["steps"] for e in [s, *s.get("others", [])]}
+                self.assertLessEqual(judged, {"in window", "no plan"}, flow)
+                self.assertEqual((read["deviations"], read["outside"], read["left_out"]), ([], 0, 0), flow)
+        few = ("--flow", SILICON, "--corners", "none", "--accuracy", "3e-2")
+        entries = self.scheduled(self.stage, SILICON, 3, few)
+
+        def of(lot, step, wafer=2):
+            return next(e for e in lot if e["step"] == step and e["wafer"] == wafer)
+
+        def late(lot, step, by, longer=False):
+            one = of(lot, step)
+            begins = one["end"] if longer else one["start"]
+            for e in lot:
+                if e["wafer"] == 2 and e["start"] >= begins:
+                    e["start"], e["end"] = e["start"] + by, e["end"] + by
+            if longer:
+                one["end"] += by
+        cases = (("an hour late", lambda lot: late(lot, "S22", 3600), r"step S22 of wafer 2 waited 60 min since S21, and allowed is 0 s to 10 min",
+                  ("S22", "2", "wait since S21")),
+                 ("over night in its etchant", lambda lot: late(lot, "S14", 15 * 3600, True),
+                  r"step S14 of wafer 2 went otherwise than planned: it took 15 h 23 min.*by its law that makes at least 5\d\.\d um \(planned 1 um\), "
+                  r"and as much sideways from every edge", ("S14", "2", "duration")),
+                 ("another pressure", lambda lot: of(lot, "S18")["words"].update({"set pressure": "12 Pa"}),
+                  r"step S18 of wafer 2: pressure = 90\.01 mTorr \(written 12 Pa\), the step allows 78 to 82 mTorr", ("S18", "2", "setting pressure")),
+                 ("wrong order", lambda lot: of(lot, "S21").update(start=of(lot, "S22")["end"], end=of(lot, "S22")["end"] + 1500),
+                  r"step S22 of wafer 2 began .* before S21 ended", ("S22", "2", "wait since S21")),
+                 ("wrong wafer", lambda lot: of(lot, "S14", 1).update(wafer=2), r"step S14, which comes before it, is not in the log", ("S14", "2", "duration")))
+        for name, change, words, deviation in cases:
+            lot = [dict(e, words=dict(e["words"])) for e in entries]
+            change(lot)
+            said, read = self.logged(self.stage, few, 3, sorted(lot, key=lambda e: (e["end"], e["start"])))
+            self.assertRegex("\n".join(said), words, name)
+            self.assertIn(deviation, [(d["step"], d["wafer"], d["what"]) for d in read["deviations"]], name)
+        lot = [e for e in entries if (e["step"], e["wafer"]) != ("S13", 2)]
+        said, read = self.logged(self.stage, few, 3, lot)
+        self.assertRegex("\n".join(said), "step S13, which comes before it, is not in the log")
+        self.assertEqual([(s["id"], s["left_out"]) for s in read["steps"] if s["left_out"]], [("S13", ["2"])])
+        self.assertEqual(read["left_out"], 1)
 
     def test_what_went_otherwise_is_said_at_once(self):
         """how long a step took when it is entered, and what was done otherwise when its readings become the laboratory's values"""

@@ -562,7 +562,17 @@ static void sites_and_settings(void **state) {
     assert_int_equal(n, 1);
     assert_string_equal(list[0].what, "setting current density");
     assert_string_equal(list[0].planned, "20; 19.8 to 20.2 mA/cm2");
-    assert_string_equal(list[0].actual, "20.4 mA/cm2");
+    assert_string_equal(list[0].actual, "20.4 mA/cm2 (written 0.0204 A/cm2)");
+    /* told and shown in the unit of the plan, whatever it was written in, and never without one */
+    fw_text table = fw_text_new(arena), page = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
+    assert_true(holds(&table, "set current density = 20.4 mA/cm2 (written 0.0204 A/cm2), planned 20 mA/cm2: OUT of 19.8 to 20.2 mA/cm2"));
+    assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
+    assert_true(holds(&page, "set current density = 20.4 mA/cm2 (written 0.0204 A/cm2), planned 20 mA/cm2"));
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_recipe_asrun_ask_values(e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+    assert_int_equal(diags.count, 1);
+    assert_non_null(strstr(diags.item[0].message, "current density = 20.4 mA/cm2 (written 0.0204 A/cm2), the step allows 19.8 to 20.2 mA/cm2"));
 }
 
 /* for calibrate: each coupon once, by wafer; what is read again takes its place; the plan is not needed */
@@ -1082,6 +1092,111 @@ static void a_log_goes_on_by_another_plan(void **state) {
     assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags), FW_INPUT);
 }
 
+/* a line of a former version: without the limits of its values */
+static const char *of_before(const char *log, const char *words) {
+    size_t n = strlen(log);
+    char before[65], chain[65];
+    memcpy(before, log + n - 65, 64);
+    before[64] = '\0';
+    const char *both = fw_arena_printf(arena, "%s\n%s", before, words);
+    fw_sha256(both, strlen(both), chain);
+    return fw_arena_printf(arena, "%s%s\tchain=%s\n", log, words, chain);
+}
+
+/* 9.1 um and 20.1 mA/cm2 were right when they were logged; the next plan wants 10 um, and another current. They stay right, and
+   8 um stay wrong, also in another unit; a line of a former version has no limits, which is told */
+static void values_go_by_the_plan_of_their_line(void **state) {
+    (void)state;
+    static const char other[] = "ffeeddccbbaa99887766554433221100ffeeddccbbaa99887766554433221100";
+    fw_recipe_asrun run;
+    fw_recipe_deviation *list;
+    const char *line;
+    int n;
+    lot_wafers = "1,2,3";
+    const char *log = with(begun(), "C22; start=2026-11-20T10:00:00; end=2026-11-20T10:21:00; by=AB; second=CD; wafer=1; thickness=9.1 um; set current density=20.1 mA/cm2", 0);
+    log = with(log, "C22; start=2026-11-20T11:00:00; end=2026-11-20T11:21:00; by=AB; second=CD; wafer=2; thickness=9.1 9.2 9.0 9.1 8.0 um", 0);
+    assert_non_null(strstr(log, "\tlimits of thickness=8.1 9.9 - um\t"));
+    assert_non_null(strstr(log, "\tlimits of set current density=19.8 20.2 20 mA/cm2\t"));
+    log = of_before(log, "step=C22\tstart=2026-11-20T12:00:00\tend=2026-11-20T12:21:00\tby=AB\twafer=3\tsecond=CD\tthickness=9.1 um");
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, other, "plan; start=2026-11-20T13:00; by=AB", (fw_place){"entry", 1, 1}, &diags, &line), FW_OK);
+    log = fw_arena_printf(arena, "%s%s", log, line);
+    measured(flow, "cu.J", 100.0, 1.0);
+    assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
+    for (int k = 0; k < flow->nstep; k++)
+        for (int i = 0; i < flow->step[k].naccept && strcmp(flow->step[k].id, "C22") == 0; i++)
+            if (strcmp(flow->step[k].accept[i].measure, "thickness") == 0)
+                flow->step[k].accept[i].low = "9500", flow->step[k].accept[i].high = "10500", flow->step[k].accept[i].unit = "nm";
+    diags = fw_diags_new(arena);
+    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_true(run.entry[0].limited && run.entry[1].limited && !run.entry[2].limited);
+    assert_true(fw_recipe_asrun_accepted(&run.entry[0].measured[0]));
+    assert_string_equal(run.entry[0].measured[0].low, "8100");
+    assert_near(run.entry[0].set[0].planned, 20.0, 1e-9);
+    assert_true(fw_recipe_asrun_allowed(&run.entry[0].set[0]));
+    assert_false(fw_recipe_asrun_accepted(&run.entry[1].measured[0]));
+    assert_false(fw_recipe_asrun_accepted(&run.entry[2].measured[0]));
+    assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+    for (int i = 0; i < n; i++)
+        assert_false(strcmp(list[i].what, "thickness") == 0 && list[i].entry == &run.entry[0]);
+    fw_text text = fw_text_new(arena);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_true(holds(&text, "lines before are judged by the times and the limits that stand in them"));
+    assert_true(holds(&text, "without limits, and judged by the last plan's: line 4\n"));
+    /* of one site, and not of the mean of the sites, which is fine */
+    assert_true(holds(&text, "thickness = 8880 nm, mean of 5 sites: 8000 nm (right) OUT of 8100 to 9900 nm"));
+    with(begun(), "C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; second=CD; limits of thickness=1 2 - um", 282);
+}
+
+/* A wafer that goes on without a step: it is no step that is not yet due. A bath whose time nobody can compute, and in which one wafer stayed over night */
+static void steps_left_out_and_times_of_no_plan(void **state) {
+    (void)state;
+    fw_recipe_asrun run;
+    fw_recipe_deviation *list;
+    fw_recipe_asrun_total total;
+    fw_text text = fw_text_new(arena), json = fw_text_new(arena), page = fw_text_new(arena);
+    int n, odd = 0;
+#define C(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-2" to ":00; by=AB; second=CD; wafer=" wafer
+    static const char *const entries[] = {
+        C("C19", "08:00", "0T08:10", "1"), C("C19", "08:10", "0T08:20", "2"), C("C20", "08:30", "0T08:39", "1"), C("C20", "08:40", "0T08:49", "2"),
+        C("C21", "08:50", "0T09:00", "2"), C("C22", "08:52", "0T09:12", "2"), C("C22", "08:52", "0T09:12", "1"),
+        C("C26", "10:00", "0T10:15", "1"), C("C26", "10:00", "1T01:15", "2")};
+#undef C
+    lot_wafers = "1,2,3";
+    const char *log = begun();
+    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++)
+        log = with(log, entries[i], 0);
+    assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
+    for (int i = 0; i < flow->nstep; i++) {
+        const fw_process_step *s = &flow->step[i];
+        for (int w = 0; w < 3; w++) {
+            const bool between = i > 18 && i < 25 && w < 2, there = strcmp(s->id, "C20") == 0 || strcmp(s->id, "C22") == 0 || (strcmp(s->id, "C21") == 0 && w == 1);
+            assert_int_equal(fw_recipe_asrun_left_out(&run, s, run.wafer[w]), (between && !there) || (i < 18 && w < 2 && !fw_process_step_is_of_lot(s)));
+        }
+    }
+    assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+    assert_true(total.left_out > 7);
+    assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
+    assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
+    assert_true(holds(&text, "LEFT OUT, and gone on without it: wafer 1\n"));
+    assert_true(holds(&text, "not yet: wafer 3\n"));
+    assert_true(holds(&json, "\"left_out\":[\"1\"]"));
+    assert_true(holds(&page, "C21 of wafer 1: left out"));
+    for (int k = 1; k <= 2; k++) {
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - k], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+    }
+    for (size_t k = 0; k < diags.count; k++)
+        if (diags.item[k].number == 703 && strstr(diags.item[k].message, "C26 of wafer 2 took otherwise than others: no planned time")) odd++;
+    assert_int_equal(odd, 1);
+    assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
+    odd = 0;
+    for (int i = 0; i < n; i++)
+        odd += strstr(list[i].planned, "other wafers took 15 min") != NULL;
+    assert_int_equal(odd, 1);
+    assert_true(holds(&text, "times without a zone: taken to be of one clock that is never changed"));
+}
+
 /* An entry whose times were mistyped cannot be taken back, and one with later times is another run, which adds up; what says that it
    replaces the line does not: neither times nor coupons of the former count, nor what a wafer waited by it */
 static void a_line_is_replaced(void **state) {
@@ -1561,7 +1676,8 @@ static void left_in_the_bath(void **state) {
         int told;
     } log[] = {
         {{AT("S11", "10:00", "10:03")}, "in window", 0},
-        {{AT("S11", "10:00", "10:04")}, "unclear", 1},
+        {{AT("S11", "10:00", "10:05")}, "in window", 0}, /* as the plan has it there, handling included */
+        {{"S11; start=2026-11-20T10:00:00; end=2026-11-20T10:05:10; by=AB; wafer=1"}, "unclear", 1},
         {{AT("S11", "10:00", "10:20")}, "long", 0},
         {{AT("S11", "10:00", "10:04"), AT("S11", "10:00", "10:01")}, "in window", 0},
         {{AT("S18", "10:00", "12:10")}, "in window", 0},
@@ -1579,7 +1695,7 @@ static void left_in_the_bath(void **state) {
         assert_int_equal(told_of(684), log[i].told);
         assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
         assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
-        assert_int_equal(holds(&table, "took 4 min, and is to stop by 96 s, with what is finished at the bench by 3 min 36 s; was the rest in it?"), log[i].told);
+        assert_int_equal(holds(&table, "took 5 min 10 s, and is to stop by 96 s, with what is finished at the bench by 5 min; was the rest in it?"), log[i].told);
         assert_int_equal(holds(&json, "\"judged\":\"unclear\""), log[i].told);
     }
 }
@@ -1861,6 +1977,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(waits_are_not_below_nothing, setup, teardown),
         cmocka_unit_test_setup_teardown(an_entry_is_made_once, setup, teardown),
         cmocka_unit_test_setup_teardown(loads_share_their_time, setup, teardown),
+        cmocka_unit_test_setup_teardown(values_go_by_the_plan_of_their_line, setup, teardown),
+        cmocka_unit_test_setup_teardown(steps_left_out_and_times_of_no_plan, setup, teardown),
         cmocka_unit_test_setup_teardown(machines_take_so_many, setup, teardown),
         cmocka_unit_test_setup_teardown(coupons_of_other_flows, setup, teardown),
     };
