@@ -261,8 +261,50 @@ static void wrong_sizes(void **state) {
     }
 }
 
+/* how far a place is from whatever is open beside the pieces of a body */
+static double from_open_um(const fw_geometry_region *r, fw_geometry_vec2 p) {
+    double least = INFINITY, t;
+    fw_geometry_vec2 where;
+    for (int i = 0; i < r->count; i++)
+        for (int k = 0; k < r->contour[i].count; k++)
+            if (!(r->contour[i].segment[k].flags & FW_SEGMENT_JOINT))
+                least = fmin(least, fw_geometry_segment_nearest(&r->contour[i].segment[k], p, &t, &where));
+    return least / UM;
+}
+
+/* What is told of a place without a hole is what the masks draw: so far it is from what is open there, and no place around it is
+   farther, also between the points of the lattice that were tried (it said up to 2 um too little) */
+static void the_farthest_place(void **state) {
+    (void)state;
+    int told = 0;
+    drawn *d = draw(60, 27);
+    for (size_t k = 0; k < d->diags.count; k++) {
+        const char *near = strstr(d->diags.item[k].message, "opened near (");
+        double x, y, um;
+        if (d->diags.item[k].number != 189 || !near) continue;
+        assert_int_equal(sscanf(near, "opened near (%lf, %lf) um, which stays %lf um", &x, &y, &um), 3);
+        for (int b = 0; b < 5; b++) {
+            fw_geometry_region r = pieces_of(d, b);
+            const fw_geometry_vec2 p = {x * UM, y * UM};
+            if (!fw_geometry_contour_contains(&r.contour[0], p)) continue;
+            told++;
+            const fw_geometry_region itself = {r.contour, 1}; /* heads of flexures lie in it */
+            assert_near(from_open_um(&itself, p), um, 0.07);  /* the place is written with 0.1 um */
+            for (int i = -20; i <= 20; i++)
+                for (int j = -20; j <= 20; j++) {
+                    const fw_geometry_vec2 q = {(x + 0.2 * i) * UM, (y + 0.2 * j) * UM};
+                    if (!fw_geometry_contour_contains(&r.contour[0], q)) continue;
+                    assert_true(from_open_um(&itself, q) < um + 0.002);
+                }
+        }
+    }
+    assert_true(told >= 3);
+    fw_arena_free(d->arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_farthest_place),
         cmocka_unit_test(moments_follow), cmocka_unit_test(holes_keep_away),
         cmocka_unit_test(cuts_fit),       cmocka_unit_test(narrow_bodies_have_none),
         cmocka_unit_test(wrong_sizes),    cmocka_unit_test(holes_are_off_the_cuts_of_others),
