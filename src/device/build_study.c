@@ -452,7 +452,12 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
     case FW_STUDY_IS_sensitivity:
     case FW_STUDY_IS_worst_case:
         if (s->nvary == 0)
-            what = "needs at least one <vary> with from and to: the range of an input";
+            what =
+                "needs at least one <vary what=\"...\" from=\"...\" to=\"...\"/>: the range of an "
+                "input of the device. The flow's own quantities are no inputs of it: what check "
+                "and as=\"made\" say is at the corners of their ranges already; for devices as "
+                "they scatter write kind=\"sweep\" as=\"die\" points=\"sobol\" "
+                "samples=\"200\" without <vary>";
         break;
     case FW_STUDY_KINDS:
         break;

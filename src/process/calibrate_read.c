@@ -474,7 +474,7 @@ fw_status fw_process_calibration_pack(const fw_process_flow *flow,
         out,
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Values of a laboratory. Each "
         "replaces the one with its id where the option lab of flexwright names this file. -->\n"
-        "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" version=\"1\" "
+        "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" version=\"2\" "
         "title=\"Values of the laboratory\"");
     attribute(out, "flow", flow->id);
     fw_text_add(out, ">\n");

@@ -109,13 +109,18 @@ fw_status fw_process_calibration_with(fw_arena *arena, fw_process_calibration *c
    "of one wafer" */
 fw_status fw_process_calibrated_spread(fw_arena *arena, const fw_process_flow *flow,
                                        const char *who, fw_process_calibrated *c);
+/* measurable.c: the same to a value of a pack that calibrate wrote before `spread` was, of one wafer or of a table; and what share of
+   such a value's uncertainty was read, by which its correlations count: r_ij f_i f_j. Of all other values 1 */
+fw_status fw_process_lab_keep_spread(fw_arena *arena, const fw_process_flow *flow, const char *id,
+                                     fw_quantity *q);
+double fw_process_lab_read_part(const fw_quantity *q);
 /* what its readings alone are uncertain by */
 double fw_process_calibrated_read_u(const fw_process_calibrated *c);
 /* process_calibrate.c: the correlations of those ids that are correlated at all, into `calibration` */
 fw_status fw_process_coupon_joint(fw_arena *arena, const fw_process_covariance *of,
                                   const double *deviation, fw_process_calibration *calibration);
 
-/* lab.c: can errors be correlated like this? r (n n), L (n n) is used */
+/* process_table.c: can errors be correlated like this? r (n n), L (n n) is used */
 bool fw_process_correlation_possible(const double *r, int n, double *L);
 
 #define FW_PROCESS_COUPON(name) extern const fw_process_coupon fw_process_coupon_##name;

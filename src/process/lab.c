@@ -95,22 +95,6 @@ static fw_status check_symmetry(const matrix *m) {
     return status;
 }
 
-/* Is R + e I positive definite? Cholesky's factorization: the first pivot that is not above zero says no. e = 1e-5 stands
-   for what is lost by writing six digits. R (n n) symmetric with a unit diagonal. Cost n^3/3.
-   Source: Golub and Van Loan, Matrix Computations, 4.2. Test: test_correlation.c, wrong_matrices. */
-bool fw_process_correlation_possible(const double *r, int n, double *L) {
-    const double lost = 1e-5;
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k <= i; k++) {
-            double sum = r[i * n + k] + (i == k ? lost : 0.0);
-            for (int j = 0; j < k; j++)
-                sum -= L[i * n + j] * L[k * n + j];
-            if (i == k && !(sum > 0.0)) return false;
-            L[i * n + k] = i == k ? sqrt(sum) : sum / L[k * n + k];
-        }
-    return true;
-}
-
 static fw_status add(fw_arena *arena, fw_quantity *q, const char *id, double r) {
     fw_quantity_correlated *grown =
         fw_arena_array(arena, fw_quantity_correlated, (size_t)(q->ncorrelated + 1));
@@ -149,7 +133,10 @@ static fw_status read_correlation(fw_arena *arena, const fw_xml_record *e, fw_pr
                              "semidefinite; take the one that calibrate wrote");
     for (int i = 0; i < m->n; i++)
         for (int k = 0; k < m->n; k++)
-            if (k != i) FW_TRY(add(arena, m->q[i], m->q[k]->id, m->r[i * m->n + k]));
+            if (k != i)
+                FW_TRY(add(arena, m->q[i], m->q[k]->id,
+                           m->r[i * m->n + k] * fw_process_lab_read_part(m->q[i]) *
+                               fw_process_lab_read_part(m->q[k])));
     return FW_OK;
 }
 
@@ -444,6 +431,7 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
 
 static fw_status replace_all(fw_arena *arena, const fw_xml_record *root, fw_process_flow *flow,
                              fw_diags *diags) {
+    const bool former = strcmp(fw_process_pack_text(root, "version"), "1") == 0;
     size_t before = diags->errors;
     fw_xml_source_text *source;
     int nsource;
@@ -456,6 +444,8 @@ static fw_status replace_all(fw_arena *arena, const fw_xml_record *root, fw_proc
         status = fw_xml_quantity_read(arena, e->element, source, nsource, diags, &q);
         if (status == FW_INPUT) continue;
         FW_TRY(status);
+        const fw_quantity *own = id ? fw_process_flow_quantity(flow, id->value) : NULL;
+        if (own && former) FW_TRY(fw_process_lab_keep_spread(arena, flow, own->id, &q));
         if (id && (status = replace(arena, flow, diags, id, &q)) != FW_OK && status != FW_INPUT)
             return status;
     }

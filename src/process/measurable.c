@@ -527,3 +527,27 @@ bool fw_process_step_makes_edges(const fw_process_flow *flow, const fw_process_s
         }
     return false;
 }
+
+/* ---- packs of former versions ---- */
+
+/* Packs that calibrate wrote before `spread` was (version 1, as some are that have it): what it found of one wafer, or in a table, with what was read alone. How the next
+   one differs is the flow's, as in those of now (FW-D734). Test: test_wafers.c, packs_of_before */
+fw_status fw_process_lab_keep_spread(fw_arena *arena, const fw_process_flow *flow, const char *id,
+                                     fw_quantity *q) {
+    const char *note = q->note ? q->note : "";
+    const bool found = strstr(note, "chi square ") || strstr(note, "no residual to test");
+    fw_process_calibrated c = {
+        .id = id, .value = q->value, .uncertainty = q->uncertainty, .note = note};
+    if (!found || q->unknown || q->status != FW_MEASURED || q->spread_taken || q->spread > 0.0 ||
+        strstr(note, "which differ by"))
+        return FW_OK;
+    FW_TRY(fw_process_calibrated_spread(arena, flow, "of one wafer", &c));
+    q->spread = c.spread, q->uncertainty = c.uncertainty, q->spread_taken = true;
+    return FW_OK;
+}
+
+double fw_process_lab_read_part(const fw_quantity *q) {
+    const bool former = q->spread_taken && q->note && !strstr(q->note, "how the next one differs");
+    const double read = sqrt(fmax(q->uncertainty * q->uncertainty - q->spread * q->spread, 0.0));
+    return former && q->uncertainty > 0.0 ? read / q->uncertainty : 1.0;
+}

@@ -2,8 +2,10 @@
 /* What a process pack may hold, and a laboratory pack. The schemas of processes/ come from these
    rows.
    References may lead into base.xml and are looked up by the reader of packs (process_read.c). */
+#include "process/coupon.h"
 #include "process/pack.h"
 #include "process/process_law.h"
+#include <math.h>
 #include <string.h>
 
 #define ROWS(a) .attribute = (a), .nattribute = sizeof(a) / sizeof((a)[0])
@@ -547,4 +549,20 @@ fw_process_goes_on fw_process_step_goes_on(const fw_process_step *s) {
 
 bool fw_process_step_runs_on(const fw_process_step *s) {
     return fw_process_step_goes_on(s) != FW_GOES_ON_NOT;
+}
+
+/* Is R + e I positive definite? Cholesky's factorization: the first pivot that is not above zero says no. e = 1e-5 stands
+   for what is lost by writing six digits. R (n n) symmetric with a unit diagonal. Cost n^3/3.
+   Source: Golub and Van Loan, Matrix Computations, 4.2. Test: test_correlation.c, wrong_matrices. */
+bool fw_process_correlation_possible(const double *r, int n, double *L) {
+    const double lost = 1e-5;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k <= i; k++) {
+            double sum = r[i * n + k] + (i == k ? lost : 0.0);
+            for (int j = 0; j < k; j++)
+                sum -= L[i * n + j] * L[k * n + j];
+            if (i == k && !(sum > 0.0)) return false;
+            L[i * n + k] = i == k ? sqrt(sum) : sum / L[k * n + k];
+        }
+    return true;
 }

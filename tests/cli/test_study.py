@@ -334,6 +334,7 @@ class Study(unittest.TestCase):
             ("size\" as=\"hinges", vary + respond.replace("/>", ' goal="minimise"/>'), "FW-D490", "hinges alone do not say"),
             ("sweep", vary, "FW-D490", "nothing is asked"),
             ("sweep", respond, "FW-D490", "at least one &lt;vary&gt;"),
+            ("worst-case", respond, "FW-D490", 'write kind="sweep" as="die" points="sobol" samples="200" without'),
             ("size", vary + respond, "FW-D490", "goal="),
             ("sweep", vary + vary + respond, "FW-D490", "two rows"),
             ("sweep", vary + respond.replace('"U"', '"arc"'), "FW-D492", "another column"),

@@ -4,6 +4,7 @@
    it in the cases that two standard uncertainties promise. */
 #include "packs.h"
 #include "process/calibrate.h"
+#include "process/coupon.h"
 #include "process/process_law.h"
 
 static fw_arena *arena;
@@ -364,12 +365,45 @@ static void the_next_after_one(void **state) {
     if (!(share >= 0.935 - (test_cases(0, 1) ? 0.02 : 0.0))) fail_msg("%.4f", share);
 }
 
+/* A pack that calibrate wrote before `spread` was has what was read alone: the flow's own is added, and told, as in those of now; a
+   laboratory that writes its own value, and a mean of several wafers, are left as they are */
+static void packs_of_before(void **state) {
+    (void)state;
+    static const char head[] = "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" version=\"1\" title=\"L\" flow=\"al-masked-rie\">"
+                               "<source id=\"coupons\" kind=\"measured\">measured</source><q id=\"pan.R\" value=\"0.5\" u=\"0.005\" unit=\"nm/s\" status=\"measured\" src=\"coupons\" note=\"";
+    static const struct {
+        const char *note;
+        bool taken;
+    } of[] = {{"etch-rate: slope of 3 times; chi square 1.2, 2 degrees of freedom, probability 0.5", true},
+              {"etch-rate: one time; no residual to test", true},
+              {"etch-rate: slope; mean of 3 wafers, which differ by 1 % (standard, 2 degrees of freedom); the next wafer is meant; chi square 1.2, 2 degrees of freedom, probability 0.5", false},
+              {"from our book of last year", false}};
+    const fw_quantity *own = fw_process_flow_quantity(silicon, "pan.R");
+    const double rel = own->uncertainty / own->value;
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        int told = 0;
+        fw_diags said = fw_diags_new(arena);
+        const char *pack = fw_arena_printf(arena, "%s%s\"/></process>", head, of[i].note);
+        fw_process_flow *after = read_pack(arena, SILICON, NULL, NULL, &diags);
+        assert_int_equal(fw_process_lab_apply(arena, "lab.xml", pack, strlen(pack), after, &said), FW_OK);
+        assert_int_equal(fw_process_lab_ask(arena, after, &said), FW_OK);
+        for (size_t k = 0; k < said.count; k++)
+            if (said.item[k].number == 734) told++;
+        const fw_quantity *q = fw_process_flow_quantity(after, "pan.R");
+        assert_int_equal(told, of[i].taken);
+        assert_true(q->spread_taken == of[i].taken);
+        assert_relative(q->uncertainty, of[i].taken ? hypot(5e-12, rel * 5e-10) : 5e-12, 1e-6);
+        assert_relative(fw_process_lab_read_part(q), of[i].taken ? 5e-12 / q->uncertainty : 1.0, 1e-9);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coverage), cmocka_unit_test(slots),
                                        cmocka_unit_test(copies_count_once), cmocka_unit_test(one_that_is_odd),
         cmocka_unit_test(edges_about_nothing),
                                        cmocka_unit_test(refused),
                                        cmocka_unit_test(one_wafer_keeps_the_spread),
+                                       cmocka_unit_test(packs_of_before),
                                        cmocka_unit_test(the_next_after_one)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }
