@@ -435,7 +435,7 @@ class Flowback(unittest.TestCase):
         usual = self.expect(self.etch(1, "--lot", "L7", "--wafers", "3")).stderr
         self.assertNotIn("otherwise than planned", usual)
         late = self.expect(self.etch(2, end="14:35", words="; deviation=pump, left over lunch")).stderr
-        self.assertIn("step S18 went otherwise than planned: it took 6 h 35 min, and is to stop by ", late)
+        self.assertIn("step S18 of wafer 2 went otherwise than planned: it took 6 h 35 min, and is to stop by ", late)
         self.assertNotIn("write down why", late)
         self.expect(self.etch(3, power="262 W"))
         lost = self.expect(self.command("--entry", "S18; start=2026-11-03T12:10; by=AB; scrapped=cracked in the chuck", "--wafer", "3")).stderr
