@@ -403,14 +403,14 @@ static void loads_at(const fw_quantity_law_loads *on, double t_s, double piece_s
 
 WIDE void rows_at(const swinging *o, int count, int end, const fw_quantity_law_seen *seen,
                   fw_quantity_law_row *row) {
-    typedef double four __attribute__((vector_size(32), aligned(8), may_alias));
+    typedef double four __attribute__((vector_size(32)));
     for (int i = 0; i < seen->n; i++)
         for (int l = 0; l < LANES; l += 4) {
-            four q = {0}, v = {0};
+            four q = {0}, v = {0}, its;
             for (int k = 0; k < count; k++) {
                 const double by = seen->by[i * count + k];
-                q += by * *(const four *)(const void *)(o[k].q[end] + l);
-                v += by * *(const four *)(const void *)(o[k].v[end] + l);
+                memcpy(&its, o[k].q[end] + l, sizeof its), q += by * its;
+                memcpy(&its, o[k].v[end] + l, sizeof its), v += by * its;
             }
             memcpy(row[i].q[end] + l, &q, sizeof q), memcpy(row[i].v[end] + l, &v, sizeof v);
         }
