@@ -447,12 +447,17 @@ static const char *grid_ink(double k) {
 void fw_svg_grid(fw_text *out, const fw_svg_axes *a) {
     double sx = fw_svg_nice((a->x1 - a->x0) / a->columns);
     double sy = fw_svg_nice((a->y1 - a->y0) / a->rows);
-    for (double k = ceil(a->y0 / sy); k * sy <= a->y1; k += 1.0) {
+    /* lines are counted: of a range of few last bits the next multiple of a step is the same number */
+    for (int i = 0; i <= a->rows && a->rows > 0; i++) {
+        const double k = ceil(a->y0 / sy) + i;
+        if (k * sy > a->y1) break;
         double y = fw_svg_axes_y(a, k * sy);
         fw_svg_put(out, "path d='M{c} {c}H{c}' stroke='{r}'", a->left, y, a->right, grid_ink(k));
         tick_at(out, a->left - 7.0, y + 4.0, "end", k * sy, sy);
     }
-    for (double k = ceil(a->x0 / sx); k * sx <= a->x1; k += 1.0) {
+    for (int i = 0; i <= a->columns && a->columns > 0; i++) {
+        const double k = ceil(a->x0 / sx) + i;
+        if (k * sx > a->x1) break;
         double x = fw_svg_axes_x(a, k * sx);
         fw_svg_put(out, "path d='M{c} {c}V{c}' stroke='{r}'", x, a->top, a->bottom, grid_ink(k));
         tick_at(out, x, a->bottom + 16.0, "middle", k * sx, sx);

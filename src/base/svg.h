@@ -129,7 +129,7 @@ void fw_svg_tick(fw_text *out, double value, double step);
 typedef struct fw_svg_axes { /* of a plot; all in pixels but the ranges */
     double left, right, top, bottom;
     double x0, x1, y0, y1; /* values at these edges */
-    int columns, rows;     /* about how many lines of the grid there shall be */
+    int columns, rows;     /* about how many lines of the grid there shall be; 0: none */
 } fw_svg_axes;
 double fw_svg_axes_x(const fw_svg_axes *axes, double x);
 double fw_svg_axes_y(const fw_svg_axes *axes, double y);

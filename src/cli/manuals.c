@@ -94,8 +94,9 @@ static void beginning(fw_text *out) {
                      ".TP\n.I share/doc/flexwright/docs/gallery\ndevices to start from\n"
                      ".TP\n.I share/flexwright/processes, share/flexwright/masks\n"
                      "process packs and layer tables, which are data: a laboratory edits a copy\n"
-                     ".TP\n.I share/flexwright/device.rng, share/flexwright/catalog.xml\n"
-                     "schemas of device files and process packs for editors\n"
+                     ".TP\n.I share/flexwright/device.rng, share/flexwright/study.rng, "
+                     "share/flexwright/catalog.xml\n"
+                     "schemas of device files, studies and process packs for editors\n"
                      ".TP\n.I share/flexwright/klayout\nthe package for KLayout\n");
 }
 

@@ -8,7 +8,6 @@
 #include "xml/xml.h"
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 enum { FILE_MOST = 8 << 20 };
 
@@ -281,25 +280,20 @@ static fw_status unit_beside(fw_study *study, fw_study_response *r, bool runs) {
     return status == FW_INPUT ? FW_OK : status; /* all of them are said */
 }
 
-/* once, for every path and for what one device takes */
+/* once, for every path */
 static fw_status run_as_it_stands(fw_study *study) {
-    struct timespec begun, ended;
     double *now = fw_arena_array(study->arena, double, (size_t)study->nresponse);
     size_t errors = study->diags.errors;
     int status;
     FW_NEED(now);
     if (study->asked->kind == FW_STUDY_IS_yield) return FW_OK;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun);
     fw_design *design = fw_study_design(study, study->options.cancel, NULL, &status);
     FW_NEED(design);
     if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
     if (status == FW_STATUS_OK) status = fw_study_responses_take(study, design, now, &study->diags);
     if (status == FW_STATUS_OK && study->asked->fitted > 0)
         fw_study_parts_of(fw_plan_design_plan(design), study);
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
     fw_design_free(design);
-    study->seconds_each =
-        (double)(ended.tv_sec - begun.tv_sec) + 1e-9 * (double)(ended.tv_nsec - begun.tv_nsec);
     if (fw_plan_is_final((fw_status)status)) return (fw_status)status;
     const bool runs = status == FW_STATUS_OK;
     for (int k = 0; k < study->nresponse; k++) {
@@ -441,7 +435,9 @@ static fw_status open_all(fw_study *study) {
     }
     if (study->asked->yield > 0) FW_TRY(open_dies(study));
     FW_TRY(fw_study_find_hash(study));
-    return run_as_it_stands(study);
+    FW_TRY(run_as_it_stands(study));
+    const bool yields = study->asked->kind == FW_STUDY_IS_yield; /* timed where it was foreseen */
+    return study->options.timed && !yields ? fw_study_time_samples(study) : FW_OK;
 }
 
 fw_status fw_study_open(const fw_study_options *options, fw_study **study) {

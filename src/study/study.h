@@ -33,7 +33,7 @@ typedef struct fw_study_options {
     int jobs;           /* threads; 0: as many as there are processors */
     int shard, shards;  /* from 1; 0: all of it */
     bool resume;        /* go on with the store that is there */
-    bool timed;         /* one die of a yield is judged for its time, which a plan says */
+    bool timed;         /* some devices are judged for their time, which a plan says */
     const fw_cancel *cancel;
     /* called now and then from the thread that runs the study; NULL: nobody asks */
     /* all below 0: so many at most, since searches end earlier; 0: nobody knows how many */
@@ -122,8 +122,10 @@ typedef struct fw_study {
     fw_design *design; /* the description as it stands; of a yield judged as drawn */
     fw_design *former; /* as it was first read: places are of it; NULL: the same */
     fw_plan *plan;     /* of `design` */
-    /* what the description as it stands took, all its stages, or one die of a yield; CPU */
+    /* what some samples took, or one die of a yield, CPU: where it is timed, else 0 */
     double seconds_each;
+    double
+        seconds_tight; /* of a sensitivity: likewise of a device that derivatives are taken from */
     /* of a yield: dies of one estimate that merely counts; estimates; dies where all are counted, so many more where the
        ends of what is only assumed are not enough, and at most */
     long counted, estimates, likely, inside, most;

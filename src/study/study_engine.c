@@ -7,6 +7,7 @@
    Test: tests/unit/study/test_engine.c */
 #include "plan/stages.h"
 #include "study/study_parts.h"
+#include <math.h>
 #include <pthread.h>
 #include <string.h>
 #include <time.h>
@@ -20,7 +21,8 @@ typedef struct engine { /* of one thread at a time */
     fw_arena *arena;    /* holds this */
     const fw_study *study;
     fw_design *design;
-    bool lent; /* the study frees it */
+    double accuracy; /* that the design was read with */
+    bool lent;       /* the study frees it */
     fw_plan_kept kept;
     fw_dynamics_tapes *tapes; /* motions that devices have in common */
     fw_device_set *set;       /* those of the study's options, then those of the sample */
@@ -132,6 +134,7 @@ static fw_status engine_new(const fw_study *study, const fw_cancel *cancel, engi
                             bool *changed) {
     int status;
     e->study = study;
+    e->accuracy = study->options.design.accuracy;
     e->one_drawing =
         study->asked && study->asked->judge == FW_JUDGE_DIE && study->nvary + study->nsetting == 0;
     e->looked_s = fw_study_now_s();
@@ -182,6 +185,11 @@ static fw_status take(const fw_study *study, const fw_cancel *cancel, engine **t
     engine *e = all->idle;
     if (e) all->idle = e->next;
     pthread_mutex_unlock(&all->lock);
+    /* of another part of the study: one judges some of its devices more accurately */
+    if (e && e->accuracy != study->options.design.accuracy) {
+        engine_free(e);
+        return take(study, cancel, taken, changed);
+    }
     *taken = e;
     if (e) return look_again(cancel, e, changed);
     fw_arena *arena = fw_arena_part(study->arena, 0);
@@ -266,6 +274,61 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
                                    : fw_study_evaluate_alone(study, cancel, sample, changed);
 }
 
+/* ---- what a sample takes ---- */
+
+enum { TIMED_MOST = 5 };
+static const double timed_enough_s = 1; /* of CPU, for all of them */
+
+static double cpu_now_s(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* inputs of number k: over all the ranges, or `near` 1: as near to the middle as derivatives are taken */
+static fw_status place_timed(const fw_study *study, int k, double near, fw_study_sample *sample) {
+    for (int v = 0; v < study->ninput; v++) {
+        const fw_study_input *in = &study->input[v];
+        /* the golden ratio and its powers spread points evenly */
+        const double at = fmod(0.5 + k * pow(0.6180339887498949, 1 + v % 7), 1);
+        /* of a flow beside what is drawn, which is judged already */
+        sample->text[v][0] = '\0', sample->value[v] = 1.01 * in->now;
+        if (v < study->nvary)
+            FW_TRY(fw_study_input_at(in, near > 0 ? 0.5 + 0.1 * (at - 0.5) : at, 9, sample->text[v],
+                                     &sample->value[v]));
+    }
+    return FW_OK;
+}
+
+/* CPU of a device among others, after one that reads what all have in common; 0: none could be judged */
+static fw_status time_some(const fw_study *study, double near, fw_study_sample *sample,
+                           double *each_s) {
+    bool changed = false;
+    double all = 0;
+    int n = 0;
+    for (int k = 0; k <= TIMED_MOST && (n == 0 || all < timed_enough_s); k++) {
+        FW_TRY(place_timed(study, k, near, sample));
+        const double begun = cpu_now_s();
+        FW_TRY(fw_study_evaluate(study, study->options.cancel, sample, &changed));
+        const double took = cpu_now_s() - begun;
+        if (k == 0 && took < timed_enough_s) continue;
+        all += took, n++;
+    }
+    *each_s = n > 0 ? all / n : 0;
+    return FW_OK;
+}
+
+fw_status fw_study_time_samples(fw_study *study) {
+    fw_study_sample sample;
+    FW_TRY(fw_study_sample_new(study->arena, study, &sample));
+    FW_TRY(time_some(study, 0, &sample, &study->seconds_each));
+    if (study->asked->kind != FW_STUDY_IS_sensitivity) return FW_OK;
+    const double asked = fw_study_tighten(study);
+    fw_status status = time_some(study, 1, &sample, &study->seconds_tight);
+    study->options.design.accuracy = asked;
+    return status;
+}
+
 /* ---- what decides a sample ---- */
 
 static void add_real(fw_text *out, double value) {
@@ -338,6 +401,8 @@ static fw_status add_asked(const fw_study *study, fw_text *t) {
     add_real(t, a->confidence);
     if (a->yield > 0) add_real(t, a->yield);
     if (a->fitted > 0) fw_text_add(t, " fitted"), add_real(t, a->fitted);
+    if (a->kind == FW_STUDY_IS_sensitivity)
+        fw_text_add(t, " nearer"); /* eleven devices, not seven */
     for (int k = 0; k < a->nvary; k++) {
         const fw_device_vary *v = &a->vary[k];
         add_text(t, v->what);

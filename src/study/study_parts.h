@@ -51,13 +51,10 @@ int fw_study_input_steps(const fw_study_input *input);
    the nearest of the list */
 fw_status fw_study_input_at(const fw_study_input *input, double share, int digits,
                             char text[FW_STUDY_TEXT], double *value);
-
 /* its ends, or what is listed: is there such a parameter or attribute, and may it be so? FW_INPUT: FW-D493 */
 fw_status fw_study_input_check(fw_study *study, int k);
-
 /* the other way: 0 at from, 1 at to, not beyond */
 double fw_study_input_share(const fw_study_input *input, double value);
-
 /* with room for inputs and responses */
 fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_sample *sample);
 /* `why` of a device that was not judged: response surfaces told it (kind_sweep.c) */
@@ -95,7 +92,6 @@ fw_status fw_study_difference(fw_study *study, fw_study_says *says, struct sqlit
 
 /* is what a design was read from what the study was? */
 bool fw_study_same_files(const fw_study *study, fw_design *design);
-
 fw_status fw_study_failure_open(fw_study *study);
 void fw_study_failure_close(fw_study *study);
 /* A file that could not be read or written ends a study, in whatever thread and design that is: the first such error is
@@ -104,7 +100,6 @@ void fw_study_note_error(const fw_study *study, struct fw_design *design, int st
 fw_status fw_study_said(fw_study *study, fw_status status); /* status, or FW_NOMEM */
 
 /* ---- study_engine.c: what samples have in common ---- */
-
 typedef struct fw_study_engines fw_study_engines;
 double fw_study_now_s(void); /* of a clock that nobody sets */
 fw_status fw_study_engines_open(fw_study *study);
@@ -115,9 +110,8 @@ void fw_study_engines_lend(fw_study *study);
 /* as fw_study_evaluate_alone, to the last bit, sharing what samples have in common */
 fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_study_sample *sample,
                             bool *changed);
-
+fw_status fw_study_time_samples(fw_study *study); /* seconds_each and seconds_tight of some */
 /* ---- study_pool.c: many devices in threads ---- */
-
 typedef struct fw_study_work {
     long n; /* samples 0 to n - 1 of this work; sample->i is what `fill` says */
     /* inputs and number of sample k; false in *wanted: it is not run. Called by any thread. */
@@ -236,12 +230,13 @@ fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n);
    that does not hold it, or the description has no parameter of it */
 bool fw_study_input_is_inside(const fw_study_input *in);
 double fw_study_input_centre(const fw_study_input *in);
-
+/* devices that derivatives are taken from; their accuracy becomes that of the study: which was it? */
+long fw_study_count_tight(const fw_study *study);
+double fw_study_tighten(fw_study *study);
 /* weights (n <= 7) of the first derivative at `at` by values at the nodes x (kind_sensitivity.c) */
 void fw_study_derivative_weights(const double *x, int n, double at, double *weight);
 
 /* ---- what kinds of studies share ---- */
-
 /* keeps a sample in the store, where there is one */
 fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample);
 /* is sample i of this shard, and not in the store yet? */
@@ -258,7 +253,6 @@ int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double
 /* what a device uses, of which no number says by how much it is not accepted */
 extern const double fw_study_beyond;
 /* ---- study_fitted.c: devices that are told and not judged ---- */
-
 typedef struct fw_study_points { /* all devices of a study, chosen beforehand */
     long n;
     fw_status (*at)(const void *context, long k, fw_study_sample *sample); /* inputs of device k */
@@ -295,7 +289,6 @@ fw_status fw_study_dies_check(fw_study *study);
 fw_status fw_study_say_idle(fw_study *study); /* FW-D737 */
 
 /* ---- study_response.c: what a decision follows from ---- */
-
 enum { FW_PART_LOW, FW_PART_HIGH, FW_PART_VALUE, FW_PART_NUMBERS }; /* numbers of a part */
 /* npart and nhinge of the description as it stands: as drawn its hinges and requirements, of a die every check, those of
    hinges first */
@@ -459,7 +452,6 @@ fw_status fw_study_at_yield(fw_study *study, const fw_study_search *like,
                             struct fw_study_result *result);
 
 /* ---- parts of the documents ---- */
-
 /* inputs and responses as they were asked for; before it runs, too */
 fw_status fw_study_asked_text(const fw_study *study, fw_text *out);
 
@@ -484,7 +476,9 @@ fw_text *fw_study_sheet_add(fw_study_sheet *s, const char *name, const char *tit
 /* a name for a file, "A-B": letters, digits and '-' */
 const char *fw_study_picture_name(fw_arena *arena, const char *a, const char *b);
 void fw_study_picture_begin(fw_text *out, double height, const char *title);
-void fw_study_picture_grid(fw_text *out, const fw_svg_axes *axes);
+/* x, y: inputs along the axes, whose listed values are written there; NULL: numbers */
+void fw_study_picture_grid(fw_text *out, const fw_svg_axes *axes, const fw_study_input *x,
+                           const fw_study_input *y);
 /* from dark to light, in even steps of lightness: "#2d1450" */
 void fw_study_shade(char text[8], double share);
 fw_status fw_study_yield_pictures(fw_study_sheet *s);
@@ -494,7 +488,6 @@ fw_status fw_study_html(const fw_study *study, const fw_study_picture *picture, 
                         fw_text *out);
 
 /* ---- the kinds ---- */
-
 #define FW_STUDY(name, word, sentence)                                                             \
     /* what is wrong with it is said before anything is run or written (FW-D490) */                \
     fw_status fw_study_check_##name(fw_study *study);                                              \
@@ -514,11 +507,18 @@ typedef struct fw_study_extreme { /* of one response over all samples that were 
     double first;
 } fw_study_extreme;
 
-/* of a response by an input, at the description as it stands */
+/* of a response by an input, at the description as it stands; SI over SI */
 typedef struct fw_study_derivative {
-    double value, error; /* SI over SI, NaN: not there; by halving the step */
+    double value, error; /* NaN: not there, or not known */
     double spread;       /* value times half the input's range: what the tornado shows */
+    double over, wide; /* SI: how far either side it is of; what the response is finer than, or 0 */
+    double slope[2];   /* where it is not known: over `wide` and `over`; else NaN */
 } fw_study_derivative;
+/* kind_sensitivity.c: node j, SI, of seven far ones, two nearer and two nearest; at `at`, of values there, each of a
+   relative accuracy. Test: tests/unit/study/test_response.c */
+double fw_study_derivative_node(const fw_study_input *in, double centre, int j);
+void fw_study_derive(const double *x, const double *value, double at, double accuracy, double range,
+                     fw_study_derivative *d);
 
 typedef struct fw_study_index { /* share of a response's variance, with its interval */
     double first, first_low, first_high, total, total_low, total_high;

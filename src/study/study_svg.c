@@ -78,8 +78,10 @@ static void dot(fw_text *out, double x, double y, int decision) {
 }
 
 static void widen(double *low, double *high) {
+    const double size = fmax(fabs(*low), fabs(*high));
     double room = 0.05 * (*high - *low);
-    if (!(room > 0)) room = *low != 0 ? 0.05 * fabs(*low) : 1;
+    /* what differs in its last digits alone is the same, and has no scale */
+    if (!(room > 1e-9 * size)) room = size > 0 ? 0.05 * size : 1;
     *low -= room, *high += room;
 }
 
@@ -198,7 +200,7 @@ static fw_status pair(fw_study_sheet *s, const points *p, int r, int k) {
                            fw_arena_printf(arena, "%s against %s", q->asked->name, in->what));
     if (!out) return FW_OK;
     fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);
-    fw_study_picture_grid(out, &a);
+    fw_study_picture_grid(out, &a, in, NULL);
     if (study->ninput == 1 && study->asked->kind == FW_STUDY_IS_sweep)
         FW_TRY(curve(p, arena, &a, x, p->y + r, study->nresponse, out));
     for (int i = 0; i < p->n; i++) {
@@ -208,8 +210,7 @@ static fw_status pair(fw_study_sheet *s, const points *p, int r, int k) {
     }
     limit_line(out, &a, bound[0], "at least");
     limit_line(out, &a, bound[1], "at most");
-    labels(out, in->what, in->ntext > 0 ? "of the list" : in->unit_text, q->asked->name,
-           fw_study_response_drawn_in(q));
+    labels(out, in->what, in->unit_text, q->asked->name, fw_study_response_drawn_in(q));
     if (judged(p)) legend(out);
     fw_svg_end(out);
     return fw_text_end(out);
@@ -256,15 +257,13 @@ static fw_status map(fw_study_sheet *s, const points *p, int r) {
                    fw_svg_axes_x(&a, x + 0.5 * wide) - left + 0.3,
                    fw_svg_axes_y(&a, y - 0.5 * high) - top + 0.3, colour);
     }
-    fw_study_picture_grid(out, &a);
+    fw_study_picture_grid(out, &a, &study->input[0], &study->input[1]);
     for (int i = 0; i < p->n; i++)
         if (p->decision[i] > 0)
             dot(out, fw_svg_axes_x(&a, p->x[2 * i]), fw_svg_axes_y(&a, p->x[2 * i + 1]),
                 p->decision[i]);
-    labels(out, study->input[0].what,
-           study->input[0].ntext > 0 ? "of the list" : study->input[0].unit_text,
-           study->input[1].what,
-           study->input[1].ntext > 0 ? "of the list" : study->input[1].unit_text);
+    labels(out, study->input[0].what, study->input[0].unit_text, study->input[1].what,
+           study->input[1].unit_text);
     char number[2][32], colour[8];
     for (int k = 0; k <= 40; k++) {
         fw_study_shade(colour, k / 40.0);
@@ -387,7 +386,7 @@ static fw_status histogram(fw_study_sheet *s, const points *p) {
     if (!out) return FW_OK;
     fw_svg_axes a = {LEFT, RIGHT, TOP, BOTTOM, least, most, 0, 1.05 * top, 6, 5};
     fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);
-    fw_study_picture_grid(out, &a);
+    fw_study_picture_grid(out, &a, NULL, NULL);
     for (int i = 0; i < BARS; i++) {
         double from = least + (most - least) * i / BARS, x = fw_svg_axes_x(&a, from),
                y = fw_svg_axes_y(&a, count[i]);
@@ -444,16 +443,21 @@ static fw_status parallel(fw_study_sheet *s, const points *p) {
         const fw_study_response *q = k < study->ninput ? NULL : &study->response[k - study->ninput];
         char text[2][32];
         const char *name = q ? q->asked->name : study->input[k].what,
-                   *percent = q && q->share ? " %" : "";
+                   *percent = q && q->share ? " %" : "", *end[2];
+        for (int e = 0; e < 2; e++) {
+            const double v = e ? low[k] : high[k];
+            end[e] = q || study->input[k].ntext == 0 || !isfinite(v) ? number_of(text[e], q, v)
+                                                                     : study->input[k].text[(int)v];
+        }
         fw_svg_put(out, "path d='M{c} {c}V{c}' stroke='#57606a'\n", x, TOP + 20.0, (double)BOTTOM);
         fw_svg_put(out,
                    "text x='{c}' y='{c}' font-size='10' text-anchor='middle' "
                    "fill='#57606a'>{s}{s}\n",
-                   x, TOP + 14.0, number_of(text[0], q, high[k]), percent);
+                   x, TOP + 14.0, end[0], percent);
         fw_svg_put(out,
                    "text x='{c}' y='{c}' font-size='10' text-anchor='middle' "
                    "fill='#57606a'>{s}{s}\n",
-                   x, BOTTOM + 14.0, number_of(text[1], q, low[k]), percent);
+                   x, BOTTOM + 14.0, end[1], percent);
         fw_svg_put(out,
                    "text x='{c}' y='{c}' font-size='11' text-anchor='middle' fill='#1f2328'>{s}\n",
                    x, BOTTOM + (k % 2 ? 44.0 : 30.0), name);
@@ -474,7 +478,7 @@ static fw_status front(fw_study_sheet *s, const points *p) {
         fw_study_sheet_add(s, "front", "Both goals: what no other device beats in both is ringed");
     if (!out) return FW_OK;
     fw_study_picture_begin(out, HEIGHT, s->item[s->n - 1].title);
-    fw_study_picture_grid(out, &a);
+    fw_study_picture_grid(out, &a, NULL, NULL);
     for (int i = 0; i < p->n; i++) {
         const double *y = p->y + (size_t)i * (size_t)study->nresponse;
         if (isfinite(y[goal[0]]) && isfinite(y[goal[1]]))

@@ -111,10 +111,14 @@ static fw_status usual_dies(const fw_study *study, long *n, long *inside) {
     return FW_OK;
 }
 
+/* of the devices of a sensitivity some are judged more accurately */
 static void about(const fw_study *study, fw_text *out, double devices) {
+    const bool derives = study->asked->kind == FW_STUDY_IS_sensitivity;
+    const double tight = derives ? (double)fw_study_count_tight(study) : 0;
     if (!(study->seconds_each > 0)) return;
     fw_text_add(out, ", about ");
-    seconds(out, study->seconds_each * devices / fw_study_jobs(study));
+    seconds(out, (study->seconds_each * (devices - tight) + study->seconds_tight * tight) /
+                     fw_study_jobs(study));
     if (study->asked->kind == FW_STUDY_IS_size)
         fw_text_add(out, " to four times that, as the search comes near limits");
 }
@@ -170,10 +174,9 @@ fw_status fw_study_plan_text(const fw_study *study, fw_text *out) {
         fw_text_add(out, " (one took ");
         seconds(out, study->seconds_each);
         if (study->asked->kind == FW_STUDY_IS_sensitivity)
-            fw_text_printf(out,
-                           "; the %d that derivatives are taken from are run at 1e-9, each of them "
-                           "up to tens of times as long",
-                           7 * study->ninput);
+            fw_text_printf(out, "; the %ld that derivatives are taken from are run at 1e-9, ",
+                           fw_study_count_tight(study)),
+                seconds(out, study->seconds_tight), fw_text_add(out, " each");
         if (dies > 0)
             fw_text_add(out,
                         "; several times as long where the first devices do not have the yield");
@@ -295,6 +298,36 @@ static void say_part(fw_text *out, double value, double low, double high, const 
     fw_text_add(out, of);
 }
 
+/* a slope as what half the range would make of it, and what that may be off by */
+static void say_derivative(fw_text *out, const fw_study *study, int k, const fw_study_response *q,
+                           const fw_study_derivative *d) {
+    const fw_study_input *in = &study->input[k];
+    const double half = 0.5 * (in->to - in->from);
+    if (isnan(d->value) && !isnan(d->slope[0])) {
+        fw_text_add(out, "its derivative is not known: half the range would change it by ");
+        fw_study_change_text(out, q, d->slope[0] * half);
+        fw_text_add(out, " by devices as far as ");
+        input_value(out, in, d->wide);
+        fw_text_add(out, ", and by ");
+        fw_study_change_text(out, q, d->slope[1] * half);
+        fw_text_add(out, " by those as near as ");
+        input_value(out, in, d->over);
+        return;
+    }
+    fw_text_add(out, "half its range changes it by ");
+    fw_study_change_text(out, q, d->spread);
+    if (isnan(d->value)) return;
+    fw_text_add(out, " (to within ");
+    fw_text_number(out, fw_study_response_drawn(q, d->error * half), 2);
+    fw_text_add(out, ")");
+    if (d->wide > 0) {
+        fw_text_add(out, ", by its slope over ");
+        input_value(out, in, d->over);
+        fw_text_add(out, ", which ends within ");
+        input_value(out, in, d->wide);
+    }
+}
+
 static void say_sensitivity(fw_text *out, const fw_study *study) {
     const fw_study_result *result = study->result;
     say_elsewhere(out, study);
@@ -307,8 +340,8 @@ static void say_sensitivity(fw_text *out, const fw_study *study) {
             size_t at = (size_t)r * (size_t)study->ninput + (size_t)k;
             const fw_study_derivative *d = &result->derivative[at];
             const fw_study_index *x = result->index ? &result->index[at] : NULL;
-            fw_text_printf(out, "    %-22s half its range changes it by ", study->input[k].what);
-            fw_study_change_text(out, q, d->spread);
+            fw_text_printf(out, "    %-22s ", study->input[k].what);
+            say_derivative(out, study, k, q, d);
             if (x && isnan(x->total)) {
                 fw_text_add(out, "; at the accuracy asked it does not vary over the ranges");
             } else if (x) {

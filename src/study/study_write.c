@@ -159,6 +159,7 @@ static void derivatives(fw_json *j, const fw_study *study, int r) {
         fw_json_truth(j, "at_description", fw_study_input_is_inside(&study->input[k]));
         fw_json_real(j, "derivative_SI", d->value);
         fw_json_real(j, "derivative_error_SI", d->error);
+        fw_json_real(j, "derivative_over_SI", d->over);
         fw_json_real(j, "half_range_effect", d->spread);
         if (result->index) {
             const fw_study_index *x = &result->index[at];

@@ -5,6 +5,8 @@
 #include "base/svg.h"
 #include "study/study_parts.h"
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 enum { LEFT = 86, RIGHT = 600, TOP = 46, BOTTOM = 340 };
 
@@ -34,9 +36,53 @@ void fw_study_picture_begin(fw_text *out, double height, const char *title) {
                title);
 }
 
-void fw_study_picture_grid(fw_text *out, const fw_svg_axes *axes) {
+/* at most so many bytes of it (most < FW_STUDY_TEXT - 4), whole characters, and dots for the rest */
+static void shortened(char text[FW_STUDY_TEXT], const char *from, size_t most) {
+    size_t n = strlen(from);
+    const bool whole = n <= most;
+    if (!whole)
+        for (n = most - 1; n > 0 && ((unsigned char)from[n] & 0xC0) == 0x80;)
+            n--;
+    snprintf(text, FW_STUDY_TEXT, "%.*s%s", (int)n, from, whole ? "" : "\u2026");
+}
+
+/* Values of a list stand where its numbers are, 0 and on, as they are written: as many as have room, the first among them;
+   what is longer than the margin is cut short. */
+static void listed(fw_text *out, const fw_svg_axes *a, const fw_study_input *in, bool upright) {
+    enum { MARGIN = 12, ALONG = 24 };   /* characters left of a plot, and below it */
+    const double wide = 6.2, high = 13; /* pixels of a character */
+    size_t longest = 1;
+    for (int i = 0; i < in->ntext; i++) {
+        const size_t n = strlen(in->text[i]);
+        longest = n > longest ? n : longest;
+    }
+    const double each = upright ? fabs(fw_svg_axes_y(a, 1) - fw_svg_axes_y(a, 0))
+                                : fw_svg_axes_x(a, 1) - fw_svg_axes_x(a, 0);
+    const double room = upright ? high : wide * (double)(longest < ALONG ? longest : ALONG) + 8;
+    const int every = (int)fmax(1, ceil(room / each));
+    const size_t most = upright ? MARGIN : ALONG;
+    for (int i = 0; i < in->ntext; i += every) {
+        const double x = upright ? a->left : fw_svg_axes_x(a, i),
+                     y = upright ? fw_svg_axes_y(a, i) : a->bottom;
+        if (x < a->left || x > a->right || y < a->top || y > a->bottom) continue;
+        if (upright)
+            fw_svg_put(out, "path d='M{c} {c}H{c}' stroke='#eaeef2'", a->left, y, a->right);
+        else
+            fw_svg_put(out, "path d='M{c} {c}V{c}' stroke='#eaeef2'", x, a->top, a->bottom);
+        char text[FW_STUDY_TEXT];
+        shortened(text, in->text[i], most);
+        fw_svg_put(out, "text x='{c}' y='{c}' text-anchor='{r}'>{s}\n", upright ? x - 7 : x,
+                   upright ? y + 4 : y + 16, upright ? "end" : "middle", text);
+    }
+}
+
+void fw_study_picture_grid(fw_text *out, const fw_svg_axes *axes, const fw_study_input *x,
+                           const fw_study_input *y) {
+    fw_svg_axes numbers = *axes;
     fw_svg_open(out, "g font-size='11'");
-    fw_svg_grid(out, axes);
+    if (x && x->ntext > 0) numbers.columns = 0, listed(out, axes, x, false);
+    if (y && y->ntext > 0) numbers.rows = 0, listed(out, axes, y, true);
+    fw_svg_grid(out, &numbers);
     fw_svg_close(out, "g\n");
 }
 
@@ -105,7 +151,7 @@ static fw_status convergence(fw_study_sheet *s, const fw_study_flow_yield *y, co
         6,    6};
     if (!(a.y1 > a.y0)) a.y0 = a.y1 - 1;
     fw_study_picture_begin(out, FW_STUDY_HIGH, s->item[s->n - 1].title);
-    fw_study_picture_grid(out, &a);
+    fw_study_picture_grid(out, &a, NULL, NULL);
     for (int e = 0; e < ends; e++)
         band(out, &a, end[e], colour[e]);
     fw_svg_put(

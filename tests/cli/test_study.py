@@ -168,6 +168,18 @@ class Study(unittest.TestCase):
             asked = store.execute('SELECT count(*), max("U") FROM sample WHERE state = ?', ("accept",)).fetchone()
         self.assertEqual(asked, (sum(r["state"] == "accept" for r in rows), names["U"]["largest"]))
 
+    def test_pictures_have_the_listed_values_at_their_axes(self):
+        """where there were numbers of the list, 0, 0.5 and 1; and a response that differs in its last bits alone is drawn"""
+        rows = ('<vary what="flexure[C]/@width" values="7.5 um; 8.25 um; 9 um"/><vary what="arc" from="200 deg" to="260 deg" steps="2"/>'
+                '<respond name="U" value="hinges[C].utilisation"/><respond name="F" value="hinges[F].peak_angle_rad"/>')
+        self.run_study(self.write(study("s", "sweep", rows).replace("<study", '<study as="hinges"')), "out")
+        for name in ("map-U", "U-flexure-C---width", "parallel"):
+            texts = re.findall(r"<text [^>]*>([^<]*)</text>", (self.place / f"out/pictures/{name}.svg").read_text())
+            self.assertTrue({"7.5 um", "9 um"} <= set(texts), (name, texts))
+            self.assertEqual("8.25 um" in texts, name != "parallel", (name, texts))
+            self.assertNotIn("of the list", " ".join(texts))
+            self.assertFalse({"0.5", "1.5"} & set(texts), (name, texts))
+
     def bytes_of(self, out):
         return {p.name: p.read_bytes() for p in sorted((self.place / out).rglob("*")) if p.is_file()}
 

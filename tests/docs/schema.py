@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""schema.py PROGRAM: the RELAX NG schema of device files before the program.
+"""schema.py PROGRAM: the RELAX NG schemas of device files and of studies before the program.
 
-Every device file of the source that the program takes is valid. Of values of one attribute for each of several dimensions:
+Every device file of the source that the program takes is valid, and every study in a file of its own. Of values of one attribute for each of several dimensions:
 none that the program takes is refused; of a number alone, with or without a unit, all that the program refuses are, but for
 products of units, of which the schema looks at the symbols only. Of tests/bad what is refused by the form of a value is."""
 import itertools
@@ -15,6 +15,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCHEMA = ROOT / "docs/reference/device.rng"
+STUDIES = ROOT / "docs/reference/study.rng"
 PROGRAM = sys.argv[1]
 HEAD = '<device xmlns="urn:flexwright:device:1" name="d">'
 PLACES = (  # an attribute for each dimension: length, angle, pressure, pure, force, duration, any
@@ -41,11 +42,11 @@ NOT_FORM = {  # ... but where only the program knows what is wanted: laws in tim
     "parameter-value-of-another-kind"}
 
 
-def valid(files):
+def valid(files, schema=SCHEMA):
     """which of them are"""
     out = set()
     for some in (files[i:i + 400] for i in range(0, len(files), 400)):
-        done = subprocess.run(["xmllint", "--nonet", "--noout", "--relaxng", SCHEMA, *some], capture_output=True, text=True, errors="replace", check=False)
+        done = subprocess.run(["xmllint", "--nonet", "--noout", "--relaxng", schema, *some], capture_output=True, text=True, errors="replace", check=False)
         if "internal error" in done.stderr.lower():
             sys.exit(done.stderr[-500:])
         out |= {pathlib.Path(m) for m in re.findall(r"^(.*) validates$", done.stderr, re.M)}
@@ -66,6 +67,10 @@ def main():
              if 'xmlns="urn:flexwright:device:1"' in p.read_text(encoding="utf-8", errors="replace")[:8000]]
     good = valid(known)
     wrong += ["%s is refused" % p.relative_to(ROOT) for p in known if p not in good]
+    studies = [p for top in ("docs", "tests/data", "tests/studies") for p in sorted((ROOT / top).rglob("*.xml"))
+               if re.search(r'<study [^>]*xmlns="urn:flexwright:study:1"', p.read_text(encoding="utf-8", errors="replace"))]
+    good = valid(studies, STUDIES)
+    wrong += ["%s is refused" % p.relative_to(ROOT) for p in studies if p not in good]
     bad = sorted((ROOT / "tests/bad").glob("*.xml"))
     good = valid(bad)
     for file in bad:
@@ -92,10 +97,10 @@ def main():
                 wrong.append("%s: the schema refuses '%s'" % (file.name, value))
             if refused & FORM and file in good and LONE.match(value) and not PRODUCT.search(value):
                 wrong.append("%s: the schema takes '%s', %s" % (file.name, value, refused))
-    print("%d device files; %d of tests/bad; values: %d that the program takes, %d that it does not; %d wrong"
-          % (len(known), counts[0], counts[1], counts[2], len(wrong)))
+    print("%d device files; %d studies; %d of tests/bad; values: %d that the program takes, %d that it does not; %d wrong"
+          % (len(known), len(studies), counts[0], counts[1], counts[2], len(wrong)))
     print("\n".join(wrong[:40]))
-    return 0 if not wrong and counts[0] > 8 and min(counts[1:]) > 40 else 1
+    return 0 if not wrong and len(studies) > 8 and counts[0] > 8 and min(counts[1:]) > 40 else 1
 
 
 if __name__ == "__main__":

@@ -82,10 +82,13 @@ class Tree(unittest.TestCase):
 
     def test_catalogue(self):
         data = self.prefix / "share/flexwright"
-        self.assertEqual((data / "device.rng").read_bytes(), (ROOT / "docs/reference/device.rng").read_bytes())
+        for schema in ("device.rng", "study.rng"):
+            self.assertEqual((data / schema).read_bytes(), (ROOT / "docs/reference" / schema).read_bytes())
         if shutil.which("xmlcatalog"):
             found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:device:1").strip()
             self.assertTrue(found.endswith("/device.rng"), found)
+            found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:study:1").strip()
+            self.assertTrue(found.endswith("/study.rng"), found)
             found = run("xmlcatalog", data / "catalog.xml", "urn:flexwright:process:1").strip().removeprefix("file://")
             found = urllib.parse.unquote(found)
             self.assertTrue(pathlib.Path(found).samefile(data / "processes/packs.rng"), found)

@@ -123,6 +123,25 @@ static void grids_stay_in_the_plot(void **state) {
     assert_int_equal(zero, 2);
 }
 
+/* of numbers that differ in their last bits: the next multiple of a step is the same number */
+static void grids_of_hardly_any_range_end(void **state) {
+    (void)state;
+    const double one = nextafter(0.62, 1);
+    fw_text out = fw_text_new(arena);
+    const fw_svg_axes axes = {10, 110, 5, 55, 0.62, one, 1e9, nextafter(1e9, 2e9), 6, 6};
+    fw_svg_grid(&out, &axes);
+    assert_int_equal(fw_text_end(&out), FW_OK);
+    int lines = 0;
+    for (const char *c = out.data; (c = strstr(c, "<path")); c++)
+        lines++;
+    assert_true(lines <= 14);
+    const fw_svg_axes none = {10, 110, 5, 55, 0, 1, 0, 1, 0, 0};
+    out = fw_text_new(arena);
+    fw_text_add(&out, "");
+    fw_svg_grid(&out, &none);
+    assert_true(fw_text_end(&out) == FW_OK && out.length == 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(elements_are_templates),
@@ -131,6 +150,7 @@ int main(void) {
         cmocka_unit_test(a_picture_of_a_page_has_a_font),
         cmocka_unit_test(ticks_have_the_digits_of_their_step),
         cmocka_unit_test(grids_stay_in_the_plot),
+        cmocka_unit_test(grids_of_hardly_any_range_end),
     };
     return cmocka_run_group_tests(tests, make, drop);
 }

@@ -59,13 +59,14 @@ static void catalogue(void **state) {
         const fw_xml_table *table;
         const char *schema; /* beside the catalogue in the source; installed, processes/ lies beside it */
     } row[] = {{&fw_device_table, "device.rng"},
+               {&fw_device_study_table, "study.rng"},
                {&fw_process_pack_table, "../../processes/packs.rng"}};
     fw_arena *arena = fw_arena_new(0);
     fw_text text = fw_text_new(arena);
     fw_text_add(&text,
                 "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                 "<!-- generated from the tables of elements; do not edit. For editors: schemas of "
-                "device files and process packs, by their name spaces. -->\n"
+                "device files, studies and process packs, by their name spaces. -->\n"
                 "<catalog xmlns=\"urn:oasis:names:tc:entity:xmlns:xml:catalog\">\n");
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++)
         fw_text_printf(&text,

@@ -27,10 +27,15 @@ static void compare(const char *name, fw_status (*generate)(fw_text *)) {
     fw_arena_free(arena);
 }
 
+static fw_status study_schema(fw_text *out) {
+    return fw_xml_schema(&fw_device_study_table, out);
+}
+
 static void pages_are_current(void **state) {
     (void)state;
     compare("docs/reference/device.md", fw_device_reference_markdown);
     compare("docs/reference/device.rng", fw_device_relax_ng);
+    compare("docs/reference/study.rng", study_schema);
 }
 
 static void rows_are_complete(void **state) {
@@ -94,6 +99,34 @@ static void the_schema_judges_files(void **state) {
     assert_int_equal(run(LINT "tests/bad/dimensions-added.xml 2> /dev/null"), 0);
 }
 
+/* of a file of its own; as <study> of a device file it is in that one's schema */
+static void the_schema_of_studies_judges_files(void **state) {
+    (void)state;
+    if (run("command -v xmllint > /dev/null") != 0) skip();
+#define LINT_STUDY                                                                                 \
+    "cd " FW_TEST_SOURCE_DIR " && sed '%s' docs/studies/%s.xml | "                                 \
+    "xmllint --nonet --noout --relaxng docs/reference/study.rng - 2> /dev/null"
+    static const struct {
+        const char *change, *file;
+        bool good;
+    } row[] = {{"", "which-matters", true},
+               {"", "how-many-survive", true},
+               {"", "widest-hinge", true},
+               {"s/kind=\"sensitivity\"/kind=\"sensitivities\"/", "which-matters", false},
+               {"s/ device=\"[^\"]*\"//", "which-matters", false},
+               {"s/ from=/ form=/", "which-matters", false},
+               {"s/<vary /<varies /", "which-matters", false},
+               {"s/study:1/device:1/", "which-matters", false},
+               {"s/steps=\"[0-9]*\"/steps=\"8 um\"/", "width-and-arc", false}};
+    for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
+        char command[1024];
+        snprintf(command, sizeof command, LINT_STUDY, row[i].change, row[i].file);
+        if ((run(command) == 0) != row[i].good)
+            fail_msg("%s with %s: %s", row[i].file, row[i].change,
+                     row[i].good ? "refused" : "accepted");
+    }
+}
+
 static void memory_runs_out(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -118,6 +151,7 @@ int main(void) {
         cmocka_unit_test(pages_are_current),
         cmocka_unit_test(rows_are_complete),
         cmocka_unit_test(the_schema_judges_files),
+        cmocka_unit_test(the_schema_of_studies_judges_files),
         cmocka_unit_test(memory_runs_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

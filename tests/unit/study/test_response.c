@@ -103,7 +103,8 @@ static void wrong_paths_say_what_there_is(void **state) {
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         fw_study_response r;
         assert_int_equal(parse(arena, row[i].value, FW_TAKE_ONE, &r), FW_OK);
-        if (fw_study_response_find(&r, root, &value, NULL, why, sizeof why) || !strstr(why, row[i].says))
+        if (fw_study_response_find(&r, root, &value, NULL, why, sizeof why) ||
+            !strstr(why, row[i].says))
             fail_msg("%s: said \"%s\", wanted \"%s\"", row[i].value, why, row[i].says);
     }
     const char *const none[] = {"",   ".a",  "a.",    "a..b",     "[0]",
@@ -148,7 +149,8 @@ static void units_are_those_of_keys(void **state) {
 /* of numbers whose unit stands beside them: of several one, where they have the same */
 static void units_stand_beside_numbers(void **state) {
     static const char units[] =
-        "{\"requirements\": [{\"probe\": \"p\", \"unit\": \"rad\", \"value\": 1, \"utilisation\": 0.5,"
+        "{\"requirements\": [{\"probe\": \"p\", \"unit\": \"rad\", \"value\": 1, \"utilisation\": "
+        "0.5,"
         "   \"made\": {\"band\": [1, 2]}}, {\"probe\": \"q\", \"unit\": \"Hz\", \"value\": 2},"
         "  {\"probe\": \"r\", \"unit\": \"Hz\", \"value\": 3}, {\"probe\": \"s\", \"value\": 4}]}";
     const struct {
@@ -202,6 +204,75 @@ static void derivatives_of_polynomials_are_exact(void **state) {
     }
 }
 
+/* responses over an input from 7 to 9; the slope at x beside each */
+static double is_smooth(double x, double *slope) {
+    *slope = 0.3 * cos(x) + 0.1;
+    return 0.3 * sin(x) + 0.1 * x;
+}
+/* a period that is just what the far nodes are apart: they see nothing of it */
+static double rings(double x, double *slope) {
+    const double turn = 2 * 3.14159265358979 / (0.2 / 3), y = is_smooth(x, slope);
+    *slope += 0.001 * turn * cos(turn * x + 0.4);
+    return y + 0.001 * sin(turn * x + 0.4);
+}
+static double rings_a_little(double x, double *slope) {
+    const double turn = 2 * 3.14159265358979 / (0.2 / 3), y = is_smooth(x, slope);
+    *slope += 1e-6 * turn * cos(turn * x + 0.4);
+    return y + 1e-6 * sin(turn * x + 0.4);
+}
+/* at 8, in the middle: the slope is another one from there on */
+static double has_a_corner(double x, double *slope) {
+    *slope = (double)NAN;
+    return 1 + 0.1 * fabs(x - 8);
+}
+static double stays(double x, double *slope) {
+    (void)x;
+    *slope = 0;
+    return 2;
+}
+/* finer than any of them are apart */
+static double is_rough(double x, double *slope) {
+    *slope = (double)NAN;
+    return 1 + 1e-3 * sin(1e5 * x) + 0.01 * x;
+}
+
+static void errors_of_derivatives_hold(void **state) {
+    (void)state;
+    static const struct {
+        double (*f)(double, double *);
+        double most; /* what it may be off by, of the slope; NaN: it is to be not known */
+        bool finer;  /* than the far nodes are apart: it is told */
+    } row[] = {{is_smooth, 1e-6, false}, {rings, 0.05, true},        {rings_a_little, 1e-3, false},
+               {has_a_corner, NAN, 0},   {is_rough, (double)NAN, 0}, {stays, 0, false}};
+    const double at[] = {8, 7, 9, 7.0005, 8.93, 7.31};
+    const fw_study_input in = {.from = 7, .to = 9};
+    for (size_t r = 0; r < sizeof row / sizeof row[0]; r++)
+        for (size_t k = 0; k < (row[r].f == has_a_corner ? 1 : sizeof at / sizeof at[0]); k++)
+            for (int off = 0; off < 2; off++) { /* each value by as much as is claimed */
+                double x[11], value[11], slope;
+                fw_study_derivative d;
+                for (int j = 0; j < 11; j++) {
+                    x[j] = fw_study_derivative_node(&in, at[k], j);
+                    assert_true(x[j] >= 7 && x[j] <= 9);
+                    for (int i = 0; i < j; i++)
+                        assert_true(j < 7 || i < 7 || fabs(x[j] - x[i]) > 1e-5);
+                    value[j] = row[r].f(x[j], &slope) * (1 + (j * 7 % 3 - 1) * off * 1e-9);
+                }
+                row[r].f(at[k], &slope);
+                fw_study_derive(x, value, at[k], 1e-9, 2, &d);
+                if (isnan(row[r].most)) {
+                    if (!isnan(d.value) || !(d.over < d.wide) || isnan(d.slope[0] + d.slope[1]))
+                        fail_msg("%zu at %g: %g to within %g", r, at[k], d.value, d.error);
+                    continue;
+                }
+                const double wrong = fabs(d.value - slope);
+                if (!(wrong <= d.error * (1 + 1e-9)) || (d.wide > 0) != row[r].finer ||
+                    d.error > (k > 0 ? 100 : 1) * row[r].most * fabs(slope) + 2e-6)
+                    fail_msg("%zu at %g: %g to within %g, not %g", r, at[k], d.value, d.error,
+                             slope);
+            }
+}
+
 static void the_text_is_the_value(void **state) {
     (void)state;
     fw_study_input in = {.what = "w", .unit_text = "um", .from = 1e-6, .to = 100e-6, .steps = 5};
@@ -235,6 +306,7 @@ int main(void) {
         cmocka_unit_test(units_are_those_of_keys),
         cmocka_unit_test(units_stand_beside_numbers),
         cmocka_unit_test(derivatives_of_polynomials_are_exact),
+        cmocka_unit_test(errors_of_derivatives_hold),
         cmocka_unit_test(the_text_is_the_value),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
