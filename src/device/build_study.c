@@ -414,6 +414,12 @@ static void check_inputs(fw_xml_reader *r, const fw_device_study *s) {
 
 /* what response surfaces cannot tell; NULL: they may */
 static const char *unfit(const fw_device_study *s) {
+    if (s->kind == FW_STUDY_IS_yield)
+        return "fitted=\"...\" belongs to kind=\"sweep\"; a yield judges every die that it counts, "
+               "and "
+               "chooses few: remove it, or take a sweep with as=\"die\", of whose rows the share "
+               "that "
+               "is accepted is the yield of one flow";
     if (s->kind != FW_STUDY_IS_sweep) return "fitted=\"...\" belongs to kind=\"sweep\"; remove it";
     if (s->points == FW_POINTS_LIST)
         return "a list has few points, and each is judged; remove fitted, or take "

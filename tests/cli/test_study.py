@@ -914,7 +914,31 @@ class Study(unittest.TestCase):
                 u.append(json.loads(said.stdout)["hinges"][2]["utilisation"])
             exact = (8 * (u[2] - u[1]) - (u[3] - u[0])) / (12 * step * factor)
             self.assertLess(abs(by[what]["derivative_SI"] / exact - 1), 1e-6, (what, exact, by[what]))
+            self.assertLess(abs(by[what]["derivative_SI"] - exact), by[what]["derivative_error_SI"] + 1e-9 * abs(exact))
         self.assertAlmostEqual(sum(d["first"] for d in by.values()), 1, delta=0.1)
+        # those that the shares are of are as accurate as check, and not as the others
+        row = self.rows("s")[11 * len(at) + 7]
+        sets = [w for what, (_, unit, factor) in at.items() for w in ("--set", f"{what}={float(row[what]) / factor!r} {unit}")]
+        said = json.loads(run("check", GALLERY, "--json", "--corners", "none", *FLOW, *sets).stdout)
+        self.assertLess(abs(float(row["U"]) / said["hinges"][2]["utilisation"] - 1), 1e-12)
+
+    def test_a_plan_of_a_sensitivity_says_the_time_that_it_takes(self):
+        """of a processor, within a factor of two: some of its devices are run at 1e-9. One of three, since other processes slow either"""
+        rows = '<vary what="flexure[C]/@width" from="7 um" to="9 um"/><respond name="U" value="hinges[C].utilisation"/>'
+        path = self.write(study("s", "sensitivity", rows, samples=128).replace("<study", '<study as="hinges"'))
+        ratios = []
+        for attempt in range(3):
+            said = run("study", path, "--plan", "--jobs", 1, *FLOW).stdout
+            planned = re.search(r"at most (\d+) devices in 1 threads, about ([0-9.]+) s .*; the 11 that derivatives are taken from are run at 1e-9, [0-9.e-]+ s each", said)
+            self.assertTrue(planned, said)
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            self.run_study(path, f"s{attempt}", "--jobs", 1)
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            self.assertEqual(int(planned[1]), len(self.rows(f"s{attempt}")))
+            ratios.append((after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime) / float(planned[2]))
+            if 0.5 < ratios[-1] < 2:
+                return
+        self.fail(ratios)
 
 
 if __name__ == "__main__":
