@@ -22,7 +22,6 @@ enum { DIGITS = 13, SPREAD_DIGITS = 9, BASE_USUAL = 128 };
 static const double reach = 0.1; /* of the range, either side */
 /* of that, the nearer devices: a step is a third of it, and none of these is a share of a step */
 static const double nearer = 0.0231, nearest = 0.01013;
-static const double tight = 1e-9; /* accuracy of a device of these */
 /* An error above this share of a derivative, and worth more than `little` of the response over the range: not known */
 static const double known = 0.1, little = 1e-4;
 static const double finer = 0.01; /* what the far ones are off by, of the slope: it is told */
@@ -161,11 +160,12 @@ void fw_study_derive(const double *x, const double *value, double at, double acc
         left[j] = beside[j] - interpolated(x, value, NODES, near[j]);
     double unused;
     const double missed = fabs(slope_of(near, left, NEAR, at, 0, &unused)) - off[2],
-                 closer = fabs(slope_of(close, left + NEAREST, NEAREST, at, 0, &unused)) - off[3];
+                 missed_nearest =
+                     fabs(slope_of(close, left + NEAREST, NEAREST, at, 0, &unused)) - off[3];
     /* twice: at an end of the range they are all on one side of it, and see the slope a little off */
     const double corner = corner_of(x, value, at, each);
-    const double error =
-                     fmax(fmax(fmax(fabs(all - inner), off[0]), corner), 2 * fmax(missed, closer)),
+    const double error = fmax(fmax(fmax(fabs(all - inner), off[0]), corner),
+                              2 * fmax(missed, missed_nearest)),
                  fine_error = fmax(fmax(fabs(other - finest), off[2]), corner);
     const bool far = !isnan(all) && !(fine_error < error); /* an error of NaN is not less */
     const double value_is = far ? all : fine, error_is = far ? error : fine_error;
@@ -192,13 +192,6 @@ static void derive(const sensing *s, int k, int r, fw_study_derivative *d) {
     for (size_t j = 0; j < ALL; j++)
         value[j] = s->response[(row + j) * n + (size_t)r];
     fw_study_derive(s->node + row, value, s->centre[k], s->accuracy, in->to - in->from, d);
-}
-
-double fw_study_tighten(fw_study *study) {
-    fw_design_options *o = &study->options.design;
-    const double asked = o->accuracy;
-    if (o->rtol == 0) o->accuracy = asked > 0 ? fmin(asked, tight) : tight;
-    return asked;
 }
 
 static fw_status derivatives(sensing *s, fw_study_result *result) {

@@ -276,6 +276,15 @@ fw_status fw_study_evaluate(const fw_study *study, const fw_cancel *cancel, fw_s
 
 /* ---- what a sample takes ---- */
 
+static const double tight = 1e-9; /* accuracy of a device that derivatives are taken from */
+
+double fw_study_tighten(fw_study *study) {
+    fw_design_options *o = &study->options.design;
+    const double asked = o->accuracy;
+    if (o->rtol == 0) o->accuracy = asked > 0 ? fmin(asked, tight) : tight;
+    return asked;
+}
+
 enum { TIMED_MOST = 5 };
 static const double timed_enough_s = 1; /* of CPU, for all of them */
 

@@ -230,7 +230,7 @@ fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n);
    that does not hold it, or the description has no parameter of it */
 bool fw_study_input_is_inside(const fw_study_input *in);
 double fw_study_input_centre(const fw_study_input *in);
-/* devices that derivatives are taken from; their accuracy becomes that of the study: which was it? */
+/* devices that derivatives are taken from; their accuracy becomes that of the study (study_engine.c): which was it? */
 long fw_study_count_tight(const fw_study *study);
 double fw_study_tighten(fw_study *study);
 /* weights (n <= 7) of the first derivative at `at` by values at the nodes x (kind_sensitivity.c) */

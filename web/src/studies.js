@@ -268,5 +268,5 @@ const changeOf = (response, change) => (response.share && Math.abs(change) < 10 
 function effects(x) {
     const rows = [...x.by].sort((a, b) => Math.abs(b.half_range_effect ?? 0) - Math.abs(a.half_range_effect ?? 0));
     return h("table", { class: "plain" }, h("thead", {}, h("tr", {}, [x.name, "half its range changes it by", "share of the variance alone", "with all others"].map((t) => h("th", {}, t)))),
-        h("tbody", {}, rows.map((b) => h("tr", {}, h("td", {}, b.what), h("td", { class: "n" }, b.half_range_effect === null || b.half_range_effect === undefined ? "–" : changeOf(x, b.half_range_effect)), h("td", { class: "n" }, b.first === null || b.first === undefined ? "–" : percent(b.first, 2)), h("td", { class: "n" }, b.total === null || b.total === undefined ? "–" : percent(b.total, 2))))));
+        h("tbody", {}, rows.map((b) => h("tr", {}, h("td", {}, b.what), h("td", { class: "n" }, b.half_range_effect === null || b.half_range_effect === undefined ? "not known" : changeOf(x, b.half_range_effect)), h("td", { class: "n" }, b.first === null || b.first === undefined ? "–" : percent(b.first, 2)), h("td", { class: "n" }, b.total === null || b.total === undefined ? "–" : percent(b.total, 2))))));
 }
