@@ -269,7 +269,10 @@ static void put_setting(fw_text *out, const fw_recipe_set *s) {
     fw_text_printf(out, "      set %s = %s", s->name, s->text);
     if (s->q && !s->q->unknown) {
         fw_text_add(out, ", planned ");
-        fw_recipe_put_value(out, fw_quantity_in_unit(s->q));
+        if (s->q->word)
+            fw_text_add(out, s->q->word);
+        else
+            fw_recipe_put_value(out, fw_quantity_in_unit(s->q));
     }
     if (!fw_recipe_asrun_allowed(s)) {
         fw_text_add(out, ": OUT of ");

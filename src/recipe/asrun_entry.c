@@ -170,8 +170,9 @@ static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     fw_recipe_asrun_values v;
     double number;
     size_t first = strcspn(value, " ");
-    bool text = set.q->unknown && strcmp(set.q->unit, "1") == 0 &&
-                !fw_number_parse(value, first, &number); /* which resist */
+    bool text = fw_quantity_is_word(set.q) || /* which resist */
+                (set.q->unknown && strcmp(set.q->unit, "1") == 0 &&
+                 !fw_number_parse(value, first, &number));
     if (!text) {
         FW_TRY(fw_recipe_asrun_values_read(r, name, value, 1, &v));
         FW_TRY(fw_recipe_asrun_values_in(r, name, set.q->unit, set.q, &v));

@@ -518,7 +518,7 @@ static void wafers_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
 static void set_json(const char *name, const fw_quantity *q, fw_json *out) {
     fw_json_object(out, NULL);
     fw_json_text(out, "name", name);
-    put_number(out, "planned", q->unknown ? (double)NAN : fw_quantity_in_unit(q));
+    put_number(out, "planned", q->unknown || q->word ? (double)NAN : fw_quantity_in_unit(q));
     fw_json_text(out, "unit", q->unit);
     fw_json_end(out);
 }
