@@ -250,7 +250,7 @@ describe("numbers of the laboratory", () => {
         await page.evaluate(() => (document.querySelector("details.laboratory").open = true));
         await page.click("#lab-clear");
         await page.locator('.laboratory input[type="file"]').nth(1).setInputFiles(csv);
-        await page.waitForFunction(() => /measured\.csv:\d+/.test(document.querySelector(".laboratory .messages").textContent), null, { timeout: 60000 });
+        await page.waitForFunction(() => /^lot\.csv:\d+/.test(document.querySelector(".laboratory .messages").textContent), null, { timeout: 60000 });
         writeFileSync(csv, COUPONS);
         await page.locator('.laboratory input[type="file"]').nth(1).setInputFiles(csv);
         await page.waitForFunction((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW, { timeout: 60000 });

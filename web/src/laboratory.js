@@ -219,24 +219,27 @@ export class Laboratory {
         return this.fit({ text: await file.text(), options: { flow: this.flow } }, file.name);
     }
 
-    /** By the fit of the command: of a table, or of a log that options name. */
+    /** By the fit of the command: of a table, or of a log that options name. Of several the one that is asked for last counts. */
     async fit(what, name) {
         this.box.open = true;
+        const mine = (this.fitting = {});
+        this.#refuse([]); // what was said of another table
         const into = this.#calibrated(); // of the flow that it is begun with, whichever is looked at when it ends
         this.said.textContent = `Fitting the numbers of ${this.flow} to ${name}…`;
         try {
             const packs = this.#others();
             const names = Object.keys(packs);
             const job = await run("calibrate", names.length ? { ...what, files: packs, options: { ...what.options, lab: names.join(",") } } : what);
-            if (job.state !== "done" || !job.files?.length) return this.#refuse((job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)));
+            if (mine !== this.fitting) return;
+            if (job.state !== "done" || !job.files?.length) return this.#refuse((job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)).map((m) => m.replace(/^measured\.csv(?=:)/, () => name)));
             const pack = await (await fetch(`/api/jobs/${job.id}/files/laboratory.xml`, { credentials: "same-origin" })).text();
-            this.#refuse([]);
+            if (mine !== this.fitting) return;
             state.lab[into] = pack;
             changed(`numbers of ${name} are used`);
         } catch (error) {
-            this.#refuse([error.message]);
+            if (mine === this.fitting) this.#refuse([error.message]);
         }
-        return this.#say();
+        if (mine === this.fitting) this.#say();
     }
 
     #calibrated() {
