@@ -265,6 +265,14 @@ static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e, bool over
     fw_text_add(out, "\n");
 }
 
+void fw_recipe_asrun_planned(const fw_quantity *q, fw_json *out) {
+    if (q && q->word)
+        fw_json_text(out, "planned", q->word);
+    else
+        fw_json_number(out, "planned", q && !q->unknown ? fw_quantity_in_unit(q) : (double)NAN,
+                       FW_PLAIN_DIGITS);
+}
+
 static void put_setting(fw_text *out, const fw_recipe_set *s) {
     fw_text_printf(out, "      set %s = %s", s->name, s->text);
     if (s->q && !s->q->unknown) {

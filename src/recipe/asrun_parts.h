@@ -93,6 +93,8 @@ double fw_recipe_asrun_limit(const char *text, double absent);
 bool fw_recipe_asrun_inside(const char *low, const char *high, double value);
 bool fw_recipe_asrun_accepted(const fw_process_accept *a, const fw_recipe_measured *m);
 bool fw_recipe_asrun_allowed(const fw_recipe_set *set);
+/* what was planned, as the member of that name: a number in its unit, a word, null where it is not known or q is NULL */
+void fw_recipe_asrun_planned(const fw_quantity *q, fw_json *out);
 
 /* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set */
 typedef struct fw_recipe_amount_in_time {
