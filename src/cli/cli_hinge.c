@@ -285,6 +285,9 @@ static void hinge_json(fw_json *json, const fw_plan_ladders *all, const fw_plan_
     for (int i = 0; i < l->rows; i++)
         level_json(json, &l->row[i]);
     fw_json_end(json);
+    real(json, "fillet_m", h->input.fillet_m >= 0 ? h->input.fillet_m : (double)NAN);
+    fw_json_truth(json, "fillet_stated",
+                  !isnan(l->mechanism->device->flexure[h->flexure].fillet_m));
     real(json, "axis_rad", h->axis_rad);
     pair(json, "axis_offset_m", c->offset_m[0], c->offset_m[1]);
     real(json, "youngs_Pa", c->youngs_Pa);

@@ -344,6 +344,10 @@ static void item(fw_json *json, const fw_measuring *m, const fw_measuring_item *
     fw_json_text(json, "name", x->name);
     fw_json_truth(json, "known", !x->unknown);
     fw_json_text(json, "unit", x->q.unit);
+    fw_json_text(json, "kind",
+                 fw_quantity_is_word(&x->q)                       ? "word"
+                 : x->q.range && strcmp(x->q.range, "count") == 0 ? "count"
+                                                                  : "number");
     fw_json_real(json, "value", in_unit(&x->q, x->value, false));
     fw_json_real(json, "u", in_unit(&x->q, x->before, true));
     fw_json_real(json, "u_measured", in_unit(&x->q, x->after, true));

@@ -221,8 +221,8 @@ static fw_status no_such(fw_process_flow *flow, fw_diags *diags, const fw_xml_at
 /* "1.2 um", "unknown" */
 static fw_status bare(fw_arena *arena, const fw_quantity *q, const char **text) {
     fw_text out = fw_text_new(arena);
-    if (q->unknown)
-        fw_text_add(&out, "unknown");
+    if (q->unknown || q->word)
+        fw_text_add(&out, q->unknown ? "unknown" : q->word);
     else {
         fw_text_number(&out, fw_quantity_in_unit(q), 6);
         if (strcmp(q->unit, "1") != 0) fw_text_printf(&out, " %s", q->unit);
@@ -359,8 +359,8 @@ fw_status fw_process_lab_ask(fw_arena *arena, const fw_process_flow *flow, fw_di
 
 static fw_status amount(fw_arena *arena, const fw_quantity *q, const char **text) {
     fw_text out = fw_text_new(arena);
-    if (q->unknown)
-        fw_text_add(&out, "unknown");
+    if (q->unknown || q->word)
+        fw_text_add(&out, q->unknown ? "unknown" : q->word);
     else {
         fw_quantity_unit unit;
         double u = q->uncertainty;
@@ -398,6 +398,14 @@ static fw_status replace(fw_arena *arena, fw_process_flow *flow, fw_diags *diags
             "'%s' is %s in the process pack, and not %s; write it in a unit of that kind",
             id->value, want, is);
     }
+    if (!new->unknown && fw_quantity_is_word(old) != (new->word != NULL))
+        return fw_diag_error(diags, 728, new->place,
+                             new->word
+                                 ? "'%s' is a number; write value=\"...\" with its "
+                                   "uncertainty, and not a word"
+                                 : "'%s' is no number: say by word=\"...\" what it is called, "
+                                   "without a value and an uncertainty",
+                             id->value);
     if (old->replaced && old->place.file &&
         new->place.file &&strcmp(old->place.file, new->place.file) == 0)
         return fw_diag_error(diags, 211, id->place,

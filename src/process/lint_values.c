@@ -139,7 +139,7 @@ static void too_uncertain(units *u, const fw_quantity *q, fw_diags *diags) {
 }
 
 static bool is_count(const fw_quantity *q) {
-    return q->range && strcmp(q->range, "count") == 0;
+    return q->range && (strcmp(q->range, "count") == 0 || fw_quantity_is_word(q));
 }
 
 /* a pack knows which of its numbers are exact: sizes that are chosen, limits, things that are counted */
@@ -378,7 +378,7 @@ static void not_of_step(fw_process_pack *pack, const fw_process_step *s, const s
 static void lint_of_step(fw_process_pack *pack, const step_units *u, const fw_process_step *s,
                          const char *name, const fw_quantity *q) {
     const bool no_time = q && !(q->value > 0.0) && !(q->value < 0.0) && strcmp(name, "time") == 0;
-    if (!q || q->unknown || no_time) return;
+    if (!q || q->unknown || q->word || no_time) return;
     for (int i = 0; i < STEP_RANGES; i++) {
         const step_range *r = &step_ranges[i];
         const fw_quantity_unit *unit = &u->of[i];

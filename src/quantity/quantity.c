@@ -222,6 +222,10 @@ bool fw_quantity_value_status_parse(const char *text, fw_quantity_value_status *
     return false;
 }
 
+bool fw_quantity_is_word(const fw_quantity *q) {
+    return q->word || (q->range && strcmp(q->range, "word") == 0);
+}
+
 double fw_quantity_in_unit(const fw_quantity *q) {
     fw_quantity_unit unit;
     if (!q->unit || !fw_quantity_unit_parse(q->unit, strlen(q->unit), &unit, NULL, NULL))

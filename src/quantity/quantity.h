@@ -63,9 +63,10 @@ typedef struct fw_quantity_correlated { /* what a quantity was fitted together w
 } fw_quantity_correlated;
 
 typedef struct fw_quantity {
-    const char *id;     /* may be NULL */
-    bool unknown;       /* no value: whatever needs it is NOT COMPUTABLE */
-    double value;       /* SI */
+    const char *id;   /* may be NULL */
+    bool unknown;     /* no value: whatever needs it is NOT COMPUTABLE */
+    const char *word; /* of what is no number (which resist): its name, and value is 0; else NULL */
+    double value;     /* SI */
     double uncertainty; /* standard, absolute, SI; >= 0 */
     bool interval;      /* the uncertainty was given as a range: low to high, SI */
     double low, high;
@@ -88,6 +89,8 @@ typedef struct fw_quantity {
 /* of the errors of two different quantities, -1 to 1; 0 where nothing is known of it */
 double fw_quantity_correlation(const fw_quantity *a, const fw_quantity *b);
 
+/* it is named and not measured: known by a word, or unknown and of the range "word" */
+bool fw_quantity_is_word(const fw_quantity *q);
 /* value in its own unit, e.g. 9 for 9e-6 m in "um" */
 double fw_quantity_in_unit(const fw_quantity *q);
 

@@ -271,9 +271,17 @@ static void put_measured(fw_text *out, const fw_recipe_asrun_entry *e, bool over
     fw_text_add(out, "\n");
 }
 
+void fw_recipe_asrun_planned(const fw_quantity *q, double planned, fw_json *out) {
+    if (q && q->word)
+        fw_json_text(out, "planned", q->word);
+    else
+        fw_json_number(out, "planned", planned, FW_PLAIN_DIGITS);
+}
+
 void fw_recipe_asrun_put_set_beside_planned(const fw_recipe_set *s, fw_text *out) {
     fw_recipe_asrun_put_set(s, out);
-    if (isnan(s->planned)) return;
+    if (s->q && s->q->word) fw_text_printf(out, ", planned %s", s->q->word);
+    if (isnan(s->planned) || (s->q && s->q->word)) return;
     fw_text_add(out, ", planned ");
     fw_recipe_put_value(out, s->planned);
     put_unit(out, s->q->unit);

@@ -147,7 +147,7 @@ static fw_status setting_of(const fw_recipe_asrun_reader *r, const fw_process_st
             set->q = row[i].q;
             set->low = row[i].low;
             set->high = row[i].high;
-            if (!set->q->unknown) set->planned = fw_quantity_in_unit(set->q);
+            if (!set->q->unknown && !set->q->word) set->planned = fw_quantity_in_unit(set->q);
             return FW_OK;
         }
         if (names < MOST_NAMES) known[names++] = row[i].name;
@@ -173,8 +173,9 @@ static fw_status read_setting(const fw_recipe_asrun_reader *r, fw_recipe_asrun_e
     fw_recipe_asrun_values v;
     double number;
     size_t first = strcspn(value, " ");
-    bool text = set.q->unknown && strcmp(set.q->unit, "1") == 0 &&
-                !fw_number_parse(value, first, &number); /* which resist */
+    bool text = fw_quantity_is_word(set.q) || /* which resist */
+                (set.q->unknown && strcmp(set.q->unit, "1") == 0 &&
+                 !fw_number_parse(value, first, &number));
     if (!text) {
         FW_TRY(fw_recipe_asrun_values_read(r, name, value, 1, &v));
         FW_TRY(fw_recipe_asrun_values_in(r, name, set.q->unit, set.q, &v));

@@ -106,6 +106,8 @@ bool fw_recipe_asrun_is_limits(const char *name);
 void fw_recipe_asrun_put_limits(const fw_recipe_asrun_entry *e, fw_text *out);
 fw_status fw_recipe_asrun_take_limits(fw_arena *arena, fw_recipe_asrun_entry *e, const char *name,
                                       const char *text);
+/* what was planned, as the member of that name: a word, else the number that it has in its unit, null where that is not known */
+void fw_recipe_asrun_planned(const fw_quantity *q, double planned, fw_json *out);
 
 /* what was measured of a thickness against what the step's law makes of the time that it took, and of what was set */
 typedef struct fw_recipe_amount_in_time {

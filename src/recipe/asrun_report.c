@@ -337,7 +337,7 @@ static void settings_json(const fw_recipe_asrun_entry *e, fw_json *out) {
         else
             put_number(out, "value", s->value);
         /* a log that was read without its plan may set what no step has */
-        put_number(out, "planned", s->planned);
+        fw_recipe_asrun_planned(s->q, s->planned, out);
         put_text(out, "unit", s->q ? s->q->unit : NULL);
         fw_json_truth(out, "accepted", fw_recipe_asrun_allowed(s));
         fw_json_end(out);
@@ -512,7 +512,7 @@ static void wafers_json(const fw_process_flow *flow, const fw_recipe_asrun *run,
 static void set_json(const char *name, const fw_quantity *q, fw_json *out) {
     fw_json_object(out, NULL);
     fw_json_text(out, "name", name);
-    put_number(out, "planned", q->unknown ? (double)NAN : fw_quantity_in_unit(q));
+    fw_recipe_asrun_planned(q, q && !q->unknown ? fw_quantity_in_unit(q) : (double)NAN, out);
     fw_json_text(out, "unit", q->unit);
     fw_json_end(out);
 }

@@ -267,8 +267,12 @@ static void value_cell(const fw_quantity *q, bool derived, fw_text *out) {
         return;
     }
     fw_text_add(out, "<b>");
-    fw_recipe_put_value(out, as_known(q, derived));
+    if (q->word)
+        fw_text_escaped(out, q->word);
+    else
+        fw_recipe_put_value(out, as_known(q, derived));
     fw_text_add(out, "</b>");
+    if (q->word) return;
     double u = fw_recipe_row_uncertainty(q);
     if (u > 0.0) {
         fw_text_add(out, " ± ");

@@ -102,6 +102,8 @@ double fw_recipe_row_uncertainty(const fw_quantity *q);
    uncertainty gets 9, since slopes by central difference hold about 1e-10. */
 enum { FW_PLAIN_DIGITS = 12, FW_UNCERTAINTY_DIGITS = 9 };
 void fw_recipe_put_plain(fw_text *out, double value);
+/* a cell of a table: its value in its unit, or its word; nothing where it is unknown */
+void fw_recipe_put_known(fw_text *out, const fw_quantity *q);
 void fw_recipe_put_uncertainty(fw_text *out, double value);
 void fw_recipe_put_span(fw_text *out, const char *low, const char *high); /* "48 to 52" */
 void fw_recipe_put_value(fw_text *out, double value); /* up to 6 significant digits */

@@ -20,12 +20,13 @@ static void quantity(fw_json *out, const fw_recipe_row *row) {
     const fw_quantity *q = row->q;
     fw_json_object(out, NULL);
     words(out, "name", row->name);
-    if (q->unknown)
+    if (q->unknown || q->word)
         fw_json_null(out, "value");
     else
         number(out, "value", fw_quantity_in_unit(q));
+    if (fw_quantity_is_word(q)) fw_json_text(out, "word", q->word);
     words(out, "unit", q->unit);
-    if (q->unknown)
+    if (q->unknown || q->word)
         fw_json_null(out, "uncertainty");
     else
         fw_json_number(out, "uncertainty", fw_recipe_row_uncertainty(q), FW_UNCERTAINTY_DIGITS);

@@ -21,11 +21,11 @@ static void head(fw_text *out, const fw_process_step *s, const char *name) {
 static void quantity_row(fw_text *out, const fw_process_step *s, const fw_recipe_row *row) {
     const fw_quantity *q = row->q;
     head(out, s, row->name);
-    if (!q->unknown) fw_recipe_put_plain(out, fw_quantity_in_unit(q));
+    fw_recipe_put_known(out, q);
     fw_text_add(out, ",");
     fw_text_csv(out, q->unit);
     fw_text_add(out, ",");
-    if (!q->unknown) fw_recipe_put_uncertainty(out, fw_recipe_row_uncertainty(q));
+    if (!q->unknown && !q->word) fw_recipe_put_uncertainty(out, fw_recipe_row_uncertainty(q));
     fw_text_add(out, ",");
     fw_text_csv(out, q->unknown ? "unknown" : fw_quantity_value_status_text(q->status));
     fw_text_add(out, ",");

@@ -51,6 +51,13 @@ void fw_recipe_put_plain(fw_text *out, double value) {
     fw_text_number(out, value, FW_PLAIN_DIGITS);
 }
 
+void fw_recipe_put_known(fw_text *out, const fw_quantity *q) {
+    if (q->word)
+        fw_text_csv(out, q->word);
+    else if (!q->unknown)
+        fw_recipe_put_plain(out, fw_quantity_in_unit(q));
+}
+
 void fw_recipe_put_uncertainty(fw_text *out, double value) {
     fw_text_number(out, value, FW_UNCERTAINTY_DIGITS);
 }

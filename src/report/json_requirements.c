@@ -187,6 +187,7 @@ void fw_report_json_out_of_plane(fw_json *json, const fw_verdict *v) {
         fw_json_real(json, "stiffness_N_per_m", o->why ? (double)NAN : o->across_N_per_m);
         fw_json_real(json, "stiffness_over_in_plane", o->why ? (double)NAN : o->ratio);
         fw_json_real(json, "weight_sag_m", o->why ? (double)NAN : o->weight_m);
+        fw_json_real(json, "weight_sag_most_m", o->why ? (double)NAN : o->weight_most_m);
         plate_modes(json, o);
         fw_json_list(json, "scenes");
         for (int k = 0; k < o->nscene && !o->why; k++)

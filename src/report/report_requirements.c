@@ -424,8 +424,8 @@ static void plates_row(fw_text *out, const fw_verdict_variant_verdict *v) {
     if (o->why)
         fw_markup(out, "<td></td><td></td><td></td>");
     else
-        fw_markup(out, "<td>{u}, {s}</td><td>{n}</td><td>{u}</td>", o->across_N_per_m, "N/m",
-                  o->body, o->ratio, o->weight_m, "m");
+        fw_markup(out, "<td>{u}, {s}</td><td>{n}</td><td>{u}, at most {u}</td>", o->across_N_per_m,
+                  "N/m", o->body, o->ratio, o->weight_m, "m", o->weight_most_m, "m");
     fw_markup(out, "<td>{s}</td></tr>\n",
               v->variant->below.known ? v->variant->below.words : "not known");
 }

@@ -13,6 +13,8 @@ static const char *const true_word[] = {"true", NULL};
 const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS] = {
     {"id", .datatype = "NCName", .required = true, .sentence = "Name that references use."},
     {"value", DECIMAL, .sentence = "In the unit; needed unless it is unknown."},
+    {"word",
+     .sentence = "Or what it is called, of what is no number (range=\"word\"): which resist."},
     {"u", SIZE, .sentence = "Standard uncertainty, in the unit; 0: exact."},
     {"urel", SIZE, .sentence = "Or the relative one."},
     {"spread", SIZE,
@@ -98,7 +100,7 @@ static void check_names(const fw_xml_element *e, fw_diags *diags) {
             diags, 42, e->attribute[i].name_place, "<q> has no attribute '%s'%s%s%s",
             e->attribute[i].name, better ? "; did you mean '" : "", better ? better : "",
             better ? "'?"
-                   : "; known are id value u urel spread lo hi unit status u-status src note "
+                   : "; known are id value word u urel spread lo hi unit status u-status src note "
                      "unknown least most range");
     }
 }
@@ -261,9 +263,30 @@ static void read_spread(const fw_xml_element *e, fw_diags *diags, const fw_quant
     }
 }
 
+/* what is named has neither a value nor an uncertainty, and its unit is 1 */
+static void read_word(const fw_xml_element *e, const fw_xml_attribute *word, fw_diags *diags,
+                      fw_quantity *q) {
+    static const char *const numbers[] = {"value", "u", "urel", "lo", "hi", "spread"};
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        if (fw_xml_attribute_of(e, numbers[i])) {
+            fw_diag_error(diags, 728, value_place(e, numbers[i]),
+                          "word=\"%.64s\" and %s exclude each other: what is named is no number; "
+                          "remove one",
+                          word->value, numbers[i]);
+            return;
+        }
+    q->word = word->value;
+    if (word->value[strspn(word->value, " ")] == '\0')
+        fw_diag_error(diags, 728, word->place,
+                      "word=\"\" says nothing; name it, or leave it unknown");
+    else if (strcmp(q->unit, "1") != 0)
+        fw_diag_error(diags, 728, word->place, "a word has no unit; write unit=\"1\"");
+}
+
 static void read_value(const fw_xml_element *e, fw_diags *diags, const fw_quantity_unit *unit,
                        fw_quantity *q) {
-    const fw_xml_attribute *unknown = fw_xml_attribute_of(e, "unknown");
+    const fw_xml_attribute *unknown = fw_xml_attribute_of(e, "unknown"),
+                           *word = fw_xml_attribute_of(e, "word");
     if (unknown) {
         q->unknown = true;
         if (strcmp(unknown->value, "true") != 0)
@@ -271,13 +294,18 @@ static void read_value(const fw_xml_element *e, fw_diags *diags, const fw_quanti
                           "unknown=\"%s\"; only unknown=\"true\" has a "
                           "meaning, else leave it out",
                           unknown->value);
-        if (fw_xml_attribute_of(e, "value"))
-            fw_diag_error(diags, 70, value_place(e, "value"),
-                          "a value and unknown=\"true\" exclude "
-                          "each other; remove one");
+        if (word || fw_xml_attribute_of(e, "value"))
+            fw_diag_error(diags, 70, value_place(e, word ? "word" : "value"),
+                          "a %s and unknown=\"true\" exclude "
+                          "each other; remove one",
+                          word ? "word" : "value");
         return;
     }
     double written;
+    if (word) {
+        read_word(e, word, diags, q);
+        return;
+    }
     if (!fw_xml_attribute_of(e, "value")) {
         fw_diag_error(diags, 43, e->place,
                       "<q> has no value; add value=\"...\" or unknown=\"true\"");
@@ -359,6 +387,14 @@ fw_status fw_xml_quantity_read(fw_arena *arena, const fw_xml_element *element,
     read_source(element, source, nsource, diags, q);
     read_value(element, diags, &unit, q);
     read_range(element, diags, &unit, q);
+    if (range && !q->unknown &&
+        fw_quantity_is_word(q) != (q->word && strcmp(range->value, "word") == 0))
+        fw_diag_error(
+            diags, 728, range->place,
+            q->word
+                ? "range=\"%.64s\" is of numbers; what is named by word=\"...\" has range=\"word\""
+                : "range=\"%.64s\": what is named has word=\"...\", and no value",
+            range->value);
     if (diags->failed) return FW_NOMEM;
     if (diags->errors == before) return FW_OK;
     q->unknown = true;

@@ -239,7 +239,7 @@ fw_status fw_xml_expression_report(fw_xml_reader *r, const fw_xml_attribute *a, 
    packs share instead (process/quantity_ranges.def). */
 
 /* what may stand in <q>, for tables (apart) and schemas; fw_xml_quantity_read has the checks */
-enum { FW_QUANTITY_ROWS = 16 };
+enum { FW_QUANTITY_ROWS = 17 };
 extern const fw_xml_attribute_row fw_xml_quantity_rows[FW_QUANTITY_ROWS];
 
 typedef struct fw_xml_source_text { /* <source id ...>text</source> */

@@ -54,9 +54,19 @@ describe("commands as cards", () => {
         assert.equal(notes.length, told.hinges.length);
         for (const [i, x] of told.hinges.entries()) {
             assert.ok(notes[i].includes(x.picked.why) && /stiffness used: [\d.]+ .?N m\/rad/.test(notes[i]), notes[i]);
+            assert.ok(notes[i].includes(`strain and limit rest on fillets of ${Number((x.fillet_m * 1e6).toPrecision(4))} µm at its roots, ${x.fillet_stated ? "as stated" : "chosen: none is stated"}`), notes[i]);
             assert.equal(/outside of the shapes that were compared with finite elements: errors are guesses/.test(notes[i]), x.levels.some((y) => y.error?.outside));
         }
         await clean("ladder");
+    });
+
+    test("what weight lowers is told with what it is at most, as the terminal says it", async () => {
+        const all = print("check", server.file, "--corners", "none").out_of_plane.filter((o) => o.known);
+        const said = await page.textContent(".card.across");
+        const near = (words, m) => Math.abs(Number(words) * 1e-9 / m - 1) < 1e-3;
+        const found = [...said.matchAll(/Its weight lowers it by ([\d.]+) nm, at most ([\d.]+) nm, on a table/g)];
+        assert.equal(found.length, all.length, said);
+        found.forEach(([, a, b], i) => assert.ok(near(a, all[i].weight_sag_m) && near(b, all[i].weight_sag_most_m) && Number(b) >= Number(a), said));
     });
 
     test("what was left out of the live answer is listed", async () => {

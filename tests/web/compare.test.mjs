@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
-import { answered, axeSource, close, finish, open, ready, serve, setText, text, verdict, view } from "./helper.mjs";
+import { answered, axeSource, close, finish, laidOut, open, ready, serve, setText, text, verdict, view } from "./helper.mjs";
 
 after(finish);
 
@@ -57,6 +57,26 @@ describe("a stage against a version of itself", () => {
         await page.waitForSelector(".as-drawn:text-is('as it will be made')", { timeout: 60000 });
         await row("Share of the limit: hinge A, as made").waitFor();
         await shot(page, "compare.png");
+    });
+
+    test("what a number is has the whole width of the card, and no column is cut, at every width of the page", async () => {
+        for (const width of [1024, 1440, 1920]) {
+            await page.setViewportSize({ width, height: 900 });
+            await laidOut(page);
+            const wrong = await page.evaluate(() => {
+                const card = document.querySelector(".compare");
+                const out = card.scrollWidth > card.clientWidth ? [`${card.scrollWidth} wide in ${card.clientWidth}`] : [];
+                for (const row of card.querySelectorAll("tr[data-what]")) {
+                    const [what, ...cells] = [...row.cells].map((c) => c.getBoundingClientRect());
+                    if (what.width < 0.9 * card.clientWidth) out.push(`${row.dataset.what}: ${what.width}`);
+                    for (const c of cells) if (c.width < 60 || c.top < what.bottom - 1) out.push(`${row.dataset.what}: a cell of ${c.width}`);
+                }
+                const heads = [...card.querySelectorAll("thead th")].filter((x) => x.offsetParent).map((x) => x.textContent);
+                return [...out, ...(String(heads) === "then,now,change" ? [] : heads)];
+            });
+            assert.deepEqual(wrong, [], `at ${width} pixels`);
+        }
+        await page.setViewportSize({ width: 1440, height: 900 });
     });
 
     test("the ghost moves by its own motion, and stands in Draw", async () => {

@@ -2,7 +2,7 @@
 // Random edits, held sliders, options and slow answers: after each all that is shown is what a fresh answer says of
 // the text in the editor, and before that nothing of a former input looks current.
 //
-// FW_DRIVE_STEPS and FW_DRIVE_SEED: more steps on every device, another course. `tests/web/run.sh PROGRAM BUILD
+// FW_DRIVE_STEPS and FW_DRIVE_SEED: more steps on every device, another course; FW_DRIVE_WAIT_MS: how long a step may take to settle. `tests/web/run.sh PROGRAM BUILD
 // drive.test.mjs` runs this alone; with FW_DRIVE_STEPS=1000 on six devices.
 import { after, test } from "node:test";
 import { actions, dice, step, watcher } from "./drive.mjs";

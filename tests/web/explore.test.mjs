@@ -127,6 +127,26 @@ describe("a range", () => {
         assert.equal(await text(page), before);
     });
 
+    test("the pointer tells the nearest device beside it, and what is kept below stays", async () => {
+        const kept = await page.textContent(".explore-readout");
+        const box = await page.locator(".explore-plot").boundingBox();
+        const list = await points(page);
+        const { from, to } = await page.evaluate(() => globalThis.flexwright.parts.explore.spec.inputs[0]);
+        for (const share of [0.3, 0.7]) {
+            await page.mouse.move(box.x + share * box.width, box.y + box.height / 3);
+            const said = await page.textContent(".explore-tip:not([hidden])");
+            const [, x, value] = /^\S.* ([\d.]+) um: \w+, ([\d.]+) %/.exec(said) ?? assert.fail(said);
+            const there = list.find((p) => p.x === Number(x));
+            assert.equal(value, String(Number(there.value.toPrecision(4))));
+            const mark = await page.locator(".explore-under").boundingBox(); // it stands at that device, and none is nearer to the pointer
+            const apart = Math.min(...list.map((p) => Math.abs(p.x - (there.x + ((box.x + share * box.width - mark.x - mark.width / 2) / (box.width - 72)) * (to - from)))));
+            assert.ok(Math.abs(box.x + share * box.width - mark.x - mark.width / 2) <= (apart / (to - from)) * box.width + 2, said);
+        }
+        assert.equal(await page.textContent(".explore-readout"), kept);
+        await page.mouse.move(box.x + 100, box.y - 40);
+        assert.equal(await page.locator(".explore-tip").isVisible(), false);
+    });
+
     test("another text makes it old at once, and new by itself; a held slider, too", async () => {
         await whole(page);
         await setText(page, ['safety-factor="2"', 'safety-factor="3"']);
@@ -237,6 +257,27 @@ describe("studies", () => {
         assert.match(await text(page), /<study name="size" kind="size" as="drawn">\s*<vary what="flexure\[C\]\/@width" from="7 um" to="12 um"\/>\s*<respond name="used" value="governing.utilisation" goal="minimise"\/>\s*<\/study>/);
     });
 
+    test("one that is added, a comment and a blank line leave what is judged and explored of the device as it is", async () => {
+        await page.waitForFunction(() => globalThis.flexwright.settled(true) && globalThis.flexwright.parts.explore.whole, null, { timeout: LONG });
+        const now = () => page.evaluate(() => {
+            const { explore, verdict } = globalThis.flexwright.parts;
+            return { job: verdict.full.job.id, stale: verdict.full.stale, basis: document.querySelector("#banner .as-drawn").textContent, of: document.querySelector("#banner").dataset.of, explored: explore.done.size, present: explore.showing.element.dataset.of };
+        });
+        const asked = [];
+        const listen = (r) => r.method() === "POST" && /\/api\/(jobs|explore)$/.test(r.url()) && asked.push(r.url());
+        const before = await now();
+        assert.deepEqual([before.stale, before.of, before.present], [false, "present", "present"]);
+        page.on("request", listen);
+        await answered(page, () => page.click("#study-add"));
+        assert.equal(((await text(page)).match(/<study /g) ?? []).length, 2);
+        await answered(page, () => setText(page, ["<material ", "<!-- of > nothing -->\n\n  <material "]));
+        await page.waitForTimeout(2500); // longer than a text has to rest
+        assert.deepEqual(await now(), before);
+        assert.deepEqual(asked, []);
+        page.off("request", listen);
+        for (let i = 0; i < 2; i++) await answered(page, () => page.click("#undo"));
+    });
+
     test("run, stopped, gone on with: nothing that was judged is judged again", async () => {
         await page.click(`${card} [data-act="run"]`);
         await page.waitForFunction((c) => /(\d+) of (?:at most )?\d+ devices/.exec(document.querySelector(`${c} .study-said`).textContent)?.[1] > 2, card, { timeout: LONG });
@@ -316,5 +357,19 @@ describe("studies", () => {
         assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present");
         assert.equal(await page.locator(`${card} [data-act^="resume"]`).count(), 0);
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result.found), found);
+    });
+
+    test("of devices that could not be judged one is told with its reason", async () => {
+        await page.selectOption('select[aria-label="Vary"]', "flexure[C]/@width");
+        await setRange(page, "First", "8 um", "400 um");
+        await page.selectOption('select[aria-label="Kind of study"]', "sweep");
+        await page.click("#study-add");
+        const sweep = '.study[data-name="sweep"]';
+        await page.click(`${sweep} [data-act="run"]:not([disabled])`);
+        await page.waitForSelector(`${sweep} .study-body p`, { timeout: LONG });
+        const { samples } = await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("sweep").job.result);
+        assert.ok(samples.failed > 0 && samples.run > 0 && samples.example_why, JSON.stringify(samples));
+        const said = await page.locator(`${sweep} .study-body p`).first().textContent();
+        assert.ok(said.endsWith(`${samples.failed} could not be judged (number ${samples.example_at}: ${samples.example_why}).`), said);
     });
 });

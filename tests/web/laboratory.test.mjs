@@ -131,11 +131,12 @@ describe("numbers of the laboratory", () => {
     });
 
     test("entered, they are a pack: the recipe is that of the command with --lab, the verdict says so", async () => {
-        for (const [id, value, u] of [["al.R", "38.5", "1.5"], ["al.power", "200", "2"], ["expose.D", "210", "10"], ["resist.type", "1", "0"]]) {
+        for (const [id, value, u] of [["al.R", "38.5", "1.5"], ["al.power", "200", "2"], ["expose.D", "210", "10"], ["resist.type", "AZ 5214E <new>", null]]) {
             await row(id).locator("input").nth(0).fill(value);
-            await row(id).locator("input").nth(1).fill(u);
+            if (u !== null) await row(id).locator("input").nth(1).fill(u);
         }
-        await row("resist.type").locator("select").selectOption("assumed");
+        // which resist is a word: it has no uncertainty and no unit
+        assert.deepEqual([await row("resist.type").locator("input").count(), await row("resist.type").locator("td").nth(2).textContent()], [1, "a word"]);
         await page.fill(".lab-source", "our notebook <7>");
         await anew(() => page.click("#lab-use"));
         const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#lab-save")]);
@@ -147,6 +148,8 @@ describe("numbers of the laboratory", () => {
         assert.deepEqual(mine.steps.map((s) => [s.id, s.time_s, s.not_computable]), told.steps.map((s) => [s.id, s.time_s, s.not_computable]));
         assert.equal(mine.total_s, told.total_s);
         assert.ok(mine.steps.find((s) => s.id === "S03").time_s !== null);
+        assert.ok(mine.steps.some((s) => s.quantities.some((q) => q.word === "AZ 5214E <new>" && q.value === null && q.status === "stated")));
+        assert.equal(await row("resist.type").locator(".lab-used").textContent(), "AZ 5214E <new>");
         await page.waitForFunction(() => /with your laboratory's numbers/.test(document.querySelector(".as-drawn").textContent));
     });
 
@@ -247,7 +250,7 @@ describe("numbers of the laboratory", () => {
         await page.evaluate(() => (document.querySelector("details.laboratory").open = true));
         await page.click("#lab-clear");
         await page.locator('.laboratory input[type="file"]').nth(1).setInputFiles(csv);
-        await page.waitForFunction(() => /measured\.csv:\d+/.test(document.querySelector(".laboratory .messages").textContent), null, { timeout: 60000 });
+        await page.waitForFunction(() => /^lot\.csv:\d+/.test(document.querySelector(".laboratory .messages").textContent), null, { timeout: 60000 });
         writeFileSync(csv, COUPONS);
         await page.locator('.laboratory input[type="file"]').nth(1).setInputFiles(csv);
         await page.waitForFunction((f) => globalThis.flexwright.state.lab[`calibrated-${f}.xml`], FLOW, { timeout: 60000 });

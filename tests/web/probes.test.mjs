@@ -293,6 +293,16 @@ describe("probes", () => {
             return { frameCount, repetitionCount, ms: image.duration / 1000, wide: image.displayWidth === svg.clientWidth };
         }, bytes.toString("base64"));
         assert.deepEqual(told, { frameCount: 50, repetitionCount: Infinity, ms: 40, wide: true });
+        // of a text with a mistake there is no picture: what is saved of the former one says so
+        await answered(page, () => setText(page, ['kind="leaf"', 'kind="leef"']));
+        const [former, moving] = await film("Animated SVG");
+        assert.equal(former, "straight-stage-draw-former-input.svg");
+        assert.match(moving.toString(), /one second here is [^<]*, of a former input<\/text>/);
+        await page.click("#panel-motion .plot-menu > summary >> nth=0");
+        const [csv] = await Promise.all([page.waitForEvent("download"), page.click('#panel-motion .plot-menu[open] button:has-text("Save as CSV")')]);
+        assert.match(csv.suggestedFilename(), /-former-input\.csv$/);
+        assert.match(await page.evaluate(() => globalThis.flexwright.parts.motion.angles.svg()), /, of a former input<\/text>/);
+        await answered(page, () => page.click("#undo"));
     });
 
     test("the documentation is part of the page, and its links lead to pages that are there", async () => {

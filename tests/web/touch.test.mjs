@@ -122,6 +122,24 @@ describe("on a phone", () => {
         assert.ok(to - from < 6 && from > 0 && to < 10, `${from} ${to}`);
     });
 
+    test("one finger on a handle drags it, up and down, too, and the page stays where it is", async () => {
+        const finger = async (panel, selector, by, moved) => {
+            await view(page, panel);
+            await page.locator(selector).scrollIntoViewIfNeeded();
+            const b = await page.locator(selector).boundingBox();
+            const at = [b.x + b.width / 2, b.y + b.height / 2];
+            const before = await page.evaluate(moved);
+            const scrolled = await page.evaluate(() => scrollY);
+            await gesture([at], [[at[0], at[1] + by]]);
+            await page.waitForFunction(([f, was]) => new Function(`return (${f})()`)() !== was, [String(moved), before]);
+            assert.equal(await page.evaluate(() => scrollY), scrolled, panel);
+        };
+        await finger("workspace", "#panel-workspace .handle[role=slider]", -20, () => document.querySelector("#pose-y_m").value);
+        await finger("draw", '.draw-handle[data-id="device/workspace[1] most"] .reach', 20, () => globalThis.flexwright.state.text);
+        await page.click("#undo");
+        await view(page, "motion");
+    });
+
     test("the handle of a load's direction is in the picture, where its arrow would end outside, too", async () => {
         const arm = `<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie"/>
             <mechanism><body id="arm" x="0 um" y="0 um"><bar x="0 um" y="0 um" to-x="1500 um" to-y="0 um" width="120 um"/></body>

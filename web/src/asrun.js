@@ -22,7 +22,7 @@ const now = () => new Date(Date.now() - new Date().getTimezoneOffset() * 60000).
 /** The unit that a value is in, where no value stands before it. */
 const within = (unit) => (units(unit).trim() ? `, in ${units(unit).trim()}` : "");
 
-const planned = (x) => (x.planned === null ? `not known${within(x.unit)}` : `${number(x.planned, 6)}${units(x.unit)}`);
+const planned = (x) => (typeof x.planned === "string" ? x.planned : x.planned === null ? `not known${within(x.unit)}` : `${number(x.planned, 6)}${units(x.unit)}`);
 
 /** What is accepted of a measure, in words. */
 function accepted(m) {

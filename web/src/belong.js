@@ -32,6 +32,7 @@ const begun = [];
 export function anotherDevice(text) {
     if (text === state.text) return;
     texts.delete(text); // it is no text of before, though it may be the same
+    firsts.clear();
     begun.push(numberOf(text));
     emit("another");
 }
@@ -41,12 +42,34 @@ const deviceOf = (text) => begun.filter((first) => first <= text).length;
 /** What belongs to this input is of a device that is no longer there. */
 export const ofAnother = (of) => begun.length > 0 && deviceOf(Number(/^\[(\d+)/.exec(of)?.[1])) !== deviceOf(numberOf(state.text));
 
-/** What a request of now is of, or of which parts of the state a result depends: with other options, of a job. */
-export const requestKey = (options = state.options) => JSON.stringify([numberOf(state.text), ordered(state.set), ordered(options), ...Object.entries(state.lab).map(([name, text]) => [name, numberOf(text)])]);
+// What judges a device reads neither its studies nor comments, nor what is blank between elements: texts that differ in
+// nothing else are one input of it.
+const COMMENT = /<!--[^]*?-->/g;
+const STUDY = /<study(?:\s+[\w:.-]+\s*=\s*(?:"[^"]*"|'[^']*'))*\s*(?:\/>|>[^]*?<\/study\s*>)/g;
+const firsts = new Map(); // such a text without all that -> number of the first one that had it
+
+/** Number of the whole text, which a result depends on as a rule. */
+const wholeText = () => numberOf(state.text);
+
+/** Of a result that goes by the device that is described alone. */
+export function deviceText() {
+    const own = numberOf(state.text);
+    if (/<!(?:\[CDATA|DOCTYPE)/.test(state.text)) return own;
+    const read = state.text.replace(COMMENT, "").replace(STUDY, "").replace(/>\s+</g, "><").trim();
+    const first = firsts.get(read) ?? own;
+    firsts.delete(read);
+    firsts.set(read, first);
+    if (firsts.size > TEXTS_MOST) firsts.delete(firsts.keys().next().value);
+    return first;
+}
+
+/** What a request of now is of, or of which parts of the state a result depends: with other options, of a job; reads():
+ *  the number of what it takes from the text. */
+export const requestKey = (options = state.options, reads = wholeText) => JSON.stringify([reads(), ordered(state.set), ordered(options), ...Object.entries(state.lab).map(([name, text]) => [name, numberOf(text)])]);
 
 /** The present input: that, and what is in no text yet. While there is such a thing, no answer is of the present input. */
-export function inputKey(options = state.options) {
-    const key = requestKey(options);
+export function inputKey(options = state.options, reads = wholeText) {
+    const key = requestKey(options, reads);
     return state.entered.size || state.edits.length ? `${key} ${JSON.stringify([[...state.entered], state.edits])}` : key;
 }
 
@@ -135,6 +158,10 @@ function mark(element, time) {
 
 for (const event of ["text", "change", "options", "entered"]) on(event, look);
 export { look };
+
+/** What an element shows, or is part of, is of a former input: what is saved of it says so. */
+export const isFormer = (element) => element.closest('[data-of="former"]') !== null;
+export const FORMER = ", of a former input";
 
 // ---- what is on its way, with a sign and a way to end it ----
 

@@ -3,7 +3,7 @@
 // point by point from the engine of the studies while one looks; every point is what `check` says of that device. What is
 // shown belongs to the exact input, as everything does (belong.js).
 import { post } from "./api.js";
-import { begin, inputKey, mayChange, requestKey, Shown } from "./belong.js";
+import { begin, deviceText, FORMER, inputKey, isFormer, mayChange, requestKey, Shown } from "./belong.js";
 import { edit, isPresent, lab, taken } from "./design.js";
 import { announce, button, h, select, setOptions } from "./dom.js";
 import { bendOf, bent, CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, POINTS, rounds, stretches, textOf, told, unitSizes } from "./exploring.js";
@@ -54,7 +54,7 @@ export class Explore {
         this.readout = h("p", { class: "explore-readout", role: "status" });
         this.use = button("Use", { icon: "check", id: "explore-use", disabled: true }, () => this.#use());
         const menu = h("div", { class: "row" }, button("Save as CSV", { class: "small" }, () => this.#csv()), button("Save as SVG", { class: "small", id: "explore-svg" }, () => this.#svg()));
-        this.plot = new ExplorePlot(this.figure, (at) => this.#look(at));
+        this.plot = new ExplorePlot(this.figure, (at) => this.#look(at), (at) => this.#under(at));
         this.figure.append(this.legend);
         this.body = h("div", { class: "explore-body" }, this.figure, this.summary, h("div", { class: "explore-look" }, this.slider, this.readout, this.use), menu);
         const box = h("div", { class: "explore-scroll" },
@@ -164,7 +164,7 @@ export class Explore {
 
     #keyOf(make) {
         const spec = this.table ? this.#spec() : { why: "" };
-        return make({ ...this.#options(), explore: spec.why === undefined ? [spec.inputs.map((x) => [x.what, x.from, x.to]), spec.number.id] : spec.why });
+        return make({ ...this.#options(), explore: spec.why === undefined ? [spec.inputs.map((x) => [x.what, x.from, x.to]), spec.number.id] : spec.why }, deviceText);
     }
 
     #asked() {
@@ -251,7 +251,7 @@ export class Explore {
 
     /** Points that were computed for the same text, held values, options, inputs and number, whatever their range was. */
     #keptOf(spec) {
-        const key = requestKey({ ...this.#options(), explore: [spec.inputs.map((x) => x.what), spec.number.id] });
+        const key = requestKey({ ...this.#options(), explore: [spec.inputs.map((x) => x.what), spec.number.id] }, deviceText);
         const points = this.kept.get(key) ?? new Map();
         this.kept.delete(key);
         this.kept.set(key, points); // the last one that was used stands last
@@ -386,7 +386,7 @@ export class Explore {
     #mapWords() {
         const all = [...this.done.values()];
         const count = (s) => all.filter((p) => p.state === s).length;
-        return `${this.judged}: ${["accept", "inconclusive", "reject", "run", "failed"].filter(count).map((s) => `${count(s)} of ${all.length} ${WORDS[s]}`).join(", ")}. A click on a place tells its value.`;
+        return `${this.judged}: ${["accept", "inconclusive", "reject", "run", "failed"].filter(count).map((s) => `${count(s)} of ${all.length} ${WORDS[s]}`).join(", ")}. The pointer on a place tells its value.`;
     }
 
     #say() {
@@ -434,25 +434,39 @@ export class Explore {
 
     /** The point nearest to what is looked at. */
     get nearest() {
-        if (this.at === null || !this.done.size) return null;
+        return this.#nearestTo(this.at);
+    }
+
+    #nearestTo(at) {
+        if (at === null || !this.done.size) return null;
         const [x, y] = this.spec.inputs;
-        const far = (p) => (Array.isArray(this.at) ? ((p.x - this.at[0]) / (x.to - x.from)) ** 2 + ((p.y - this.at[1]) / (y.to - y.from)) ** 2 : Math.abs(p.x - this.at));
+        const far = (p) => (Array.isArray(at) ? ((p.x - at[0]) / (x.to - x.from)) ** 2 + ((p.y - at[1]) / (y.to - y.from)) ** 2 : Math.abs(p.x - at));
         return [...this.done.values()].reduce((a, b) => (far(b) < far(a) ? b : a));
+    }
+
+    /** The device under the pointer, and its words: {x, y, value, words}; null: there is none. */
+    #under(at) {
+        const p = this.#nearestTo(at);
+        return p && { ...p, words: this.#words(p) };
     }
 
     #read() {
         const p = this.nearest;
         this.use.disabled = p === null;
         if (!p) {
-            this.readout.textContent = "A click on the picture, a drag over it, or the slider tells the value at a place.";
+            this.readout.textContent = "A click on the picture, a drag over it, or the slider keeps what is told of a place here.";
             return;
         }
+        this.readout.textContent = this.#words(p);
+        this.slider.setAttribute("aria-valuetext", this.readout.textContent);
+    }
+
+    #words(p) {
         const { inputs, number: n } = this.spec;
         const where = inputs.map((x, i) => `${x.label} ${textOf(i ? p.y : p.x, x.unit)}`).join(", ");
         const band = Number.isFinite(p.low) && Number.isFinite(p.high) ? ` (${number(p.low)} to ${number(p.high)})` : "";
         const other = p.state !== "accept" && p.used > 1 && n.unit === "%" && (p.high ?? p.value) <= 100 ? `; what decides is another limit, used to ${percent(p.used)}` : "";
-        this.readout.textContent = `${where}: ${WORDS[p.state]}${Number.isFinite(p.value) ? `, ${number(p.value, 4)} ${n.unit}${band}` : ""}${other}${p.why ? `. ${p.why}` : ""}`;
-        this.slider.setAttribute("aria-valuetext", this.readout.textContent);
+        return `${where}: ${WORDS[p.state]}${Number.isFinite(p.value) ? `, ${number(p.value, 4)} ${n.unit}${band}` : ""}${other}${p.why ? `. ${p.why}` : ""}`;
     }
 
     /** The values that are looked at become text, as one step of the history. */
@@ -478,20 +492,20 @@ export class Explore {
         const t = column("x");
         const series = [...(inputs.length === 2 ? [{ name: head(inputs[1]), values: column("y") }] : []), { name: `${n.label} (${n.unit})`, values: column("value") }, { name: "low", values: column("low") }, { name: "high", values: column("high") },
             { name: "decision", values: column("state") }];
-        saveAs(`${this.#name()}.csv`, csvOf({ t, series: series.map((x) => ({ ...x, values: x.values.map((v) => (typeof v === "number" && !Number.isFinite(v) ? "" : v)) })) }, "", head(inputs[0])), "text/csv");
+        saveAs(`${this.#name()}.csv`, csvOf({ t, series: series.map((x) => ({ ...x, values: x.values.map((v) => (typeof v === "number" && !Number.isFinite(v) ? "" : v)) })) }, "", head(inputs[0])), "text/csv", this.body);
     }
 
     #svg() {
         if (!this.done.size) return;
         const { inputs: [x, y], number: n } = this.spec;
-        if (y) return saveAs(`${this.#name()}.svg`, alone(this.plot.svg), "image/svg+xml");
+        if (y) return saveAs(`${this.#name()}.svg`, alone(this.plot.svg), "image/svg+xml", this.body);
         const points = this.#sorted();
         const series = [{ name: n.label, values: points.map((p) => p.value), key: 0, solid: true }, { name: "least", values: points.map((p) => p.low), key: 0, then: true }, { name: "most", values: points.map((p) => p.high), key: 0, then: true }];
         const all = series.flatMap((v) => v.values).filter(Number.isFinite);
         const limits = n.limits.map((v) => v * n.factor);
         const [low, high] = [Math.min(...all, ...limits), Math.max(...all, ...limits)];
         saveAs(`${this.#name()}.svg`, svgOf({ t: points.map((p) => p.x), series, marks: limits.map((v) => ({ y: v, text: "limit" })) },
-            { title: `${state.preview?.name ?? ""}: ${n.label}`, unit: `${n.unit} over ${x.label}${x.unit ? ` (${x.unit})` : ""}`, x: [x.from, x.to], y: [low - 0.05 * (high - low), high + 0.05 * (high - low)], log: false }), "image/svg+xml");
+            { title: `${state.preview?.name ?? ""}: ${n.label}${isFormer(this.body) ? FORMER : ""}`, unit: `${n.unit} over ${x.label}${x.unit ? ` (${x.unit})` : ""}`, x: [x.from, x.to], y: [low - 0.05 * (high - low), high + 0.05 * (high - low)], log: false }), "image/svg+xml", this.body);
     }
 }
 
@@ -520,6 +534,7 @@ function alone(svg) {
         for (const name of DRAWN) e.setAttribute(name, style.getPropertyValue(name));
         e.removeAttribute("class");
     });
+    for (const e of copy.querySelectorAll('[visibility="hidden"]')) e.remove(); // the pointer's mark
     copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
     copy.setAttribute("font-family", "system-ui, sans-serif");
     return `${new XMLSerializer().serializeToString(copy)}\n`;

@@ -19,11 +19,16 @@ const FLAT = 1e-6; // relative: less is no change
 const BAR = { room: 76, gap: 10, width: 12, parts: 32 }; // of a map's colour scale, at its right
 
 export class ExplorePlot {
-    /** onlook(x) or onlook([x, y]): somebody points at it, in the units of the inputs */
-    constructor(holder, onlook) {
+    /** onlook(x) or onlook([x, y]): somebody clicks there, in the units of the inputs; under(the same): {x, y, value, words} of the
+     *  device that the pointer is nearest to, or null */
+    constructor(holder, onlook, under) {
         this.svg = s("svg", { class: "explore-plot", role: "img", "aria-label": "Nothing is explored yet." });
         this.onlook = onlook;
-        holder.append(this.svg);
+        this.mark = s("circle", { class: "explore-under", r: 5 });
+        this.tip = h("div", { class: "explore-tip", hidden: true, "aria-hidden": "true" });
+        this.pointer = null; // where the pointer is, on the picture
+        this.under = under;
+        holder.append(h("div", { class: "explore-stage" }, this.svg, this.tip));
         new ResizeObserver(() => this.what && this.draw()).observe(this.svg);
         const look = (e) => {
             if (!this.from) return;
@@ -31,7 +36,16 @@ export class ExplorePlot {
             this.onlook(this.from(e.clientX - r.left, e.clientY - r.top));
         };
         this.svg.addEventListener("pointerdown", (e) => e.button === 0 && look(e));
-        this.svg.addEventListener("pointermove", (e) => e.buttons & 1 && look(e));
+        this.svg.addEventListener("pointermove", (e) => {
+            const r = this.svg.getBoundingClientRect();
+            this.pointer = e.pointerType === "touch" ? null : [e.clientX - r.left, e.clientY - r.top];
+            if (e.buttons & 1) look(e);
+            this.#tell();
+        });
+        this.svg.addEventListener("pointerleave", () => {
+            this.pointer = null;
+            this.#tell();
+        });
     }
 
     /** what: {kind: "line", x: {label, unit, from, to, now}, points: [{x, state, value, low, high}] sorted, limits, unit} or
@@ -45,7 +59,24 @@ export class ExplorePlot {
         const [w, height] = [this.svg.clientWidth, this.svg.clientHeight];
         if (!w || !height) return;
         this.svg.setAttribute("viewBox", `0 0 ${w} ${height}`);
-        this.svg.replaceChildren(...(this.what.kind === "line" ? this.#line(w, height) : this.#map(w, height)));
+        this.svg.replaceChildren(...(this.what.kind === "line" ? this.#line(w, height) : this.#map(w, height)), this.mark);
+        this.#tell();
+    }
+
+    /** What the pointer is on, beside it. */
+    #tell() {
+        const p = this.pointer && this.from ? this.under(this.from(...this.pointer)) : null;
+        this.tip.hidden = !p;
+        this.mark.setAttribute("visibility", p ? "visible" : "hidden");
+        if (!p) return;
+        this.tip.textContent = p.words;
+        const at = this.to(p);
+        for (const [name, v] of [["cx", at[0]], ["cy", at[1]]]) this.mark.setAttribute(name, v);
+        const [w, height] = [this.svg.clientWidth, this.svg.clientHeight];
+        const right = at[0] > w / 2;
+        this.tip.style.left = right ? "" : `${at[0] + 12}px`;
+        this.tip.style.right = right ? `${w - at[0] + 12}px` : "";
+        this.tip.style.top = `${Math.min(Math.max(at[1] - 12, 0), Math.max(height - this.tip.offsetHeight, 0))}px`;
     }
 
     #axes(w, height, x, y, ylabel, beside = RIGHT) {
@@ -92,6 +123,7 @@ export class ExplorePlot {
             const [a, b] = [px(r.from), px(r.to)];
             out.push(s("rect", { class: `explore-strip ${r.state}`, x: a, y: bottom + 1, width: Math.max(b - a, 1), height: STRIP - 4 }, s("title", {}, WORDS[r.state])));
         }
+        this.to = (p) => [px(p.x), !Number.isFinite(p.value) ? bottom - 8 : Math.min(Math.max(py(p.value), TOP), bottom)];
         this.from = (ex) => Math.min(Math.max(x.from + ((ex - LEFT) / (right - LEFT)) * (x.to - x.from), x.from), x.to);
         return out;
     }
@@ -113,6 +145,7 @@ export class ExplorePlot {
         if (Number.isFinite(x.now) && Number.isFinite(y.now)) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}M${LEFT} ${py(y.now)}H${right}` }));
         if (at) inside.append(s("circle", { class: "explore-at", cx: px(at[0]), cy: py(at[1]), r: 7 }));
         out.push(inside, ...this.#bar(right + BAR.gap, bottom, low, high));
+        this.to = (p) => [px(p.x), py(p.y)];
         this.from = (ex, ey) => [
             Math.min(Math.max(x.from + ((ex - LEFT) / (right - LEFT)) * (x.to - x.from), x.from), x.to),
             Math.min(Math.max(y.from + ((bottom - ey) / (bottom - TOP)) * (y.to - y.from), y.from), y.to),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A picture that moves as a file: what is seen is recorded frame by frame, with the looks that the page gives it, and written
 // as an SVG that moves by itself (exact, its lines stay lines), or as a GIF for slides. The same picture gives the same bytes.
+import { FORMER, isFormer } from "./belong.js";
 import { $, announce, button, h, icon } from "./dom.js";
 import { gifOf } from "./gif.js";
 import { saveAs } from "./plotfile.js";
@@ -90,7 +91,7 @@ function written(r, frame, seconds) {
 }
 
 /**
- * Records an <svg>: show(i) puts frame i of n on it, caption(i) says what it is. Gives {n, seconds, width, height, svg: the text
+ * Records an <svg>: show(i) puts frame i of n on it, caption(i) says what it is. Gives {n, seconds, width, height, shown: the <svg>, svg: the text
  * that moves, at(i): the text of one frame}. Between frames others have their turn.
  */
 export async function record(svg, { n, seconds, show, caption, cancelled = () => false }) {
@@ -105,7 +106,8 @@ export async function record(svg, { n, seconds, show, caption, cancelled = () =>
     }
     const style = getComputedStyle(svg.parentElement);
     const ink = getComputedStyle(document.body).color;
-    const captions = Array.from({ length: n }, (_, i) => caption(i));
+    const of = isFormer(svg) ? FORMER : "";
+    const captions = Array.from({ length: n }, (_, i) => caption(i) + of);
     const head = (one) => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height + FOOT}" width="${width}" height="${height + FOOT}"><rect width="${width}" height="${height + FOOT}" fill="${style.backgroundColor}"/>${one}`;
     const line = (words, more = "") => `<text x="12" y="${height + 17}" font-size="13" font-family="system-ui, sans-serif" fill="${ink}">${more}${escaped(words)}</text></svg>\n`;
     const inner = (frame) => root.children.map((c) => written(c, frame, seconds)).join("\n");
@@ -113,7 +115,7 @@ export async function record(svg, { n, seconds, show, caption, cancelled = () =>
     const same = captions.every((c) => c === captions[0]);
     const moving = () => [...new Set(captions)].map((words) => line(words, same ? "" : animate("visibility", captions.map((c) => (c === words ? "visible" : "hidden")), seconds)).replace("</svg>\n", "")).join("");
     return {
-        n, seconds, width, height: height + FOOT,
+        n, seconds, width, height: height + FOOT, shown: svg,
         svg: () => `${head(clip)}${inner(null)}</g>${moving()}</svg>\n`,
         at: (i) => `${head(clip)}${inner(i)}</g>${line(captions[i])}`,
     };
@@ -158,7 +160,7 @@ export function filmMenu(make, name) {
         }
     });
     box.append(h("div", { class: "plot-menu-list" },
-        item("Animated SVG", "exact, for the web; its lines stay lines", async (film) => saveAs(`${name()}.svg`, film.svg(), "image/svg+xml")),
-        item("GIF", "for slides and mails", async (film) => saveAs(`${name()}.gif`, await asGif(film), "image/gif"))));
+        item("Animated SVG", "exact, for the web; its lines stay lines", async (film) => saveAs(`${name()}.svg`, film.svg(), "image/svg+xml", film.shown)),
+        item("GIF", "for slides and mails", async (film) => saveAs(`${name()}.gif`, await asGif(film), "image/gif", film.shown))));
     return box;
 }

@@ -144,10 +144,11 @@ export class JobView {
     /**
      * kind, options(): of the job; intro: what it gives, shown while there is nothing; action: label of
      * the button; render(job, holder): fills the holder, may be async; auto: runs by itself while shown,
-     * when nothing has changed for `quiet` ms, a number or what gives it; humble: then it gives way to other jobs.
+     * when nothing has changed for `quiet` ms, a number or what gives it; humble: then it gives way to other jobs;
+     * reads: deviceText where it goes by the device that the text describes, and not by all of the text.
      */
-    constructor(holder, { kind, options = () => ({}), intro, action, render, auto = false, accept, quiet = AUTO_MS, humble = false }) {
-        Object.assign(this, { kind, options, action, render, auto, accept, quiet });
+    constructor(holder, { kind, options = () => ({}), intro, action, render, auto = false, accept, quiet = AUTO_MS, humble = false, reads }) {
+        Object.assign(this, { kind, options, action, render, auto, accept, quiet, reads });
         if (humble) background.add(this);
         this.humble = humble;
         this.shown = false;
@@ -185,7 +186,7 @@ export class JobView {
 
     /** What its result depends on, as it is now. */
     get key() {
-        return inputKey(this.options());
+        return inputKey(this.options(), this.reads);
     }
     get stale() {
         return this.job !== null && this.of !== this.key;
@@ -221,7 +222,7 @@ export class JobView {
         this.byItself = byItself;
         if (!this.humble) giveWay();
         const control = (this.control = new AbortController());
-        let key = (this.tried = requestKey(this.options()));
+        let key = (this.tried = requestKey(this.options(), this.reads));
         this.errors.replaceChildren();
         this.wrong.take(null);
         this.working = { state: "queued", seconds: 0 };
@@ -232,7 +233,7 @@ export class JobView {
             if (!byItself) {
                 await taken();
                 if (control !== this.control) return;
-                key = this.tried = requestKey(this.options());
+                key = this.tried = requestKey(this.options(), this.reads);
             }
             const job = await run(this.kind, { byItself: true, automatic: byItself, options: this.options(), signal: control.signal, onprogress: (j) => (this.working = j) });
             if (control !== this.control) return forget(job);

@@ -15,23 +15,27 @@ const MOST_BYTES = 200000;
 
 const escaped = (x) => String(x).replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
 const nameOf = (flow) => `entered-${flow}.xml`;
+/** What is counted is exact unless somebody says otherwise. */
+const exact = (kind) => (kind === "count" ? "0" : "");
 const isNumber = (x) => /^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*$/.test(x);
 
 /** Of what kind the source is that stands behind a number: each claim needs one that can bear it. */
 const SOURCES = { measured: ["laboratory", "measured"], stated: ["maker", "datasheet"], typical: ["taken", "assumed"], assumed: ["taken", "assumed"] };
 
-/** The pack of these rows: [{id, value, u, unit, status}], numbers as somebody has written them. */
+/** The pack of these rows: [{id, kind, value, u, unit, status}], numbers and words as somebody has written them. */
 export function packOf(flow, rows, source) {
-    const values = rows.map((r) => `  <q id="${escaped(r.id)}" value="${escaped(r.value.trim())}"${r.u?.trim() ? ` u="${escaped(r.u.trim())}"` : ""} unit="${escaped(r.unit)}" status="${r.status}" src="${SOURCES[r.status][0]}"/>`);
+    const says = (r) => (r.kind === "word" ? `word="${escaped(r.value.trim())}"` : `value="${escaped(r.value.trim())}"${r.u?.trim() ? ` u="${escaped(r.u.trim())}"` : ""}`);
+    const values = rows.map((r) => `  <q id="${escaped(r.id)}" ${says(r)} unit="${escaped(r.unit)}" status="${r.status}" src="${SOURCES[r.status][0]}"/>`);
     const used = new Map(rows.map((r) => SOURCES[r.status]));
     const sources = [...used].map(([id, kind]) => `  <source id="${id}" kind="${kind}">${escaped(source || "entered on the page")}</source>`);
     return `<?xml version="1.0" encoding="UTF-8"?>\n<process xmlns="${NAMESPACE}" id="laboratory" version="1" title="numbers of the laboratory" flow="${escaped(flow)}">\n${sources.join("\n")}\n${values.join("\n")}\n</process>\n`;
 }
 
-/** The numbers of a pack: id -> {value, u, status}; of one that cannot be read, none. */
+/** The numbers of a pack: id -> {value, u, status}, a word as its value; of one that cannot be read, none. */
 function numbersOf(pack) {
     const all = pack === undefined ? [] : new DOMParser().parseFromString(pack, "text/xml").getElementsByTagNameNS(NAMESPACE, "q");
-    return new Map([...all].map((q) => [q.getAttribute("id"), Object.fromEntries(["value", "u", "status"].map((a) => [a, q.getAttribute(a) ?? ""]))]));
+    const one = (q) => ({ value: q.getAttribute("word") ?? q.getAttribute("value") ?? "", u: q.getAttribute("u") ?? "", status: q.getAttribute("status") ?? "" });
+    return new Map([...all].map((q) => [q.getAttribute("id"), one(q)]));
 }
 
 const counted = (n) => `${n} ${n === 1 ? "number" : "numbers"}`;
@@ -101,7 +105,7 @@ export class Laboratory {
         this.#say();
     }
 
-    /** flow: whose numbers; known: [{id, name, unit, missing (for what, or ""), value}] */
+    /** flow: whose numbers; known: [{id, name, kind ("number", "count", "word"), unit, missing (for what, or ""), value}] */
     offer(flow, known) {
         const before = this.flow;
         this.flow = flow;
@@ -110,7 +114,7 @@ export class Laboratory {
         if (flow === null) return;
         if (before !== flow) this.source.value = state.labSources[flow] ?? "";
         const rows = (state.labRows[flow] ??= {});
-        for (const q of known) if (q.missing && !rows[q.id]) rows[q.id] = { value: "", u: "", status: "measured" };
+        for (const q of known) if (q.missing && !rows[q.id]) rows[q.id] = { value: "", u: exact(q.kind), status: q.kind === "word" ? "stated" : "measured" };
         const rest = known.filter((q) => !rows[q.id]);
         this.other.replaceChildren(h("option", { value: "" }, "another number…"), ...rest.map((q) => h("option", { value: q.id }, `${q.name} (${q.id})`)));
         const key = JSON.stringify([flow, Object.keys(rows)]);
@@ -124,22 +128,24 @@ export class Laboratory {
 
     #row(id) {
         const row = state.labRows[this.flow][id];
-        const known = this.known.find((x) => x.id === id) ?? { id, name: id, unit: row.unit ?? "1", missing: "" };
+        const known = this.known.find((x) => x.id === id) ?? { id, name: id, kind: row.kind ?? "number", unit: row.unit ?? "1", missing: "" };
         const q = known.name === id ? { ...known, name: row.name ?? id } : known; // once it is in use, the recipe misses it no more, and names it no more
-        Object.assign(row, { unit: q.unit, name: q.name });
+        Object.assign(row, { unit: q.unit, name: q.name, kind: q.kind });
+        const word = q.kind === "word";
         const words = q.name === id ? id : `${q.name} (${id})`;
         const take = (name, value) => {
             row[name] = value;
             this.#say();
         };
-        const field = (name, label, short) => h("input", { value: row[name], placeholder: short, inputmode: "decimal", autocomplete: "off", "aria-label": `${words}: ${label}`, oninput: (e) => take(name, e.target.value), onkeydown: (e) => e.key === "Enter" && this.#use() });
+        const field = (name, label, short) => h("input", { value: row[name], placeholder: short, inputmode: word ? "text" : "decimal", autocomplete: "off", "aria-label": `${words}: ${label}`, oninput: (e) => take(name, e.target.value), onkeydown: (e) => e.key === "Enter" && this.#use() });
         return h("tr", { "data-id": id }, h("th", { scope: "row" }, q.name === id ? "" : `${q.name} `, h("span", { class: "code" }, id), q.missing ? h("span", { class: "doc" }, ` needed for ${q.missing}`) : ""),
-            h("td", {}, field("value", "value", "value")), h("td", {}, field("u", "standard uncertainty", "±")), h("td", {}, q.unit === "1" ? "–" : q.unit), h("td", {}, select(`${words}: how it is known`, STATUS, row.status, (v) => take("status", v))), h("td", { class: "lab-used" }));
+            h("td", {}, word ? field("value", "which it is", "its name") : field("value", "value", "value")), h("td", {}, word ? "–" : field("u", "standard uncertainty", "±")), h("td", {}, word ? "a word" : q.unit === "1" ? "–" : q.unit), h("td", {}, select(`${words}: how it is known`, STATUS, row.status, (v) => take("status", v))), h("td", { class: "lab-used" }));
     }
 
     #addRow(id) {
         if (!id) return;
-        state.labRows[this.flow][id] = { value: "", u: "", status: "measured" };
+        const { kind } = this.known.find((x) => x.id === id) ?? {};
+        state.labRows[this.flow][id] = { value: "", u: exact(kind), status: kind === "word" ? "stated" : "measured" };
         this.offer(this.flow, this.known);
         this.rows.querySelector(`[data-id="${CSS.escape(id)}"] input`)?.focus();
     }
@@ -151,7 +157,7 @@ export class Laboratory {
     /** What is entered, as a pack takes it; null: something is not, and it is said. */
     #good() {
         const rows = this.#filled();
-        const bad = rows.filter((r) => !isNumber(r.value) || !isNumber(r.u));
+        const bad = rows.filter((r) => r.kind !== "word" && (!isNumber(r.value) || !isNumber(r.u)));
         this.#refuse(bad.map((r) => (isNumber(r.value) && !r.u.trim() ? `${r.id}: its standard uncertainty is needed, too; 0 says that it is exact` : `${r.id}: a number is needed, not "${isNumber(r.value) ? r.u : r.value}"`)));
         return bad.length ? null : rows;
     }
@@ -213,23 +219,27 @@ export class Laboratory {
         return this.fit({ text: await file.text(), options: { flow: this.flow } }, file.name);
     }
 
-    /** By the fit of the command: of a table, or of a log that options name. */
+    /** By the fit of the command: of a table, or of a log that options name. Of several the one that is asked for last counts. */
     async fit(what, name) {
         this.box.open = true;
+        const mine = (this.fitting = {});
+        this.#refuse([]); // what was said of another table
+        const into = this.#calibrated(); // of the flow that it is begun with, whichever is looked at when it ends
         this.said.textContent = `Fitting the numbers of ${this.flow} to ${name}…`;
         try {
             const packs = this.#others();
             const names = Object.keys(packs);
             const job = await run("calibrate", names.length ? { ...what, files: packs, options: { ...what.options, lab: names.join(",") } } : what);
-            if (job.state !== "done" || !job.files?.length) return this.#refuse((job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)));
+            if (mine !== this.fitting) return;
+            if (job.state !== "done" || !job.files?.length) return this.#refuse((job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)).map((m) => m.replace(/^measured\.csv(?=:)/, () => name)));
             const pack = await (await fetch(`/api/jobs/${job.id}/files/laboratory.xml`, { credentials: "same-origin" })).text();
-            this.#refuse([]);
-            state.lab[this.#calibrated()] = pack;
+            if (mine !== this.fitting) return;
+            state.lab[into] = pack;
             changed(`numbers of ${name} are used`);
         } catch (error) {
-            this.#refuse([error.message]);
+            if (mine === this.fitting) this.#refuse([error.message]);
         }
-        return this.#say();
+        if (mine === this.fitting) this.#say();
     }
 
     #calibrated() {
@@ -274,7 +284,7 @@ export class Laboratory {
             const { id } = tr.dataset;
             const row = state.labRows[this.flow]?.[id];
             const [mine, now] = [own.get(id), used.get(id)];
-            const differs = row && (row.value.trim() || mine) && !(mine && mine.value === row.value.trim() && mine.u === row.u.trim() && mine.status === row.status);
+            const differs = row && (row.value.trim() || mine) && !(mine && mine.value === row.value.trim() && (row.kind === "word" || mine.u === row.u.trim()) && mine.status === row.status);
             if (differs) waiting.push(id);
             say(tr.querySelector(".lab-used"), `${now ? `${now.value}${now.u ? ` ± ${now.u}` : ""}` : "nothing of yours"}${differs ? "; what is entered is not used yet" : ""}`);
             tr.classList.toggle("waiting", Boolean(differs));

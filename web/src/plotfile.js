@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A plot as a file: its numbers as CSV, its curves as an SVG that prints as it is.
+import { isFormer } from "./belong.js";
 import { number } from "./format.js";
+import { emit } from "./store.js";
 
 const DARK_ON_WHITE = ["#0060a0", "#b3470a", "#00735a", "#8a3f78", "#7a5c00", "#2f7fb8", "#444b54", "#a0005a"];
 const DASHES = ["", "7 3", "2 2.5", "9 3 2 3", "4 2", "12 4", "1.5 4", "6 2 2 2 2 2"];
@@ -64,8 +66,13 @@ export function svgOf({ t, series, marks }, { title, unit, x, y, log }) {
     return `${out.filter(Boolean).join("\n")}\n</svg>\n`;
 }
 
-/** Puts a text, or a blob, where the browser puts what is downloaded. */
-export function saveAs(name, text, type) {
+/** Puts a text, or a blob, where the browser puts what is downloaded. shown: the element that it is of, where that may be of a
+ *  former input: then the file is named so, and it is said. */
+export function saveAs(name, text, type, shown = null) {
+    if (shown && isFormer(shown)) {
+        name = name.replace(/(?=\.[a-z]+$)/, "-former-input");
+        emit("notice", { kind: "warn", text: `${name}: of the former input, as what is grey is.` });
+    }
     const link = document.createElement("a");
     link.href = URL.createObjectURL(text instanceof Blob ? text : new Blob([text], { type }));
     link.download = name;

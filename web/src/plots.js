@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Curves over time with one cursor for all of them.
 import uPlot from "uplot";
+import { FORMER, isFormer } from "./belong.js";
 import { curve, dash, themed } from "./colours.js";
 import { become, button, h, put, say } from "./dom.js";
 import { number } from "./format.js";
@@ -47,7 +48,7 @@ export class Plot {
         const name = () => `${state.preview?.name ?? "device"}-${this.words.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/^-|-$/g, "")}`;
         const menu = h("details", { class: "plot-menu" }, h("summary", { "aria-label": `${this.title}: zoom, save` }, "⋯"), h("div", { class: "plot-menu-list" },
             act("Zoom in", () => this.zoom(0.5)), act("Zoom out", () => this.zoom(2)), act("Whole scene", () => this.onwindow?.(null)),
-            act("Save as CSV", () => saveAs(`${name()}.csv`, this.csv(), "text/csv")), act("Save as SVG", () => saveAs(`${name()}.svg`, this.svg(), "image/svg+xml"))));
+            act("Save as CSV", () => saveAs(`${name()}.csv`, this.csv(), "text/csv", this.root)), act("Save as SVG", () => saveAs(`${name()}.svg`, this.svg(), "image/svg+xml", this.root))));
         menu.addEventListener("toggle", () => { // where little is left below of the view it opens upwards
             menu.classList.remove("up");
             const end = Math.min(innerHeight, holder.parentNode.getBoundingClientRect().bottom);
@@ -88,7 +89,7 @@ export class Plot {
     svg() {
         if (this.files) return this.files.svg();
         const { x, y } = this.plot.scales;
-        return svgOf(this.data, { title: `${state.preview?.name ?? ""}: ${this.words}`, unit: this.unitWords, x: [x.min, x.max], y: [y.min, y.max], log: this.log });
+        return svgOf(this.data, { title: `${state.preview?.name ?? ""}: ${this.words}${isFormer(this.root) ? FORMER : ""}`, unit: this.unitWords, x: [x.min, x.max], y: [y.min, y.max], log: this.log });
     }
 
     /** Shows so much of the present window, about a time (of itself that of the cursor). */

@@ -84,13 +84,15 @@ export class Recipe {
 
 /** The numbers that a laboratory may state of a recipe: those that are missing first. */
 function numbersOf(r, m) {
-    const out = new Map((m?.ranked ?? []).filter((q) => q.id).map((q) => [q.id, { id: q.id, name: q.name, unit: q.unit, missing: "", value: q.value }]));
+    const out = new Map((m?.ranked ?? []).filter((q) => q.id).map((q) => [q.id, { id: q.id, name: q.name, kind: q.kind, unit: q.unit, missing: "", value: q.value }]));
     for (const step of r.steps) {
         for (const words of step.not_computable ?? []) {
             const [, name, id] = /^(.*) \(([^()]+)\)$/.exec(words) ?? [];
             if (!id) continue;
-            const unit = out.get(id)?.unit ?? step.quantities?.find((q) => q.name === name)?.unit;
-            if (unit) out.set(id, { id, name, unit, value: null, missing: [out.get(id)?.missing, step.id].filter(Boolean).join(", ") });
+            const of = step.quantities?.find((q) => q.name === name);
+            const unit = out.get(id)?.unit ?? of?.unit;
+            const kind = out.get(id)?.kind ?? (of?.word === undefined ? "number" : "word");
+            if (unit) out.set(id, { id, name, kind, unit, value: null, missing: [out.get(id)?.missing, step.id].filter(Boolean).join(", ") });
         }
     }
     return [...out.values()].sort((a, b) => (b.missing !== "") - (a.missing !== ""));
@@ -131,7 +133,7 @@ function step(x, section) {
                 t ? h("p", { class: "window" }, window_("planned", t.nominal), window_("first look", t.first_look), window_("clear by", t.clear_by), window_("stop", t.stop),
                     h("span", { class: `tag ${t.status}` }, t.status)) : null,
                 x.quantities?.length ? h("details", {}, h("summary", {}, `${x.quantities.length} ${x.quantities.length === 1 ? "quantity" : "quantities"}`),
-                    h("table", { class: "plain" }, h("tbody", {}, x.quantities.map((q) => h("tr", {}, h("td", {}, q.name), h("td", { class: "n" }, q.value === null || q.value === undefined ? "____" : `${number(q.value, 4)}${q.uncertainty ? ` ± ${number(q.uncertainty, 2)}` : ""} ${q.unit ?? ""}`),
+                    h("table", { class: "plain" }, h("tbody", {}, x.quantities.map((q) => h("tr", {}, h("td", {}, q.name), h("td", { class: "n" }, q.word ? q.word : q.value === null || q.value === undefined ? "____" : `${number(q.value, 4)}${q.uncertainty ? ` ± ${number(q.uncertainty, 2)}` : ""} ${q.unit ?? ""}`),
                         h("td", {}, h("span", { class: `tag ${q.status}` }, q.status)), h("td", { class: "source" }, q.source ?? "")))))) : null)));
 }
 

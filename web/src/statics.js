@@ -56,7 +56,7 @@ export class Ladder {
             ...(level.solved === false ? [h("td", { colSpan: 5 }, `no answer${level.why ? `: ${level.why}` : ""}`)] : [h("td", { class: "n" }, si(level.stiffness_Nm_per_rad, "N m/rad")), h("td", { class: "n" }, percent(level.error?.stiffness, 2)), h("td", { class: "n" }, Number.isFinite(level.limit_angle_rad) ? degrees(level.limit_angle_rad) : "–"),
                 h("td", { class: "n" }, percent(level.error?.strain, 2)), h("td", { class: "n" }, si(level.cpu_s, "s", 2))]));
         // what the terminal says above and below the levels of a flexure
-        const note = (x) => [Number.isFinite(x.used_stiffness_Nm_per_rad) ? `stiffness used: ${si(x.used_stiffness_Nm_per_rad, "N m/rad", 5)}` : "",
+        const note = (x) => [Number.isFinite(x.fillet_m) ? `strain and limit rest on fillets of ${number(x.fillet_m * 1e6, 4)} µm at its roots, ${x.fillet_stated ? "as stated" : "chosen: none is stated"}` : "", Number.isFinite(x.used_stiffness_Nm_per_rad) ? `stiffness used: ${si(x.used_stiffness_Nm_per_rad, "N m/rad", 5)}` : "",
             x.levels.some((level) => level.error?.outside) ? "outside of the shapes that were compared with finite elements: errors are guesses" : "",
             x.picked ? `* ${x.picked.level}: ${x.picked.why}` : ""].filter(Boolean).join("; ");
         const notes = (x) => h("tr", { class: "ladder-note" }, h("td", {}), h("td", { colSpan: 6, class: x.levels.some((level) => level.error?.outside) ? "guessed" : "" }, note(x)));

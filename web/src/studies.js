@@ -237,7 +237,7 @@ export class Studies {
         const n = r.samples;
         const parts = [`${n.accepted} accepted`, `${n.rejected} rejected`, `${n.inconclusive} inconclusive`, ...(n.failed ? [`${n.failed} could not be judged`] : [])];
         return [
-            h("p", {}, `${n.run + n.failed} devices: ${parts.join(", ")}.`),
+            h("p", {}, `${n.run + n.failed} devices: ${parts.join(", ")}${n.failed && n.example_why ? ` (number ${n.example_at}: ${n.example_why})` : ""}.`),
             ...(r.yields ?? []).map((y) => h("p", {}, `${y.flow ?? "As drawn"}: ${y.least ? `${percent(y.least.yield)} to ${percent(y.most.yield)}, as is what is only assumed,` : percent(y.yield)} hold every limit (${percent(y.sampling_interval?.[0])} to ${percent(y.sampling_interval?.[1])} by sampling alone; with the model's own band ${percent(y.yield_range?.[0])} to ${percent(y.yield_range?.[1])}).`)),
             ...(r.found ?? []).map((f, i) => this.#device(r.found.length > 1 ? `Device ${i + 1} of the front` : "Best device", f, r)),
             r.kind === "size" && !r.found?.length && r.nearest ? this.#device("No device holds every limit; the nearest", r.nearest, r) : null,

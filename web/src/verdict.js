@@ -2,7 +2,7 @@
 // The right column: decision, governing hinge, utilisation against the limit, what each flow can make,
 // which effects were computed and why, what it cost.
 import { alike } from "./alike.js";
-import { inputKey, Shown } from "./belong.js";
+import { deviceText, inputKey, Shown } from "./belong.js";
 import { Compare } from "./compare.js";
 import { askAgain, edit, isPresent } from "./design.js";
 import { announce, become, button, h, icon, refill, select, setOptions } from "./dom.js";
@@ -49,7 +49,7 @@ export class Verdict {
         this.ofPreview = [this.banner, ...cards, ...last].map((element) => new Shown(element));
         this.ofAnswer = [this.problems, this.notes].map((element) => new Shown(element));
         this.full = new JobView(full, {
-            kind: "check", action: "Judge as fabricated", options: judging,
+            kind: "check", action: "Judge as fabricated", options: judging, reads: deviceText,
             intro: "The live verdict is of the drawing. This judges what each flow may make of it, at the corners of its ranges, and looks for changes that help.",
             auto: () => Boolean(state.preview?.verdict), humble: true,
             quiet: () => Math.min(Math.max(QUIET_MS, 1e3 * (this.full?.job?.seconds ?? 0)), QUIET_MOST_MS), // what takes long waits longer for the last change
@@ -228,7 +228,7 @@ export class Verdict {
             const [low] = o.modes;
             if (!o.known || !low) return o.scenes.length || !o.known ? [named(o, `Out of the plane: not known: ${o.why ?? ""}`)] : [];
             const stiff = o.stiffness_over_in_plane === null ? "" : ` Its stiffness is ${number(o.stiffness_over_in_plane)} of that in the plane.`;
-            return [named(o, `As drawn it swings out of the plane from ${number(low.f_Hz, 4)} Hz on (${number(low.band_Hz[0], 4)} to ${number(low.band_Hz[1], 4)} Hz; ${low.body} ${low.kind === "tilt" ? "tilts" : "goes up and down"}).${stiff} Its weight lowers it by ${si(o.weight_sag_m, "m")} on a table; below it: ${o.below.words}.`), ...o.scenes.map(scene).filter(Boolean)];
+            return [named(o, `As drawn it swings out of the plane from ${number(low.f_Hz, 4)} Hz on (${number(low.band_Hz[0], 4)} to ${number(low.band_Hz[1], 4)} Hz; ${low.body} ${low.kind === "tilt" ? "tilts" : "goes up and down"}).${stiff} Its weight lowers it by ${si(o.weight_sag_m, "m", 4)}, at most ${si(o.weight_sag_most_m, "m", 4)}, on a table; below it: ${o.below.words}.`), ...o.scenes.map(scene).filter(Boolean)];
         });
         const dry = (v.stiction ?? []).filter((s) => s.needs && s.drying.how !== "never wet").map((s) => named(s, `Drying: ${s.drying.words}; ${s.needs}.`));
         become(this.across, { hidden: out.length + dry.length === 0 });

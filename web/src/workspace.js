@@ -200,7 +200,7 @@ export class Workspace {
         target.addEventListener("pointerdown", (event) => {
             event.preventDefault();
             target.setPointerCapture(event.pointerId);
-            target.focus?.();
+            target.focus?.({ preventScroll: true }); // the picture stays below the pointer
             const from = { p: this.mechanism.view.at(event), at: { ...this.at }, centre: this.#centre() };
             const move = (e) => moved(this.mechanism.view.at(e), from);
             const up = () => {

@@ -824,6 +824,26 @@ static void wrong_tables(void **state) {
     }
 }
 
+/* which resist is a word: what needs it is computable then, and nothing of it is a number */
+static void words_in_packs(void **state) {
+    (void)state;
+    static const char xml[] =
+        "<process xmlns=\"urn:flexwright:process:1\" id=\"lab\" version=\"1\" title=\"x\" "
+        "flow=\"al-masked-rie\"><source id=\"s\" kind=\"datasheet\">x</source>"
+        "<q id=\"resist.type\" word=\"AZ 5214E\" unit=\"1\" status=\"stated\" src=\"s\"/></process>";
+    fw_diags said = fw_diags_new(arena);
+    fw_process_flow *f = read_pack(arena, SILICON, NULL, NULL, &said);
+    const fw_quantity *q = fw_process_flow_quantity(f, "resist.type");
+    assert_true(q->unknown && fw_quantity_is_word(q) && !q->word);
+    said = fw_diags_new(arena);
+    assert_int_equal(fw_process_lab_apply(arena, "l.xml", xml, strlen(xml), f, &said), FW_OK);
+    assert_int_equal(said.errors, 0);
+    assert_int_equal(last_number(&said), 198);
+    assert_true(!q->unknown && fw_quantity_is_word(q));
+    assert_string_equal(q->word, "AZ 5214E");
+    assert_string_equal(f->override[0].is, "AZ 5214E (stated)");
+}
+
 static void wrong_packs(void **state) {
     (void)state;
     static const struct {
@@ -838,6 +858,12 @@ static void wrong_packs(void **state) {
         {"<q id=\"rie.t-slot\" value=\"3\" u=\"0\" unit=\"min\" status=\"measured\" src=\"s\"/>",
          211},
         {"<q value=\"0.9\" u=\"0.1\" unit=\"1\" status=\"measured\" src=\"s\"/>", 43},
+        {"<q id=\"resist.type\" value=\"1\" u=\"0\" unit=\"1\" status=\"measured\" src=\"s\"/>", 728},
+        {"<q id=\"rie.A\" word=\"steep\" unit=\"1\" status=\"measured\" src=\"s\"/>", 728},
+        {"<q id=\"resist.type\" word=\"AZ\" u=\"0\" unit=\"1\" status=\"measured\" src=\"s\"/>", 728},
+        {"<q id=\"resist.type\" word=\" \" unit=\"1\" status=\"measured\" src=\"s\"/>", 728},
+        {"<q id=\"resist.type\" word=\"AZ\" unit=\"um\" status=\"measured\" src=\"s\"/>", 728},
+        {"<q id=\"resist.type\" word=\"AZ\" unknown=\"true\" unit=\"1\" status=\"measured\" src=\"s\"/>", 70},
         {"<step id=\"S99\"/>", 211},
         {"<q id=\"rie.A\" value=\"0.9\" unit=\"1\" status=\"measured\" src=\"s\"/>", 71},
         {"<q id=\"rie.A\" value=\"0.9\" u=\"0.1\" unit=\"1\" status=\"measured\" src=\"t\"/>", 46}};
@@ -1110,7 +1136,8 @@ int main(void) {
         cmocka_unit_test(coverage),        cmocka_unit_test(two_slots), cmocka_unit_test(semicolons),
         cmocka_unit_test(of_another_flow), cmocka_unit_test(survivors),
         cmocka_unit_test(contradictions),  cmocka_unit_test(round_trip),
-        cmocka_unit_test(wrong_tables), cmocka_unit_test(tables_with_temperatures), cmocka_unit_test(rows_that_read_the_same),    cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
+        cmocka_unit_test(wrong_tables), cmocka_unit_test(tables_with_temperatures), cmocka_unit_test(rows_that_read_the_same),    cmocka_unit_test(words_in_packs),
+                                       cmocka_unit_test(wrong_packs),     cmocka_unit_test(forms),
         cmocka_unit_test(plates_that_are_free), cmocka_unit_test(far_from_the_plan), cmocka_unit_test(rates_of_a_temperature), cmocka_unit_test(of_warm_baths), cmocka_unit_test(of_open_areas), cmocka_unit_test(too_good),
         cmocka_unit_test(meant_by_its_stem), cmocka_unit_test(given_twice), cmocka_unit_test(another_metal),
         cmocka_unit_test(found_with_other_values), cmocka_unit_test(slots_as_the_mask_opens_them),
