@@ -243,10 +243,9 @@ typedef struct fw_verdict_swinging {
 /* Adds it to factors of hinges, to `each` of v->shaken[scene], whose ways are known, and puts it there (`own`) */
 fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, bool shaken, fw_verdict_own *own,
                                   struct fw_verdict_variant_verdict *v);
-/* *may: they may by more than a hundredth of what the motion has; gives: share that bodies give in it; shaken: a law goes to and fro */
+/* *may: they may by more than a hundredth of what the motion has; gives: share that bodies give in it */
 fw_status fw_verdict_may_swing(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
-                               int scene, double gives, bool shaken, fw_verdict_own *own,
-                               bool *may);
+                               int scene, double gives, fw_verdict_own *own, bool *may);
 /* own->modes */
 fw_status fw_verdict_own_modes(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
                                fw_verdict_own *own);
@@ -285,6 +284,9 @@ fw_status fw_verdict_flexures_across(fw_arena *arena, const struct fw_verdict_va
 /* body_farther.c: what bodies do by modes of their own in its scene, in low and high */
 void fw_verdict_swings_required(const struct fw_verdict_variant_verdict *v,
                                 struct fw_verdict_requirement *r);
+/* of ways by laws that go once: how far beside what bodies give at rest, m; else 0 */
+double fw_verdict_swings_once(const struct fw_verdict_variant_verdict *v,
+                              const struct fw_verdict_requirement *r);
 /* strain_monitor.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
 fw_status fw_verdict_shaken_bears(fw_arena *arena, struct fw_verdict_variant_verdict *v,
                                   const fw_verdict_hung *hung, int scene);

@@ -366,17 +366,18 @@ fw_status fw_verdict_hung_of(fw_arena *arena, const fw_verdict_variant_verdict *
 /* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
 
 /* Of a displacement along a direction, with its sign, only what its own body does counts; and of any what hinges and loads do
-   together, beside what the band has of hinges alone */
+   together, beside what the band has of hinges alone; own: what its modes do besides */
 static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
                           const fw_verdict_requirement *r, const fw_verdict_hung *hung,
-                          fw_verdict_soft *soft, double *down, double *up) {
+                          fw_verdict_soft *soft, double by, double own, double *down, double *up) {
     const fw_device *d = v->mechanism->device;
     const fw_device_probe *p = &d->probe[d->requirement[r->asked].probe];
     const fw_dynamics_motion *x = v->motion[r->scene_index];
     const fw_verdict_strain_monitor *saw = x ? x->observed : NULL;
     const double has =
         fw_verdict_bending_share(x) * fabs(isnan(r->origin) ? r->value : r->value - r->origin);
-    double *to, apart, less, more, rings = 0;
+    double *to = NULL, apart, less, more, rings = 0;
+    *down = *up = by + own;
     if (!saw || !saw->bending.rest_N || p->row != FW_PROBE_IS_displacement ||
         p->body == FW_GROUND || !r->measure || strcmp(r->measure, "settling-time") == 0)
         return FW_OK;
@@ -386,6 +387,7 @@ static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
     const double times = strcmp(r->measure, "peak-to-peak") == 0 ? 2 : 1, /* at either end */
         along = p->direction_rad + (across ? 0.5 * FW_PI : 0);
     FW_TRY(fw_verdict_goes_farther(arena, v, r->scene_index, p, along, soft, &less, &more, &known));
+    *down = *up = by;
     if (!way) less = more = times * fmax(less, more); /* whichever way it is farthest */
     if (way) {
         FW_NEED(to = fw_arena_array(arena, double, (size_t)v->mechanism->nbody));
@@ -393,8 +395,10 @@ static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
         FW_TRY(fw_verdict_bends_asked(arena, v, r->scene_index, hung, p, down, up, &rings));
         if (known) *down = *up = 0; /* what it gives by itself is in the whole */
     }
+    rings = fmax(rings, own);
     *down = fmax(*down, less - has) + rings, *up = fmax(*up, more - has) + rings;
-    if (way) *down = fmax(*down + to[p->body], apart), *up = fmax(*up + to[p->body], apart);
+    if (!way) return FW_OK;
+    *down = fmax(*down + to[p->body], apart + own), *up = fmax(*up + to[p->body], apart + own);
     return FW_OK;
 }
 
@@ -414,14 +418,18 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body, const fw
                        fw_verdict_variant_verdict *v) {
     const char *name = v->mechanism->device->scene[scene].name;
     const double hardly = 1e-4; /* of a value: its band is as it was */
+    const fw_verdict_swinging *own = v->shaken ? v->shaken[scene].own : NULL;
     fw_verdict_soft soft = {.looked = false};
-    FW_TRY(fw_verdict_distances_open(arena, v, scene, by, body));
+    int farthest;
+    const double swings =
+        own ? fw_verdict_two_farthest(own->way_m, v->mechanism->nbody, &farthest) : 0;
+    FW_TRY(fw_verdict_distances_open(arena, v, scene, by + swings, body));
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         const fw_verdict_decision was = r->decision;
         if (r->scene_index != scene || !fw_verdict_moves(r) || was == FW_REJECT) continue;
-        double down = by, up = by;
-        FW_TRY(asked_of(arena, v, r, hung, &soft, &down, &up));
+        double down, up;
+        FW_TRY(asked_of(arena, v, r, hung, &soft, by, fw_verdict_swings_once(v, r), &down, &up));
         if (!(fmax(down, up) > hardly * fabs(r->value))) continue;
         FW_TRY(widen(arena, down, up, r, v));
         if (was != FW_ACCEPT || r->decision == FW_ACCEPT) continue;

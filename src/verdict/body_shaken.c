@@ -434,15 +434,13 @@ static double laws_behind(const fw_mechanism *m, const fw_device_scene *s, doubl
 }
 
 fw_status fw_verdict_may_swing(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                               double gives, bool shaken, fw_verdict_own *own, bool *may) {
+                               double gives, fw_verdict_own *own, bool *may) {
     const double little = 0.01;
     const fw_mechanism *m = v->mechanism;
     const fw_dynamics_motion *motion = v->motion[scene];
     double hangs_s2;
     *may = false;
     if (!v->arm || v->straight || !motion || motion->nsample < 2 || !motion->q) return FW_OK;
-    /* samples of studies that ask for hinges alone look at bodies only where something shakes the device */
-    if (!shaken && v->nrequirement == 0 && m->device->scene[scene].nbase == 0) return FW_OK;
     const double slow_s = sqrt(slow_alone_s2(v, &hangs_s2));
     if (!(slow_s > 0)) return FW_OK;
     const double behind = laws_behind(m, &m->device->scene[scene], 1 / slow_s);
