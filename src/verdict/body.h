@@ -256,6 +256,25 @@ void fw_verdict_swung_there(const fw_verdict_swung *swung, int k, int body, fw_g
 fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diags *diags,
                                  struct fw_verdict_variant_verdict *v);
 
+/* moved_again.c: what a scene that is moved again changes: f (2 x (nhinge + 1)), more and less of every hinge, and of what goes
+   farthest; far and now of fw_verdict_farthest */
+typedef struct fw_verdict_hold {
+    const fw_verdict_strain_monitor *saw;
+    double *far, *now, *f;
+    double more; /* times what is found */
+} fw_verdict_hold;
+void fw_verdict_hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw,
+                         const fw_verdict_hold *hold);
+/* body_shaken.c: the loss factor of a scene's flexures at least and at most; false: it is as stated, or damps nothing */
+bool fw_verdict_loss_ends(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                          double ends[2]);
+/* factors of hinges and bands of what is required hold both */
+struct fw_verdict_required;
+fw_status fw_verdict_damped_again(fw_arena *arena, int scene,
+                                  const fw_dynamics_motion_options *options,
+                                  const struct fw_verdict_required *required,
+                                  struct fw_verdict_variant_verdict *v);
+
 /* ---- flexure_swing.c: what flexures weigh ---- */
 
 /* 1/omega^2 (count) at most of the modes across the plane, or in it, with the mass of flexures, the slowest first; 0: it is not
