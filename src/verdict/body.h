@@ -3,8 +3,10 @@
    and what rings on. Private to the room. */
 #ifndef FW_VERDICT_BODY_H
 #define FW_VERDICT_BODY_H
+#include "geometry/segment.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
+#include <math.h>
 
 /* Where ways of one body go together they bear together what comes by each of them: body_together.c */
 typedef struct
@@ -250,8 +252,16 @@ fw_status fw_verdict_may_swing(fw_arena *arena, const struct fw_verdict_variant_
 fw_status fw_verdict_own_modes(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
                                fw_verdict_own *own);
 /* mode k at a place of a body as drawn: (m, m, rad)/sqrt(kg) */
-void fw_verdict_swung_there(const fw_verdict_swung *swung, int k, int body, fw_geometry_vec2 at,
-                            double u[3]);
+static inline void fw_verdict_swung_there(const fw_verdict_swung *swung, int k, int body,
+                                          fw_geometry_vec2 at, double u[3]) {
+    const fw_verdict_beams *b = &swung->beams;
+    int best = b->first[body];
+    for (int i = best + 1; i < b->first[body + 1]; i++)
+        if (vec_distance(b->at[i].at, at) < vec_distance(b->at[best].at, at)) best = i;
+    const fw_geometry_vec2 r = vec_sub(at, b->at[best].at);
+    const double *of = swung->goes[(size_t)k * (size_t)b->n + (size_t)best];
+    u[0] = of[0] - of[2] * r.y, u[1] = of[1] + of[2] * r.x, u[2] = of[2];
+}
 /* body_farther.c: ways to what may be met and electrodes have it; a warning (FW-D741) */
 fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diags *diags,
                                  struct fw_verdict_variant_verdict *v);
@@ -265,12 +275,21 @@ typedef struct fw_verdict_hold {
 } fw_verdict_hold;
 void fw_verdict_hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw,
                          const fw_verdict_hold *hold);
-/* body_shaken.c: the loss factor of a scene's flexures at least and at most; false: it is as stated, or damps nothing */
-bool fw_verdict_loss_ends(const fw_mechanism *mechanism, const fw_device_scene *scene,
-                          double ends[2]);
-/* factors of hinges and bands of what is required hold both */
+/* The loss factor of a scene's flexures at least and at most; false: it is as stated, or damps nothing */
+static inline bool fw_verdict_loss_ends(const fw_mechanism *m, const fw_device_scene *s,
+                                        double ends[2]) {
+    const fw_quantity *q = &m->variant->material.loss;
+    const double known = 1e-3;
+    if (s->ndamping == 0 || !isnan(s->damping[s->ndamping - 1].loss_factor)) return false;
+    if (q->unknown || !(q->value > 0)) return false;
+    const double by = 1 + 2 * q->uncertainty / q->value;
+    ends[0] = q->interval ? fmax(q->low, 0) : q->value / by;
+    ends[1] = q->interval ? q->high : q->value * by;
+    return ends[1] > (1 + known) * ends[0];
+}
+/* body_shaken.c: factors of hinges and bands of what is required hold both; shaken: a law goes to and fro */
 struct fw_verdict_required;
-fw_status fw_verdict_damped_again(fw_arena *arena, int scene,
+fw_status fw_verdict_damped_again(fw_arena *arena, int scene, bool shaken,
                                   const fw_dynamics_motion_options *options,
                                   const struct fw_verdict_required *required,
                                   struct fw_verdict_variant_verdict *v);

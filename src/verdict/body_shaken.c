@@ -39,17 +39,6 @@ typedef struct shaking_own {
     fw_quantity_law_pieces pieces;
 } shaking_own;
 
-void fw_verdict_swung_there(const fw_verdict_swung *w, int k, int body, fw_geometry_vec2 at,
-                            double u[3]) {
-    const fw_verdict_beams *b = &w->beams;
-    int best = b->first[body];
-    for (int i = best + 1; i < b->first[body + 1]; i++)
-        if (vec_distance(b->at[i].at, at) < vec_distance(b->at[best].at, at)) best = i;
-    const fw_geometry_vec2 r = vec_sub(at, b->at[best].at);
-    memcpy(u, w->goes[(size_t)k * (size_t)b->n + (size_t)best], 3 * sizeof *u);
-    u[0] -= u[2] * r.y, u[1] += u[2] * r.x;
-}
-
 /* phi . M a of what moves every place of a body alike, or, with rigid (3 nbody), as each body does */
 static double masses_by(const shaking_own *x, int k, double ax, double ay, const double *rigid) {
     const fw_verdict_beams *b = &x->w->beams;
@@ -463,17 +452,6 @@ fw_status fw_verdict_may_swing(fw_arena *arena, const fw_verdict_variant_verdict
    both ends all of that goes one way. Cost: two motions. Test: test_effects.py
    Resonance, what_damps */
 
-bool fw_verdict_loss_ends(const fw_mechanism *m, const fw_device_scene *s, double ends[2]) {
-    const fw_quantity *q = &m->variant->material.loss;
-    const double known = 1e-3;
-    if (s->ndamping == 0 || !isnan(s->damping[s->ndamping - 1].loss_factor)) return false;
-    if (q->unknown || !(q->value > 0)) return false;
-    const double by = 1 + 2 * q->uncertainty / q->value;
-    ends[0] = q->interval ? fmax(q->low, 0) : q->value / by;
-    ends[1] = q->interval ? q->high : q->value * by;
-    return ends[1] > (1 + known) * ends[0];
-}
-
 /* what is asked for behind the first swing */
 static bool asks_later(const fw_verdict_variant_verdict *v, int scene) {
     const fw_device *d = v->mechanism->device;
@@ -516,18 +494,17 @@ static fw_status damped_with(fw_arena *arena, int i, double loss,
     return probe[0] ? required->take_in(m, i, x, probe[0], 0, v) : FW_OK;
 }
 
-fw_status fw_verdict_damped_again(fw_arena *arena, int i, const fw_dynamics_motion_options *options,
+fw_status fw_verdict_damped_again(fw_arena *arena, int i, bool shaken,
+                                  const fw_dynamics_motion_options *options,
                                   const fw_verdict_required *required,
                                   fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     const fw_dynamics_motion *x = v->motion[i];
     const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
     double ends[2], *to = v->shaken[i].factor;
-    bool shaken;
     if (!x || x->ended || !x->observed || nh == 0 || (x->loads && x->loads->quasi_static) ||
         !fw_verdict_loss_ends(m, &m->device->scene[i], ends))
         return FW_OK;
-    FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
     if (!shaken && !asks_later(v, i)) return FW_OK;
     fw_verdict_hold h = {.saw = x->observed, .more = 1};
     FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));

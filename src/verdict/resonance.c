@@ -489,7 +489,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
                              fw_verdict_motion_model_error(m, v->motion[i]);
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, required, brief, diags, v));
         }
-        FW_TRY(fw_verdict_damped_again(arena, i, options, required, v));
+        FW_TRY(fw_verdict_damped_again(arena, i, shaken, options, required, v));
         FW_TRY(fw_verdict_grown_again(arena, m, i, options, required, v));
         const double *g = v->shaken[i].grown, far = f[2 * nh] * (g ? g[2 * nh] : 1),
                      near = f[2 * nh + 1] * (g ? g[2 * nh + 1] : 1);
