@@ -287,6 +287,11 @@ static inline bool fw_verdict_loss_ends(const fw_mechanism *m, const fw_device_s
     ends[1] = q->interval ? q->high : q->value * by;
     return ends[1] > (1 + known) * ends[0];
 }
+/* as a share of what damps with the factor as it is, at least */
+static inline double fw_verdict_least_damped(const fw_mechanism *m, const fw_device_scene *s) {
+    double ends[2];
+    return fw_verdict_loss_ends(m, s, ends) ? ends[0] / m->variant->material.loss.value : 1;
+}
 /* body_shaken.c: factors of hinges and bands of what is required hold both; shaken: a law goes to and fro */
 struct fw_verdict_required;
 fw_status fw_verdict_damped_again(fw_arena *arena, int scene, bool shaken,

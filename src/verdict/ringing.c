@@ -303,9 +303,7 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
                             const fw_dynamics_motion *motion, int most_modes,
                             fw_verdict_shaken *to) {
     const double hardly = 1e-3, rings = 0.01;
-    double loss[2];
-    const bool within = fw_verdict_loss_ends(m, s, loss); /* it damps that much at least */
-    const double least = within ? loss[0] / m->variant->material.loss.value : 1;
+    const double least = fw_verdict_least_damped(m, s);
     acting by = {0};
     FW_TRY(fw_verdict_reach_find(arena, motion, modes->unit_length_m, to));
     const int rows = m->nhinge + m->nbody + to->nreach;
