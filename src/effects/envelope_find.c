@@ -316,6 +316,10 @@ static fw_status settle_tendons(const search *s, int hinges, bool alone,
     }
     FW_TRY(tendons_pull(c, envelope, s->loose, &envelope->loose_pull));
     if (!envelope->pinned) return FW_OK;
+    if (!envelope->pinned->valid) { /* pins hold all of it, or something else has no envelope */
+        envelope->loose_pull = (double)INFINITY;
+        return FW_OK;
+    }
     double pinned;
     FW_TRY(tendons_pull(c, envelope->pinned, s->loose, &pinned));
     pinned *= envelope->pinned->floor / envelope->floor;

@@ -112,6 +112,9 @@ fw_status fw_probe_bind(fw_arena *arena, const fw_mechanism *m, const fw_device_
         *p = (fw_probe){.asked = asked, .mechanism = m, .loads = own};
         p->in_scene = fw_device_probe_in_scene(asked, scene);
         FW_TRY(bind(arena, p));
+        for (int k = 0; scene && asked->carrier == FW_CARRIER_TENDON && k < scene->ntendon; k++)
+            if (isnan(scene->tendon[k].pull_N) && fw_text_same(scene->tendon[k].id, asked->of))
+                p->cable_N_per_m = scene->tendon[k].stiffness_N_per_m;
         FW_TRY(bind_gap(arena, &things, p));
     }
     return FW_OK;

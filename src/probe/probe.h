@@ -39,9 +39,10 @@ typedef struct fw_probe {
     double *p, *w, *f;                       /* (3 ports) work of the element */
     bool *on;                                /* (switches) */
     int first_switch;                        /* of the element among all */
-    const fw_clearance_gap *gap;             /* NULL: there are no such outlines */
-    double *placed;                          /* (3 nbody) work of the gap */
-    double walls_m;                          /* by how much walls come nearer than drawn */
+    double cable_N_per_m; /* of a drawn tendon alone, without what it acts on; 0: of another */
+    const fw_clearance_gap *gap; /* NULL: there are no such outlines */
+    double *placed;              /* (3 nbody) work of the gap */
+    double walls_m;              /* by how much walls come nearer than drawn */
 } fw_probe;
 
 /* One row per kind: adding one is a line in device/probes.def, and its row in probe_kinds.c. SI values

@@ -384,8 +384,36 @@ const fw_probe_row fw_probe_torque = {.value = torque};
 
 /* ---- power that an actuator feeds into the bodies ----
    Of a driver its force times the rate of its coordinate; of a tendon or comb drive the sum of f . w over
-   its ports, without what the cable stores and what the source loses. W. Test: test_probe.py, against
+   its ports, without what the cable stores and what the source loses. Where slender parts of bodies give (body_compliance.c), f . w
+   is what moves them as rigid ones, and what those parts store is fed in besides: the element's energy less T^2/(2 k) of the cable,
+   by a central difference along the motion. W. Error: round-off; of that difference (omega h)^2/6. Test: test_probe.py, against
    kinetic and elastic energy. */
+
+/* J, h later on the way that the state is on; the element's work room then has that state */
+static double given_J(const fw_probe *p, const fw_probe_state *s, const fw_effects_port_state *seen,
+                      double k, double h) {
+    const fw_effects_force_element *e = p->element;
+    const int n = 3 * e->ports;
+    fw_effects_port_state then = *seen;
+    then.t_s = s->t_s + h, then.still = true;
+    for (int i = 0; i < n; i++)
+        p->p[i] += h * p->w[i];
+    e->class_->force(e, &then, p->f);
+    const double pull = hypot(p->f[0], p->f[1]),
+                 all = e->class_->energy(e, &then) - pull * pull / (2 * k);
+    for (int i = 0; i < n; i++)
+        p->p[i] -= h * p->w[i];
+    return all;
+}
+
+/* W into what gives of bodies where a cable pulls */
+static double fed_to_arms(const fw_probe *p, const fw_probe_state *s,
+                          const fw_effects_port_state *seen) {
+    const fw_effects_force_element *e = p->element;
+    const double h = 1e-6; /* s: below any period of a device, above what round-off takes */
+    const double k = s->still || !e->class_->beam || !e->class_->energy ? 0 : p->cable_N_per_m;
+    return k > 0 ? (given_J(p, s, seen, k, h) - given_J(p, s, seen, k, -h)) / (2 * h) : 0;
+}
 
 static double power_of_driver(const fw_probe *p, const fw_probe_state *s) {
     const fw_mechanism *m = p->mechanism;
@@ -416,7 +444,7 @@ static double power(const fw_probe *p, const fw_probe_state *s) {
     double sum = 0;
     for (int i = 0; i < 3 * p->element->ports; i++)
         sum += p->f[i] * p->w[i];
-    return sum;
+    return sum + fed_to_arms(p, s, &seen);
 }
 
 const fw_probe_row fw_probe_power = {.value = power};

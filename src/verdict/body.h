@@ -3,8 +3,10 @@
    and what rings on. Private to the room. */
 #ifndef FW_VERDICT_BODY_H
 #define FW_VERDICT_BODY_H
+#include "geometry/segment.h"
 #include "statics/statics.h"
 #include "verdict/strain.h"
+#include <math.h>
 
 /* Where ways of one body go together they bear together what comes by each of them: body_together.c */
 typedef struct
@@ -243,19 +245,59 @@ typedef struct fw_verdict_swinging {
 /* Adds it to factors of hinges, to `each` of v->shaken[scene], whose ways are known, and puts it there (`own`) */
 fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, bool shaken, fw_verdict_own *own,
                                   struct fw_verdict_variant_verdict *v);
-/* *may: they may by more than a hundredth of what the motion has; gives: share that bodies give in it; shaken: a law goes to and fro */
+/* *may: they may by more than a hundredth of what the motion has; gives: share that bodies give in it */
 fw_status fw_verdict_may_swing(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
-                               int scene, double gives, bool shaken, fw_verdict_own *own,
-                               bool *may);
+                               int scene, double gives, fw_verdict_own *own, bool *may);
 /* own->modes */
 fw_status fw_verdict_own_modes(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
                                fw_verdict_own *own);
 /* mode k at a place of a body as drawn: (m, m, rad)/sqrt(kg) */
-void fw_verdict_swung_there(const fw_verdict_swung *swung, int k, int body, fw_geometry_vec2 at,
-                            double u[3]);
+static inline void fw_verdict_swung_there(const fw_verdict_swung *swung, int k, int body,
+                                          fw_geometry_vec2 at, double u[3]) {
+    const fw_verdict_beams *b = &swung->beams;
+    int best = b->first[body];
+    for (int i = best + 1; i < b->first[body + 1]; i++)
+        if (vec_distance(b->at[i].at, at) < vec_distance(b->at[best].at, at)) best = i;
+    const fw_geometry_vec2 r = vec_sub(at, b->at[best].at);
+    const double *of = swung->goes[(size_t)k * (size_t)b->n + (size_t)best];
+    u[0] = of[0] - of[2] * r.y, u[1] = of[1] + of[2] * r.x, u[2] = of[2];
+}
 /* body_farther.c: ways to what may be met and electrodes have it; a warning (FW-D741) */
 fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diags *diags,
                                  struct fw_verdict_variant_verdict *v);
+
+/* moved_again.c: what a scene that is moved again changes: f (2 x (nhinge + 1)), more and less of every hinge, and of what goes
+   farthest; far and now of fw_verdict_farthest */
+typedef struct fw_verdict_hold {
+    const fw_verdict_strain_monitor *saw;
+    double *far, *now, *f;
+    double more; /* times what is found */
+} fw_verdict_hold;
+void fw_verdict_hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw,
+                         const fw_verdict_hold *hold);
+/* The loss factor of a scene's flexures at least and at most; false: it is as stated, or damps nothing */
+static inline bool fw_verdict_loss_ends(const fw_mechanism *m, const fw_device_scene *s,
+                                        double ends[2]) {
+    const fw_quantity *q = &m->variant->material.loss;
+    const double known = 1e-3;
+    if (s->ndamping == 0 || !isnan(s->damping[s->ndamping - 1].loss_factor)) return false;
+    if (q->unknown || !(q->value > 0)) return false;
+    const double by = 1 + 2 * q->uncertainty / q->value;
+    ends[0] = q->interval ? fmax(q->low, 0) : q->value / by;
+    ends[1] = q->interval ? q->high : q->value * by;
+    return ends[1] > (1 + known) * ends[0];
+}
+/* as a share of what damps with the factor as it is, at least */
+static inline double fw_verdict_least_damped(const fw_mechanism *m, const fw_device_scene *s) {
+    double ends[2];
+    return fw_verdict_loss_ends(m, s, ends) ? ends[0] / m->variant->material.loss.value : 1;
+}
+/* body_shaken.c: factors of hinges and bands of what is required hold both; shaken: a law goes to and fro */
+struct fw_verdict_required;
+fw_status fw_verdict_damped_again(fw_arena *arena, int scene, bool shaken,
+                                  const fw_dynamics_motion_options *options,
+                                  const struct fw_verdict_required *required,
+                                  struct fw_verdict_variant_verdict *v);
 
 /* ---- flexure_swing.c: what flexures weigh ---- */
 
@@ -285,6 +327,9 @@ fw_status fw_verdict_flexures_across(fw_arena *arena, const struct fw_verdict_va
 /* body_farther.c: what bodies do by modes of their own in its scene, in low and high */
 void fw_verdict_swings_required(const struct fw_verdict_variant_verdict *v,
                                 struct fw_verdict_requirement *r);
+/* of ways by laws that go once: how far beside what bodies give at rest, m; else 0 */
+double fw_verdict_swings_once(const struct fw_verdict_variant_verdict *v,
+                              const struct fw_verdict_requirement *r);
 /* strain_monitor.c: what hangs over beyond hinges and middles, and may not bear what shakes it in a scene, is undecided (FW-D538) */
 fw_status fw_verdict_shaken_bears(fw_arena *arena, struct fw_verdict_variant_verdict *v,
                                   const fw_verdict_hung *hung, int scene);

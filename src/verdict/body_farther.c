@@ -282,23 +282,44 @@ static double probed_by_own(const fw_verdict_variant_verdict *v, const fw_verdic
     return 0;
 }
 
-void fw_verdict_swings_required(const fw_verdict_variant_verdict *v, fw_verdict_requirement *r) {
+/* of what is required in its scene; NaN: it has no such way */
+static double asked_by_own(const fw_verdict_variant_verdict *v, const fw_verdict_requirement *r) {
     const fw_device *d = v->mechanism->device;
     const fw_device_requirement *asked = &d->requirement[r->asked];
+    const fw_verdict_swinging *own = v->shaken[r->scene_index].own;
+    const double by =
+        probed_by_own(v, own, &d->probe[asked->probe], asked->measure == FW_MEASURE_PARASITIC);
+    return asked->measure == FW_MEASURE_PEAK_TO_PEAK ? 2 * by : by;
+}
+
+/* of ways by what goes once: fw_verdict_hangs_in_plane has it beside what bodies give at rest */
+static bool goes_once(const fw_verdict_swinging *own, const fw_verdict_requirement *r) {
+    return !own->shaken && fw_verdict_moves(r);
+}
+
+double fw_verdict_swings_once(const fw_verdict_variant_verdict *v,
+                              const fw_verdict_requirement *r) {
+    const fw_verdict_swinging *own = v->shaken ? v->shaken[r->scene_index].own : NULL;
+    const fw_device *d = v->mechanism->device;
+    if (!own || !goes_once(own, r) || d->requirement[r->asked].measure == FW_MEASURE_SETTLING)
+        return 0;
+    return asked_by_own(v, r);
+}
+
+void fw_verdict_swings_required(const fw_verdict_variant_verdict *v, fw_verdict_requirement *r) {
+    const fw_device_requirement *asked = &v->mechanism->device->requirement[r->asked];
     const fw_verdict_swinging *own = v->shaken[r->scene_index].own;
     const double little = 0.25; /* of a band that it settles within */
     const bool settles = asked->measure == FW_MEASURE_SETTLING;
     if (!own) return;
-    double more =
-        probed_by_own(v, own, &d->probe[asked->probe], asked->measure == FW_MEASURE_PARASITIC);
+    double more = asked_by_own(v, r);
     if (settles && (isnan(more) ? own->share > 0 : more > little * asked->band)) {
         r->open = "bodies swing by modes of their own, beside what rigid bodies do";
         r->low = 0, r->high = HUGE_VAL;
     }
-    /* of ways by what goes once, what bodies give counts twice already (fw_verdict_hangs_in_plane) */
-    if (settles || (!own->shaken && fw_verdict_moves(r))) return;
-    if (isnan(more)) more = own->share * r->swing;
-    if (asked->measure == FW_MEASURE_PEAK_TO_PEAK) more *= 2;
+    if (settles || goes_once(own, r)) return;
+    if (isnan(more))
+        more = own->share * r->swing * (asked->measure == FW_MEASURE_PEAK_TO_PEAK ? 2 : 1);
     r->low -= more, r->high += more;
     if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
 }

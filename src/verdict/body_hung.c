@@ -365,11 +365,18 @@ fw_status fw_verdict_hung_of(fw_arena *arena, const fw_verdict_variant_verdict *
 
 /* ---- what hangs over bends in the plane, judged: what may meet then, goes farther or swings slower ---- */
 
+/* what loads and shaking bend by `by` counts twice what they do at rest, for what comes at once; own modes say that themselves */
+static double beside_own(const fw_verdict_variant_verdict *v, int scene, double by, double own) {
+    const fw_device_scene *s = &v->mechanism->device->scene[scene];
+    const bool weighs = s->gx_m_per_s2 != 0 || s->gy_m_per_s2 != 0; /* which counts once */
+    return fmax(by, (weighs ? by : 0.5 * by) + own);
+}
+
 /* Of a displacement along a direction, with its sign, only what its own body does counts; and of any what hinges and loads do
-   together, beside what the band has of hinges alone */
+   together, beside what the band has of hinges alone; own: what its modes do besides */
 static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
                           const fw_verdict_requirement *r, const fw_verdict_hung *hung,
-                          fw_verdict_soft *soft, double *down, double *up) {
+                          fw_verdict_soft *soft, double by, double own, double *down, double *up) {
     const fw_device *d = v->mechanism->device;
     const fw_device_probe *p = &d->probe[d->requirement[r->asked].probe];
     const fw_dynamics_motion *x = v->motion[r->scene_index];
@@ -377,6 +384,7 @@ static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
     const double has =
         fw_verdict_bending_share(x) * fabs(isnan(r->origin) ? r->value : r->value - r->origin);
     double *to, apart, less, more, rings = 0;
+    *down = *up = beside_own(v, r->scene_index, by, own);
     if (!saw || !saw->bending.rest_N || p->row != FW_PROBE_IS_displacement ||
         p->body == FW_GROUND || !r->measure || strcmp(r->measure, "settling-time") == 0)
         return FW_OK;
@@ -386,15 +394,18 @@ static fw_status asked_of(fw_arena *arena, const fw_verdict_variant_verdict *v,
     const double times = strcmp(r->measure, "peak-to-peak") == 0 ? 2 : 1, /* at either end */
         along = p->direction_rad + (across ? 0.5 * FW_PI : 0);
     FW_TRY(fw_verdict_goes_farther(arena, v, r->scene_index, p, along, soft, &less, &more, &known));
-    if (!way) less = more = times * fmax(less, more); /* whichever way it is farthest */
-    if (way) {
-        FW_NEED(to = fw_arena_array(arena, double, (size_t)v->mechanism->nbody));
-        FW_TRY(fw_verdict_bends_in_plane(arena, v, r->scene_index, hung, p, to, &apart));
-        FW_TRY(fw_verdict_bends_asked(arena, v, r->scene_index, hung, p, down, up, &rings));
-        if (known) *down = *up = 0; /* what it gives by itself is in the whole */
+    if (!way) { /* whichever way it is farthest */
+        *down = *up = fmax(*up, times * fmax(less, more) - has + own);
+        return FW_OK;
     }
+    FW_NEED(to = fw_arena_array(arena, double, (size_t)v->mechanism->nbody));
+    FW_TRY(fw_verdict_bends_in_plane(arena, v, r->scene_index, hung, p, to, &apart));
+    FW_TRY(fw_verdict_bends_asked(arena, v, r->scene_index, hung, p, down, up, &rings));
+    if (known) *down = *up = 0; /* what it gives by itself is in the whole */
+    rings = fmax(rings, own);
     *down = fmax(*down, less - has) + rings, *up = fmax(*up, more - has) + rings;
-    if (way) *down = fmax(*down + to[p->body], apart), *up = fmax(*up + to[p->body], apart);
+    apart = beside_own(v, r->scene_index, apart, own);
+    *down = fmax(*down + to[p->body], apart), *up = fmax(*up + to[p->body], apart);
     return FW_OK;
 }
 
@@ -414,14 +425,18 @@ static fw_status opens(fw_arena *arena, int scene, double by, int body, const fw
                        fw_verdict_variant_verdict *v) {
     const char *name = v->mechanism->device->scene[scene].name;
     const double hardly = 1e-4; /* of a value: its band is as it was */
+    const fw_verdict_swinging *own = v->shaken ? v->shaken[scene].own : NULL;
     fw_verdict_soft soft = {.looked = false};
-    FW_TRY(fw_verdict_distances_open(arena, v, scene, by, body));
+    int farthest;
+    const double swings =
+        own ? fw_verdict_two_farthest(own->way_m, v->mechanism->nbody, &farthest) : 0;
+    FW_TRY(fw_verdict_distances_open(arena, v, scene, beside_own(v, scene, by, swings), body));
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
         const fw_verdict_decision was = r->decision;
         if (r->scene_index != scene || !fw_verdict_moves(r) || was == FW_REJECT) continue;
-        double down = by, up = by;
-        FW_TRY(asked_of(arena, v, r, hung, &soft, &down, &up));
+        double down, up;
+        FW_TRY(asked_of(arena, v, r, hung, &soft, by, fw_verdict_swings_once(v, r), &down, &up));
         if (!(fmax(down, up) > hardly * fabs(r->value))) continue;
         FW_TRY(widen(arena, down, up, r, v));
         if (was != FW_ACCEPT || r->decision == FW_ACCEPT) continue;

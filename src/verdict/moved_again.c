@@ -13,6 +13,7 @@
 #include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -366,20 +367,14 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
    nothing; of corners none. Source:
    docs/theory/verdict.md. Test: test_hinge.py blows_that_come_again */
 
-typedef struct
-    hold { /* f (2 x (nhinge + 1)): more and less of every hinge, and of what goes farthest */
-    const fw_verdict_strain_monitor *saw;
-    double *far, *now, *f;
-    double more; /* times what is found */
-} hold;
-
 static void hold_factor(double more, double now, double was, double *f) {
     const double part = was > 0 ? now / was - 1 : 0;
     f[0] = fmax(f[0], 1 + more * part);
     f[1] = fmin(f[1], fmax(0, 1 + more * part));
 }
 
-static void hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw, const hold *h) {
+void fw_verdict_hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw,
+                         const fw_verdict_hold *h) {
     const int nb = m->nbody, nh = m->nhinge;
     const double hardly_strained = 1e-3;
     double most[2] = {0};
@@ -399,7 +394,8 @@ static void hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw
 
 static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
                               double by, const fw_dynamics_motion *like,
-                              const fw_dynamics_motion_options *given, const hold *h, bool *whole) {
+                              const fw_dynamics_motion_options *given, const fw_verdict_hold *h,
+                              bool *whole) {
     fw_dynamics_motion_options o = *given;
     const fw_dynamics_motion *x;
     fw_verdict_strain_monitor monitor;
@@ -409,12 +405,12 @@ static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_d
     FW_TRY(fw_statics_move_stiffer(arena, m, scene, by, like, &o, &x));
     *whole = x && !x->ended && !monitor.no_memory;
     memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
-    if (*whole) fw_verdict_farthest(m, x, h->now), hold_run(m, &monitor, h);
+    if (*whole) fw_verdict_farthest(m, x, h->now), fw_verdict_hold_run(m, &monitor, h);
     return FW_OK;
 }
 
 /* more than a stiffness changes where nothing is thrown */
-static bool hold_changes(const hold *h, size_t nhinge, double stiffer) {
+static bool hold_changes(const fw_verdict_hold *h, size_t nhinge, double stiffer) {
     const double in_proportion = 1.5;
     for (size_t k = 0; k < 2 * nhinge + 2; k++)
         if (fabs(h->f[k] - 1) > in_proportion * stiffer) return true;
@@ -432,7 +428,7 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const double e = fmin(fmax(fw_verdict_motion_lasting_error(m), least), largest);
     if (!x || v->corner || nh == 0 || x->ended || !fw_statics_takes_hold(m, s, x, again))
         return FW_OK;
-    hold h = {.saw = x->observed, .more = 1.25};
+    fw_verdict_hold h = {.saw = x->observed, .more = 1.25};
     FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
     h.now = h.far + n, h.f = h.now + n;
     for (size_t k = 0; k < 2 * nh + 2; k++)
@@ -498,7 +494,7 @@ static fw_status tell_lost(fw_arena *arena, const fw_device_scene *s, int scene,
 
 /* *told: a reason is given where it does not stand then, or has no such motion */
 static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
-                           const fw_dynamics_motion_options *given, const hold *h,
+                           const fw_dynamics_motion_options *given, const fw_verdict_hold *h,
                            const fw_verdict_required *required, fw_verdict_variant_verdict *v,
                            bool *told) {
     const long hopeless = 300000;
@@ -528,9 +524,11 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
         *told = true;
         return FW_OK;
     }
+    const double has = fw_verdict_motion_lasting_error(m) +
+                       (way.gives ? fw_verdict_bending_share(v->motion[i]) : 0);
     memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
-    fw_verdict_farthest(m, x, h->now), hold_run(m, &monitor, h);
-    if (probe[0]) FW_TRY(required->take_in(m, i, x, probe[0], way.gives, v));
+    fw_verdict_farthest(m, x, h->now), fw_verdict_hold_run(m, &monitor, h);
+    if (probe[0]) FW_TRY(required->take_in(m, i, x, probe[0], has, v));
     return FW_OK;
 }
 
@@ -542,7 +540,7 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
     if (!fw_verdict_grows(v, i) || nh == 0 || x->ended || !x->observed) return FW_OK;
     if (has_reason_of(v, &m->device->scene[i], UNSTABLE)) return FW_OK; /* as it is */
-    hold h = {.saw = x->observed, .more = 1};
+    fw_verdict_hold h = {.saw = x->observed, .more = 1};
     bool told = false;
     FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
     h.now = h.far + n, h.f = v->shaken[i].grown = h.now + n;

@@ -390,11 +390,10 @@ fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *m, int scene
 
 /* what meets may not, where a mode that lies elsewhere moves less */
 static void may_not_meet(fw_verdict_variant_verdict *v, int scene, double less) {
-    const char *name = v->mechanism->device->scene[scene].name;
     for (int k = 0; k < v->nreason; k++) {
         fw_verdict_reason *r = &v->reason[k];
         if (r->number == 294 && r->decision == FW_REJECT && r->scene && r->keep > less &&
-            strcmp(r->scene, name) == 0)
+            strcmp(r->scene, v->mechanism->device->scene[scene].name) == 0)
             r->decision = FW_INCONCLUSIVE;
     }
     for (int k = 0; k < v->nclearance; k++) {
@@ -477,7 +476,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         for (int h = 0; h < 2 * nh + 2; h++)
             f[h] = 1;
         FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
-        FW_TRY(fw_verdict_may_swing(arena, v, i, bodies[i], shaken, &own, &may));
+        FW_TRY(fw_verdict_may_swing(arena, v, i, bodies[i], &own, &may));
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], may, v));
         const double shakes = largest_of(f, 2 * nh + 2);
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
@@ -490,6 +489,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
                              fw_verdict_motion_model_error(m, v->motion[i]);
             FW_TRY(fw_verdict_softened(arena, m, i, e, options, required, brief, diags, v));
         }
+        FW_TRY(fw_verdict_damped_again(arena, i, shaken, options, required, v));
         FW_TRY(fw_verdict_grown_again(arena, m, i, options, required, v));
         const double *g = v->shaken[i].grown, far = f[2 * nh] * (g ? g[2 * nh] : 1),
                      near = f[2 * nh + 1] * (g ? g[2 * nh + 1] : 1);

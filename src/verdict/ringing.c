@@ -303,6 +303,7 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
                             const fw_dynamics_motion *motion, int most_modes,
                             fw_verdict_shaken *to) {
     const double hardly = 1e-3, rings = 0.01;
+    const double least = fw_verdict_least_damped(m, s);
     acting by = {0};
     FW_TRY(fw_verdict_reach_find(arena, motion, modes->unit_length_m, to));
     const int rows = m->nhinge + m->nbody + to->nreach;
@@ -335,7 +336,7 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
         if (!(share > hardly)) continue;
         out->number = k;
         out->omega = mode->omega_rad_per_s;
-        out->damping = fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: 0 */
+        out->damping = least * fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: 0 */
         out->late = swings[1] / swings[0];
         out->start = start / swings[0];
         to->n++;

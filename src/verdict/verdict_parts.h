@@ -237,13 +237,13 @@ struct fw_verdict_shaken {
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                                bool *shaken);
 /* verdict_requirement.c: who moves a scene again looks at what is required of it, and bands take in what that motion
-   has; gives: bodies do in it */
+   has; has: share of the band that it has already */
 typedef struct fw_verdict_required {
     fw_status (*watch)(fw_arena *arena, const fw_mechanism *mechanism, int scene,
                        const fw_verdict_variant_verdict *v, bool required,
                        fw_probe_monitor *monitor[2]);
     fw_status (*take_in)(const fw_mechanism *mechanism, int scene, const fw_dynamics_motion *other,
-                         const fw_probe_monitor *monitor, bool gives,
+                         const fw_probe_monitor *monitor, double has,
                          fw_verdict_variant_verdict *v);
 } fw_verdict_required;
 extern const fw_verdict_required fw_verdict_required_of_scenes;

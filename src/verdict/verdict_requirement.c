@@ -324,19 +324,17 @@ static void judge_ended(fw_device_measure measure, fw_verdict_requirement *r) {
     r->why = scene_ended;
 }
 
-/* Another motion of the scene, with what is left of the band without what flexures are off by, and what bodies give in `other` */
+/* Another motion of the scene, with what is left of the band without what the other one has of it */
 static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_dynamics_motion *motion,
                          const fw_dynamics_motion *other, const fw_probe_monitor *monitor,
-                         const fw_probe_result *p, const fw_probe_result *now, bool gives,
+                         const fw_probe_result *p, const fw_probe_result *now, double has,
                          fw_verdict_requirement *r) {
     const fw_mechanism *m = v->mechanism;
     const fw_device_measure measure = m->device->requirement[r->asked].measure;
     const bool across = measure == FW_MEASURE_PARASITIC, time = measure == FW_MEASURE_SETTLING;
     const int probe = m->device->requirement[r->asked].probe;
     const double left = model_of(m, motion, across ? p->across_level : p->level) +
-                        fw_verdict_places_error(motion, &m->device->probe[probe]) -
-                        fw_verdict_motion_lasting_error(m) -
-                        (gives ? fw_verdict_bending_share(motion) : 0);
+                        fw_verdict_places_error(motion, &m->device->probe[probe]) - has;
     fw_verdict_requirement then = *r;
     if (time)
         FW_TRY(put_settling(v, other, monitor, now, false, &then));
@@ -344,7 +342,9 @@ static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_dynamics_
         judge(m, other, now, false, &then);
     const double off = r->numeric + (time ? 0 : fmax(0, left) * then.swing),
                  least = r->low >= 0 && r->value >= 0 && isnan(r->origin) ? 0 : -HUGE_VAL;
-    then.low = then.value - off, then.high = then.open ? HUGE_VAL : then.value + off;
+    const bool like = time && !(has > 0) && r->value > 0; /* but for what damps */
+    const double less = like ? r->low / r->value : 1, more = like ? r->high / r->value : 1;
+    then.low = less * then.value - off, then.high = then.open ? HUGE_VAL : more * then.value + off;
     if (measure == FW_MEASURE_FINAL) FW_TRY(put_ring(v, other, monitor, now, &then));
     if (time && then.open) r->open = then.open;
     const double low = fmin(r->low, fmax(least, then.low)), high = fmax(r->high, then.high);
@@ -355,7 +355,7 @@ static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_dynamics_
 }
 
 static fw_status take_in_motion(const fw_mechanism *m, int scene, const fw_dynamics_motion *other,
-                                const fw_probe_monitor *monitor, bool gives,
+                                const fw_probe_monitor *monitor, double has,
                                 fw_verdict_variant_verdict *v) {
     for (int k = 0; k < v->nrequirement; k++) {
         fw_verdict_requirement *r = &v->requirement[k];
@@ -363,8 +363,8 @@ static fw_status take_in_motion(const fw_mechanism *m, int scene, const fw_dynam
         const fw_probe_result *p = &v->probed[scene * m->device->nprobe + probe];
         fw_probe_result now;
         if (r->scene_index != scene || !r->measure || r->why) continue;
-        fw_probe_result_of(monitor, NULL, other, probe, &now);
-        if (now.known) FW_TRY(take_in(v, v->motion[scene], other, monitor, p, &now, gives, r));
+        fw_probe_result_of(monitor, NULL, other, probe, &now), now.final_numeric = p->final_numeric;
+        if (now.known) FW_TRY(take_in(v, v->motion[scene], other, monitor, p, &now, has, r));
     }
     return FW_OK;
 }

@@ -670,9 +670,10 @@ class BodiesThatAreShaken(unittest.TestCase):
 <revolute id="A" a="ground" b="arm" b-y="-0.5 mm" hinge="leaf" axis="0 deg"/></mechanism>REST<die clearance="600 um"/></device>"""
     UP = '<bar x="0 mm" y="0.1 mm" to-x="0 mm" to-y="1.6 mm" width="20 um"/>'
 
-    def said(self, text):
+    def said(self, text, told=True):
         done = run("check", "-", "--corners", "none", "--advice", "none", "--json", input=text)
-        self.assertIn("FW-D741", done.stderr)
+        if told:
+            self.assertIn("FW-D741", done.stderr)
         return json.loads(done.stdout)
 
     def portal(self, Hz, m_per_s2):
@@ -706,6 +707,35 @@ class BodiesThatAreShaken(unittest.TestCase):
         beside = self.arm(probe.format(x=1.6, y=0, turn=90) + scene.format(way="ay", a=200, f=17.27, loss=0.01),
                           '<bar x="-1.6 mm" y="0 mm" to-x="1.6 mm" to-y="0 mm" width="30 um"/>', "20 um")
         self.assertTrue(28e-6 < beside["requirements"][0]["band"][1] < 60e-6, beside["requirements"])
+
+    STAGE = """<device xmlns="urn:flexwright:device:1" name="stage"><material ref="silicon-100" thickness="50 um" youngs-modulus="160 GPa"/><flow ref="silicon-on-glass"/>
+<flexure id="leaf" kind="leaf" length="300 um" width="{leaf} um" fillet="4 um"/><mechanism><body id="arm" x="0 mm" y="0.35 mm"><plate x="0 mm" y="0 mm" width="1.2 mm" height="0.2 mm"/>
+<bar x="0 mm" y="0.1 mm" to-x="0 mm" to-y="{arm} mm" width="20 um"/></body><revolute id="A" a="ground" a-x="-0.5 mm" b="arm" b-x="-0.5 mm" b-y="-0.35 mm" hinge="leaf" axis="0 deg"/>
+<revolute id="B" a="ground" a-x="0.5 mm" b="arm" b-x="0.5 mm" b-y="-0.35 mm" hinge="leaf" axis="0 deg"/></mechanism>{asked}<scene name="go" duration="4 ms">
+<force on="arm" x="0 mm" y="{at} mm" fx="{fx} uN" law="{law}"/>{more}<material-damping loss-factor="0.02"/></scene><die clearance="600 um"/></device>"""
+
+    def test_laws_that_go_once(self):
+        """a stage with an arm that swings beside it. Frames of beams, moved mode by mode: the tip goes 85.3 nm and the arm's middle 49.1 by a step of 100 uN on the stage,
+        where bands ended at 54.7 and 52.6; the leaves use 2.18 times what they do with a rigid arm by a ramp of 30 us at its tip, where nothing else is asked for"""
+        probe = '<probe id="{id}" kind="displacement" on="arm" x="0 mm" y="{y} mm" direction="0 deg"/><require probe="{id}" measure="maximum" max="1 um"/>'
+        asked = probe.format(id="tip", y=2.4) + probe.format(id="middle", y=1.2)
+        for law, true in (("step", (85.3e-9, 49.1e-9)), ('ramp" rise="3 ms', None)):
+            found = self.said(self.STAGE.format(leaf=20, arm=2.4, asked=asked, at=0, fx=100, law=law, more=""), told=true is not None)["requirements"]
+            for row, value in zip(found, true or (None, None)):
+                low, high = row["band"]
+                if value:
+                    self.assertTrue(low < value < high < 2.5 * value, (row, value))
+                else:  # fifteen periods of the arm
+                    self.assertLess(high - low, 0.6 * row["value"], row)
+        found = self.said(self.STAGE.format(leaf=10, arm=1.6, asked="", at=1.6, fx=50, law='ramp" rise="0.03 ms', more=""))["hinges"]
+        for hinge in found:
+            self.assertTrue(2.18 * hinge["utilisation"] < hinge["utilisation_band"][1] < 4 * hinge["utilisation"], hinge)
+
+    def test_a_cable_that_goes_slack_where_pins_would_hold_all(self):
+        """without flexures two hinges of one body leave it no motion: there is no such envelope, and `check` ended by a fault of memory"""
+        cable = '<tendon id="c" draw="0 um" stiffness="5 N/m" damping="0 N s/m"><eyelet on="arm" x="0 mm" y="1.6 mm"/><eyelet on="ground" x="-1.5 mm" y="1.95 mm"/></tendon>'
+        said = self.said(self.STAGE.format(leaf=30, arm=1.6, asked="", at=0, fx=10, law="step", more=cable), told=False)
+        self.assertTrue(next(e for e in said["effects"] if e["id"] == "tendon")["active"])
 
     def test_what_rings_on(self):
         """a ramp of 20 us leaves the arm ringing for 3 ms and more"""
@@ -919,6 +949,20 @@ stiffness="1 N/m"><eyelet on="jaw" y="0.45 mm"/><eyelet on="ground" x="0.45 mm" 
         low, high = said["requirements"][0]["band"]
         self.assertTrue(low < 2.89e-3 < high < 6e-3, (low, high))
 
+    def test_what_a_cable_feeds_into_a_slender_arm(self):
+        """slowly drawn, its pull times how fast the arm's end goes, which is drawn in less what the cable stretches by; by the rigid arm alone it was 8.2 nW of 15.6"""
+        text = (ROOT / "tests/data/arms/grips.xml").read_text()
+        text = re.sub(r'<contact id="work".*?/>', "", text, flags=re.S).replace('width="12 um" fillet', 'width="28 um" fillet')
+        text = re.sub(r"<probe.*?/>\s*<require.*?/>", '<probe id="fed" kind="power" of="cable"/><probe id="pull" kind="force" of="cable"/>', text, flags=re.S)
+        text = text.replace('x="-0.45 mm"', 'x="2.7 mm"').replace('damping="0.002 N s/m"', 'damping="0 N s/m"')
+        for k, arm in ((2000, 40), (200, 30)):
+            with tempfile.TemporaryDirectory() as place:
+                device = pathlib.Path(place, "device.xml")
+                device.write_text(text.replace('stiffness="2000 N/m"', f'stiffness="{k} N/m"'))
+                said = json.loads(run("simulate", device, "--json", "--set", f"arm={arm} um").stdout)
+            fed, pull = (next(p for p in said["probes"] if p["id"] == of) for of in ("fed", "pull"))
+            self.assertAlmostEqual(fed["peak"] / (pull["final"] * (12e-6 - pull["final"] / k) / 30e-3), 1, delta=5e-3, msg=(k, arm, fed, pull))
+
     def test_a_damped_contact_on_a_slender_arm_ends(self):
         """it let go while it pressed, took hold again at once, and so on"""
         for damps in ("0.002", "0.01"):
@@ -999,6 +1043,19 @@ class Resonance(unittest.TestCase):
             device.write_text(text.replace("</device>", scene))
             done = run("check", device, "--corners", "none", "--advice", "none", "--json")
         return json.loads(done.stdout), done.stderr
+
+    def test_what_damps_within_its_limits(self):
+        """copper's loss factor of 2e-3 is known to a half: bands hold what its ends, stated one by one, make of a settling time and of a peak at a mode. They ended at
+        7.1 ms of 12.3 and at 9.5 um of 16.4"""
+        def row(loss, law, asked):
+            text = BodiesThatAreShaken.STAGE.format(leaf=20, arm=0.3, asked=f'<probe id="p" kind="displacement" on="arm" x="0 mm" y="0 mm" direction="0 deg"/><require probe="p" {asked}/>',
+                                                    at=0, fx=100, law=law, more="").replace("silicon-100", "copper-plated").replace('<flow ref="silicon-on-glass"/>', "")
+            text = text.replace('width="20 um"/></body>', 'width="100 um"/></body>').replace('"4 ms"', '"40 ms"' if law == "step" else '"12 ms"').replace('loss-factor="0.02"', loss)
+            return json.loads(run("check", "-", "--corners", "none", "--advice", "none", "--json", input=text).stdout)["requirements"][0]
+        for law, asked in (("step", 'measure="settling-time" band="5 nm" max="1 s"'), ('sine" frequency="28667 Hz', 'measure="peak" max="1 mm"')):
+            low, high = row("", law, asked)["band"]
+            ends = [row(f'loss-factor="{loss}"', law, asked)["value"] for loss in (1e-3, 4e-3)]
+            self.assertTrue(low < ends[1] < ends[0] < high < 1.3 * ends[0], (law, low, high, ends))
 
     def test_bands_hold_what_the_error_of_a_frequency_allows(self):
         far, said = self.shaken(500)
