@@ -128,10 +128,8 @@ const char *fw_recipe_unit_of_printed(fw_arena *arena, const char *unit) {
 const char *fw_recipe_missing_list(fw_arena *arena, const fw_process_time *time) {
     fw_text list = fw_text_new(arena);
     fw_text_add(&list, "");
-    for (int i = 0; i < time->nmissing; i++) {
-        fw_text_add(&list, i ? ", " : "");
-        fw_text_add(&list, time->missing[i]);
-    }
+    for (int i = 0; i < time->nmissing; i++)
+        fw_text_printf(&list, "%s%s", i ? ", " : "", time->missing[i]);
     return fw_text_end(&list) == FW_OK ? list.data : NULL;
 }
 
@@ -404,10 +402,10 @@ const fw_process_accept *fw_recipe_asrun_accept(const fw_process_step *step, con
 
 bool fw_recipe_asrun_accepted(const fw_recipe_measured *m) {
     if (isnan(m->number)) return !strstr(m->value, "no"); /* yes, at every site */
+    bool all = true;
     for (int i = 0; i < FW_RECIPE_SITES; i++)
-        if (!isnan(m->site[i]) && !fw_recipe_asrun_inside(m->low, m->high, m->site[i]))
-            return false;
-    return true;
+        all &= isnan(m->site[i]) || fw_recipe_asrun_inside(m->low, m->high, m->site[i]);
+    return all;
 }
 
 const fw_recipe_measured *fw_recipe_asrun_not_accepted(const fw_recipe_asrun_entry *o) {
@@ -507,8 +505,8 @@ void fw_recipe_asrun_put_set(const fw_recipe_set *s, fw_text *out) {
         return;
     }
     put_with_unit(out, s->value, s->q->unit);
-    const char *written = s->text + strcspn(s->text, " ");
-    written += strspn(written, " ");
+    const size_t number = strcspn(s->text, " ");
+    const char *written = s->text + number + strspn(s->text + number, " ");
     const char *unit = *written ? fw_recipe_unit_of_printed(out->arena, written) : s->q->unit;
     if (unit && strcmp(unit, s->q->unit) != 0) fw_text_printf(out, " (written %s)", s->text);
 }
@@ -567,8 +565,7 @@ void fw_recipe_asrun_put_settings(fw_text *out, const fw_recipe_asrun_entry *e) 
         if (!s->q || isnan(s->value) || (!s->q->unknown && s->value == fw_quantity_in_unit(s->q)))
             continue;
         fw_text_printf(out, "%s%s = ", between, s->name);
-        fw_recipe_put_value(out, s->value);
-        if (strcmp(s->q->unit, "1") != 0) fw_text_printf(out, " %s", s->q->unit);
+        put_with_unit(out, s->value, s->q->unit);
         between = ", ";
     }
 }
@@ -592,12 +589,11 @@ fw_status fw_recipe_asrun_odd_time(fw_arena *arena, const fw_recipe_asrun *run,
     fw_text text = fw_text_new(arena);
     const char *missing = fw_recipe_missing_list(arena, &e->as_set->time);
     FW_NEED(missing);
-    fw_text_printf(&text, "no planned time%s%s%s; ", *missing ? " (missing " : "", missing,
-                   *missing ? ")" : "");
-    fw_text_add(&text, other ? "other wafers took " : "it took longer than a working day");
+    fw_text_printf(&text, "no planned time%s%s%s; %s", *missing ? " (missing " : "", missing,
+                   *missing ? ")" : "",
+                   other ? "other wafers took " : "it took longer than a working day");
     if (other) fw_schedule_put_duration(&text, least);
-    if (other && most > least) fw_text_add(&text, " to ");
-    if (other && most > least) fw_schedule_put_duration(&text, most);
+    if (other && most > least) fw_text_add(&text, " to "), fw_schedule_put_duration(&text, most);
     FW_TRY(fw_text_end(&text));
     *planned = text.data;
     return FW_OK;
