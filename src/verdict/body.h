@@ -245,9 +245,11 @@ typedef struct fw_verdict_swinging {
 /* Adds it to factors of hinges, to `each` of v->shaken[scene], whose ways are known, and puts it there (`own`) */
 fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, bool shaken, fw_verdict_own *own,
                                   struct fw_verdict_variant_verdict *v);
-/* *may: they may by more than a hundredth of what the motion has; gives: share that bodies give in it */
+/* *may: they may by more than a hundredth of what the motion has, of hinges alone by what plain ways may leave out; gives: share that
+   bodies give in it */
 fw_status fw_verdict_may_swing(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
-                               int scene, double gives, fw_verdict_own *own, bool *may);
+                               int scene, bool shaken, double gives, fw_verdict_own *own,
+                               bool *may);
 /* own->modes */
 fw_status fw_verdict_own_modes(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
                                fw_verdict_own *own);

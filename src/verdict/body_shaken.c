@@ -423,9 +423,11 @@ static double laws_behind(const fw_mechanism *m, const fw_device_scene *s, doubl
 }
 
 fw_status fw_verdict_may_swing(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
-                               double gives, fw_verdict_own *own, bool *may) {
-    const double little = 0.01;
+                               bool shaken, double gives, fw_verdict_own *own, bool *may) {
     const fw_mechanism *m = v->mechanism;
+    /* of hinges alone, what bodies do counts from where what they give does: plain ways of samples hold up to there */
+    const bool alone = !shaken && v->nrequirement == 0 && m->device->scene[scene].nbase == 0;
+    const double little = alone ? fw_verdict_straight_share * fw_verdict_bending_told : 0.01;
     const fw_dynamics_motion *motion = v->motion[scene];
     double hangs_s2;
     *may = false;
@@ -433,6 +435,7 @@ fw_status fw_verdict_may_swing(fw_arena *arena, const fw_verdict_variant_verdict
     const double slow_s = sqrt(slow_alone_s2(v, &hangs_s2));
     if (!(slow_s > 0)) return FW_OK;
     const double behind = laws_behind(m, &m->device->scene[scene], 1 / slow_s);
+    if (alone) hangs_s2 = 0;
     if (!((gives + (hangs_s2 > 0)) * behind > little)) return FW_OK;
     FW_TRY(fw_verdict_own_modes(arena, v, own));
     if (!own->modes) return FW_OK;

@@ -476,7 +476,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         for (int h = 0; h < 2 * nh + 2; h++)
             f[h] = 1;
         FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
-        FW_TRY(fw_verdict_may_swing(arena, v, i, bodies[i], &own, &may));
+        FW_TRY(fw_verdict_may_swing(arena, v, i, shaken, bodies[i], &own, &may));
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], may, v));
         const double shakes = largest_of(f, 2 * nh + 2);
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));

@@ -302,9 +302,9 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
                             bool again, const fw_statics_modes *modes,
                             const fw_dynamics_motion *motion, int most_modes,
                             fw_verdict_shaken *to) {
-    const double hardly = 1e-3, rings = 0.01;
-    const double least = fw_verdict_least_damped(m, s);
+    const double hardly = 1e-3, rings = 0.01, least = fw_verdict_least_damped(m, s);
     acting by = {0};
+    fw_dynamics_motion_rows(motion, 0, motion->nsample); /* they wait for whom reads them */
     FW_TRY(fw_verdict_reach_find(arena, motion, modes->unit_length_m, to));
     const int rows = m->nhinge + m->nbody + to->nreach;
     FW_NEED(to->most = fw_arena_array(arena, double, (size_t)rows));

@@ -381,6 +381,7 @@ double fw_verdict_arm_gone(const fw_verdict_bending *bending, const fw_mechanism
                            const fw_verdict_arm *arm, double moment_Nm, const double force[2],
                            const fw_verdict_turn *turn);
 extern const double fw_verdict_bending_told; /* share above which what bodies give counts */
+extern const double fw_verdict_straight_share;
 typedef struct fw_verdict_solid_kept {
     double *instant;
     int n, seen, every, nplace;
