@@ -243,7 +243,7 @@ static void errors_of_derivatives_hold(void **state) {
         double most; /* what it may be off by, of the slope; NaN: it is to be not known */
         bool finer;  /* than the far nodes are apart: it is told */
     } row[] = {{is_smooth, 1e-6, false}, {rings, 0.05, true},        {rings_a_little, 1e-3, false},
-               {has_a_corner, NAN, 0},   {is_rough, (double)NAN, 0}, {stays, 0, false}};
+               {has_a_corner, (double)NAN, 0},   {is_rough, (double)NAN, 0}, {stays, 0, false}};
     const double at[] = {8, 7, 9, 7.0005, 8.93, 7.31};
     const fw_study_input in = {.from = 7, .to = 9};
     for (size_t r = 0; r < sizeof row / sizeof row[0]; r++)
