@@ -136,6 +136,19 @@ static double bound_at(const shaking_own *x, double s2, double w, double start) 
     return most;
 }
 
+/* the same from low to high by how fast the laws are: what is slow leaves nothing behind */
+static double slow_bound(const shaking_own *x, double s2, double low, double high, double start) {
+    double most = fabs(start) / low;
+    const double any = bound_at(x, s2, low, start); /* leaves the sizes at low */
+    for (int j = 0; j < x->n; j++) {
+        if (x->load[j].squared) return any;
+        if (x->size[j] != 0)
+            most += fabs(x->size[j]) *
+                    fw_quantity_law_responds(x->load[j].law, x->s->duration_s, low, high).behind;
+    }
+    return fmin(any, most);
+}
+
 /* |q - sum of sizes times laws| at these (lanes), at most; steps: that it took, -1: a bound */
 static double departs_at(const shaking_own *x, double s2, const double *w, double damping,
                          double start, double *steps) {
@@ -366,7 +379,7 @@ fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, bool shaken, fw_ve
         put_loads(&x, k);
         const double start = masses_by(&x, k, 0, 0, v->motion[scene]->v),
                      damping = damping_of(own, to, k), unit_m = own->modes->unit_length_m,
-                     bound = bound_at(&x, own->w->s2[k], low, start);
+                     bound = slow_bound(&x, own->w->s2[k], low, high, start);
         double *way_m = s->way_m;
         memset(would, 0, rows * sizeof *would);
         s->far[k] = shapes * bound;
