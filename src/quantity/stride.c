@@ -461,8 +461,7 @@ WIDE void look_at(const fw_quantity_law_row *row, double h, bool ends, double *m
     memcpy(most, was, sizeof was);
 }
 
-typedef struct
-    swinging_piece { /* even steps within a piece; ends: of rows those of all alone count */
+typedef struct swinging_piece { /* even steps; ends: what lies between is not looked at */
     const fw_quantity_law_loads *on;
     const fw_quantity_law_oscillator *from;
     int count;
@@ -493,10 +492,12 @@ WIDE void swing_through(const swinging_piece *p, swinging *o, fw_quantity_law_se
     }
 }
 
+#if defined(__x86_64__)
 __attribute__((target("avx2"))) static void swing_through_avx2(const swinging_piece *p, swinging *o,
                                                                fw_quantity_law_seen *seen) {
     swing_through(p, o, seen);
 }
+#endif
 
 /* the same numbers whatever the processor has: every lane has the same operations */
 static void swing_on(const swinging_piece *p, swinging *o, fw_quantity_law_seen *seen) {
@@ -508,12 +509,11 @@ static void swing_on(const swinging_piece *p, swinging *o, fw_quantity_law_seen 
             o[k].s[l] = decay * sin(o[k].turn[l] * h) / o[k].turn[l];
         }
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) {
+    if (__builtin_cpu_supports("avx2"))
         swing_through_avx2(p, o, seen);
-        return;
-    }
+    else
 #endif
-    swing_through(p, o, seen);
+        swing_through(p, o, seen);
 }
 
 /* from[k] at its frequencies; false: one does not swing. per_s: the slowest and the fastest */
@@ -553,7 +553,7 @@ static double swings_of_one(const fw_quantity_law_loads *on, const fw_quantity_l
     fw_quantity_law_seen its = {
         .by = &one, .most = most, .row = seen->row, .n = 1, .behind = seen->behind};
     const double steps = fw_quantity_law_swings_of(on, from, 1, &its);
-    for (int i = 0; i < seen->n; i++)
+    for (int i = 0; steps >= 0 && i < seen->n; i++)
         EACH_LANE seen->most[i * LANES + l] = fabs(seen->by[i]) * most[l];
     return steps;
 }

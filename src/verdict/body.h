@@ -275,8 +275,11 @@ typedef struct fw_verdict_hold {
     double *far, *now, *f;
     double more; /* times what is found */
 } fw_verdict_hold;
-void fw_verdict_hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw,
-                         const fw_verdict_hold *hold);
+/* nothing has changed yet from what x, as computed, does */
+fw_status fw_verdict_hold_new(fw_arena *arena, const fw_mechanism *m, const fw_dynamics_motion *x,
+                              double more, fw_verdict_hold *to);
+void fw_verdict_hold_run(const fw_mechanism *m, const fw_dynamics_motion *x,
+                         const fw_verdict_strain_monitor *saw, const fw_verdict_hold *hold);
 /* The loss factor of a scene's flexures at least and at most; false: it is as stated, or damps nothing */
 static inline bool fw_verdict_loss_ends(const fw_mechanism *m, const fw_device_scene *s,
                                         double ends[2]) {

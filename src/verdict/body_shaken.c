@@ -505,8 +505,7 @@ static fw_status damped_with(fw_arena *arena, int i, double loss,
     FW_TRY(fw_statics_move_stiffer(arena, m, &changed, 0, v->motion[i], &o, &x));
     if (monitor.no_memory || (probe[0] && probe[0]->no_memory)) return FW_NOMEM;
     if (!x || x->ended) return FW_OK;
-    memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
-    fw_verdict_farthest(m, x, h->now), fw_verdict_hold_run(m, &monitor, h);
+    fw_verdict_hold_run(m, x, &monitor, h);
     return probe[0] ? required->take_in(m, i, x, probe[0], 0, v) : FW_OK;
 }
 
@@ -516,18 +515,14 @@ fw_status fw_verdict_damped_again(fw_arena *arena, int i, bool shaken,
                                   fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     const fw_dynamics_motion *x = v->motion[i];
-    const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
+    const size_t nh = (size_t)m->nhinge;
     double ends[2], *to = v->shaken[i].factor;
     if (!x || x->ended || !x->observed || nh == 0 || (x->loads && x->loads->quasi_static) ||
         !fw_verdict_loss_ends(m, &m->device->scene[i], ends))
         return FW_OK;
     if (!shaken && !asks_later(v, i)) return FW_OK;
-    fw_verdict_hold h = {.saw = x->observed, .more = 1};
-    FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
-    h.now = h.far + n, h.f = h.now + n;
-    for (size_t k = 0; k < 2 * nh + 2; k++)
-        h.f[k] = 1;
-    fw_verdict_farthest(m, x, h.far);
+    fw_verdict_hold h;
+    FW_TRY(fw_verdict_hold_new(arena, m, x, 1, &h));
     for (int k = 0; k < 2; k++)
         FW_TRY(damped_with(arena, i, ends[k], options, required, &h, v));
     for (size_t k = 0; k < 2 * nh + 2; k++)

@@ -373,12 +373,13 @@ static void hold_factor(double more, double now, double was, double *f) {
     f[1] = fmin(f[1], fmax(0, 1 + more * part));
 }
 
-void fw_verdict_hold_run(const fw_mechanism *m, const fw_verdict_strain_monitor *saw,
-                         const fw_verdict_hold *h) {
+void fw_verdict_hold_run(const fw_mechanism *m, const fw_dynamics_motion *x,
+                         const fw_verdict_strain_monitor *saw, const fw_verdict_hold *h) {
     const int nb = m->nbody, nh = m->nhinge;
     const double hardly_strained = 1e-3;
-    double most[2] = {0};
-    double strained = 0;
+    double most[2] = {0}, strained = 0;
+    memset(h->now, 0, (size_t)(2 * nb + nh) * sizeof *h->now);
+    fw_verdict_farthest(m, x, h->now);
     for (int k = 0; k < nh; k++)
         strained = fmax(strained, h->saw->hinge[k].strain.value);
     for (int k = 0; k < nh; k++)
@@ -404,8 +405,7 @@ static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_d
     o.trace = NULL, o.whole = false;
     FW_TRY(fw_statics_move_stiffer(arena, m, scene, by, like, &o, &x));
     *whole = x && !x->ended && !monitor.no_memory;
-    memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
-    if (*whole) fw_verdict_farthest(m, x, h->now), fw_verdict_hold_run(m, &monitor, h);
+    if (*whole) fw_verdict_hold_run(m, x, &monitor, h);
     return FW_OK;
 }
 
@@ -417,6 +417,18 @@ static bool hold_changes(const fw_verdict_hold *h, size_t nhinge, double stiffer
     return false;
 }
 
+fw_status fw_verdict_hold_new(fw_arena *arena, const fw_mechanism *m, const fw_dynamics_motion *x,
+                              double more, fw_verdict_hold *to) {
+    const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
+    *to = (fw_verdict_hold){.saw = x->observed, .more = more};
+    FW_NEED(to->far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
+    to->now = to->far + n, to->f = to->now + n;
+    for (size_t k = 0; k < 2 * nh + 2; k++)
+        to->f[k] = 1;
+    fw_verdict_farthest(m, x, to->far);
+    return FW_OK;
+}
+
 fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
                                   const fw_dynamics_motion_options *options, bool brief,
                                   fw_diags *diags, fw_verdict_variant_verdict *v) {
@@ -424,16 +436,12 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const double least = 5e-3, largest = 5e-2, told = 0.03, half = 0.5;
     const fw_device_scene *s = &m->device->scene[i];
     const fw_dynamics_motion *x = v->motion[i];
-    const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
+    const size_t nh = (size_t)m->nhinge;
     const double e = fmin(fmax(fw_verdict_motion_lasting_error(m), least), largest);
     if (!x || v->corner || nh == 0 || x->ended || !fw_statics_takes_hold(m, s, x, again))
         return FW_OK;
-    fw_verdict_hold h = {.saw = x->observed, .more = 1.25};
-    FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
-    h.now = h.far + n, h.f = h.now + n;
-    for (size_t k = 0; k < 2 * nh + 2; k++)
-        h.f[k] = 1;
-    fw_verdict_farthest(m, x, h.far);
+    fw_verdict_hold h;
+    FW_TRY(fw_verdict_hold_new(arena, m, x, 1.25, &h));
     bool whole = h.saw != NULL;
     static const int thirds[] = {
         -3, 2, -2, -1, 1, 3}; /* where the first two change nothing phases do not matter */
@@ -526,8 +534,7 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
     }
     const double has = fw_verdict_motion_lasting_error(m) +
                        (way.gives ? fw_verdict_bending_share(v->motion[i]) : 0);
-    memset(h->now, 0, (2 * (size_t)m->nbody + (size_t)m->nhinge) * sizeof *h->now);
-    fw_verdict_farthest(m, x, h->now), fw_verdict_hold_run(m, &monitor, h);
+    fw_verdict_hold_run(m, x, &monitor, h);
     if (probe[0]) FW_TRY(required->take_in(m, i, x, probe[0], has, v));
     return FW_OK;
 }
