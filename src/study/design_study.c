@@ -176,7 +176,10 @@ static fw_status open_points(const fw_plan_live *live, fw_plan_live_request *r, 
                           .cancel = live->settings.cancel};
     o.design.data_directory = live->settings.data_directory;
     o.design.memory_cap = live->settings.memory_cap;
+    /* nothing shows the motion: it has as many rows as that of `check` */
+    const int32_t as_check = o.design.samples;
     FW_TRY(fw_plan_live_options(r, &o.design, &full));
+    if (!json_object_get(r->options, "samples")) o.design.samples = as_check;
     FW_TRY(ask_inputs(e));
     fw_device_set *set;
     FW_TRY(fw_plan_live_sets(r, e->arena, json_object_get(e->root, "set"), &set, &o.nset));
