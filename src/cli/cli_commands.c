@@ -2,8 +2,7 @@
 /* The commands, one row of commands.def each; what --help and the reference page say of them and of
    their options; the reader of a command's line; and the program: signals, the clock, one command. */
 #include "base/arena.h"
-#include "cli/options.h"
-#include "cli/session.h"
+#include "cli/cli.h"
 #include "dynamics/dynamics.h"
 #include "serve/serve.h"
 #include <math.h>

@@ -2,7 +2,7 @@
 /* Commands over a design: what they do is the library's; here is what each of them asks for and
    shows. */
 #include "base/output.h"
-#include "cli/session.h"
+#include "cli/cli.h"
 #include "plan/design.h"
 #include "study/tradeoff.h"
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #include "base/constants.h"
 #include "base/json.h"
 #include "base/output.h"
-#include "cli/session.h"
+#include "cli/cli.h"
 #include "continuum/continuum.h"
 #include "plan/design.h"
 #include "plan/ladder.h"

@@ -2,7 +2,7 @@
 /* The command of the laboratory that keeps what was done in a log. */
 #include "base/output.h"
 #include "base/text.h"
-#include "cli/session.h"
+#include "cli/cli.h"
 #include "plan/design.h"
 #include "plan/stages.h"
 #include "process/calibrate.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `flexwright study`: many devices of one description. */
-#include "cli/session.h"
+#include "cli/cli.h"
 #include "plan/design.h"
 #include "study/study.h"
 #include <signal.h>

@@ -2,7 +2,7 @@
 /* Commands that need no design: measured coupons become a laboratory pack, the local page, a new device file, an
    explanation, what the program finds. */
 #include "base/output.h"
-#include "cli/session.h"
+#include "cli/cli.h"
 #include "base/text.h"
 #include "continuum/continuum.h"
 #include "process/calibrate.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Manual pages, and completions for bash, zsh and fish, from the tables of commands and options. */
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "dynamics/dynamics.h"
 #include "effects/effects.h"
 #include "mask/mask.h"

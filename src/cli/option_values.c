@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands behind an option: the names that tables of other rooms know, in the words of a command
    line, and the values that options of masks, study and log take. */
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "mask/mask.h"
 #include "plan/ladder.h"
 #include "recipe/asrun.h"

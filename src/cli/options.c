@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "dynamics/dynamics.h"
 #include "mask/mask.h"
 #include "plan/ladder.h"

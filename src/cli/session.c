@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/output.h"
-#include "cli/session.h"
+#include "cli/cli.h"
 #include "plan/design.h"
 #include <math.h>
 #include <signal.h>

@@ -3,11 +3,12 @@
    two responses the Pareto front.
 
    The description as it stands and a Sobol' sequence over the ranges are judged first; from the best of them, apart from
-   each other, local searches (study_search.c); the best of these with its inputs at the ends of their ranges; and one search
-   more, by models of all that was judged, with what the searches left of their devices. What is returned is a device that
-   was judged as its texts say. Of two goals each is sought alone, then the first with the second held at nine levels between
-   (epsilon constraints; Haimes, Lasdon, Wismer 1971), and the front is what no other one of all that was judged and accepted
-   beats. Nothing is proved: a better one may be where nobody looked.
+   each other, local searches (study_search.c), and where these end apart from each other some more from further points; the
+   best of these with its inputs at the ends of their ranges; and one search more, by models of all that was judged, with
+   what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
+   is sought alone, then the first with the second held at nine levels between (epsilon constraints; Haimes, Lasdon, Wismer
+   1971), and the front is what no other one of all that was judged and accepted beats. Nothing is proved: a better one may
+   be where nobody looked.
 
    At a wanted yield all of these are only what further searches begin with (study_search.c).
    Test: tests/cli/test_study.py, tests/cli/test_sizing.py */
@@ -38,7 +39,7 @@ typedef struct sizing {
     goal goal[2];
     int ngoal;
     fw_chance_sobol sobol;
-    long first_n;          /* samples of the first look */
+    long first_n, more_n;  /* samples of the first look, and of further ones */
     long lists;            /* combinations of listed values */
     fw_study_sample *kept; /* (nkept) all that was judged, of the first look in their order */
     int nkept;
@@ -128,6 +129,12 @@ static fw_status fill(void *context, long k, fw_study_sample *sample, bool *want
     return FW_OK;
 }
 
+/* the same, and further ones behind what the first look had */
+static fw_status fill_more(void *context, long k, fw_study_sample *sample, bool *wanted) {
+    const sizing *s = context;
+    return fill(context, s->first_n + s->more_n + k, sample, wanted);
+}
+
 static fw_status take(void *context, const fw_study_sample *sample) {
     sizing *s = context;
     /* rows of the store have no texts of ranged values: written again from their number */
@@ -175,18 +182,23 @@ static void join(sizing *s, const fw_study_search *search) {
         s->kept[s->nkept++] = search->all[k];
 }
 
-/* starts of searches for an aim: the best of what was judged, each a tenth of a range from the others */
-static fw_status starts(sizing *s, const aim *a, fw_study_search *search, int *n, int most,
-                        long *first) {
+static const double apart_by = 0.1; /* of a range */
+
+/* starts of searches for an aim: the best of what was judged from sample `since` on, each apart from the others and from where
+   those before them (nbefore) ended */
+static fw_status starts(sizing *s, const aim *a, int since, const fw_study_search *before,
+                        int nbefore, fw_study_search *search, int *n, int most, long *first) {
     const fw_study_sample *chosen[STARTS];
     for (*n = 0; *n < STARTS;) {
         const fw_study_sample *best = NULL;
         double f = (double)NAN, c = (double)NAN;
-        for (int i = 0; i < s->nkept; i++) {
+        for (int i = since; i < s->nkept; i++) {
             const fw_study_sample *k = &s->kept[i];
             bool apart = k->run;
             for (int j = 0; j < *n && apart; j++)
-                apart = fw_study_search_apart(s->study, k, chosen[j]) > 0.1;
+                apart = fw_study_search_apart(s->study, k, chosen[j]) > apart_by;
+            for (int j = 0; j < nbefore && apart; j++)
+                apart = fw_study_search_apart(s->study, k, &before[j].best) > apart_by;
             if (!apart) continue;
             double fk = objective(a, k), ck = isnan(fk) ? (double)NAN : constraint(a, k);
             if (!best || fw_study_search_better(fk, ck, f, c)) best = k, f = fk, c = ck;
@@ -197,6 +209,36 @@ static fw_status starts(sizing *s, const aim *a, fw_study_search *search, int *n
         *one = search_of(a, most, first);
         FW_TRY(fw_study_search_from(s->study, best, one));
     }
+    return FW_OK;
+}
+
+/* devices with which a local search comes farther than its first steps, one for each input: with fewer the ends of the
+   ranges and one search from all that was judged have them */
+static int worth_it(const fw_study *study) {
+    return 2 * (study->nvary + 1);
+}
+
+/* Local searches that end apart from each other say that there are several places to end at. Then half of the devices that they
+   left beyond what the last search has go over the ranges once more, by further points of the sequence, and the other half to
+   searches from the best of these. *left: devices that there are. Test: tests/cli/test_sizing.py, SeveralMinima */
+static fw_status look_again(sizing *s, const aim *a, const fw_study_search *ended, int n, int most,
+                            int *left, long *first) {
+    fw_study_search search[STARTS];
+    bool apart = false;
+    for (int i = 1; i < n; i++)
+        apart = apart || fw_study_search_apart(s->study, &ended[0].best, &ended[i].best) > apart_by;
+    const int look = (*left - most) / 2, since = s->nkept;
+    if (!apart || look < worth_it(s->study)) return FW_OK;
+    for (int i = 0; i < look; i++)
+        FW_TRY(fw_study_sample_new(s->study->arena, s->study, &s->kept[since + i]));
+    const fw_study_work work = {.n = look, .fill = fill_more, .take = take, .context = s};
+    FW_TRY(fw_study_pool_run(s->study, &work));
+    fw_study_sort_samples(&s->kept[since], s->nkept - since);
+    s->more_n += look, *left -= look;
+    FW_TRY(starts(s, a, since, ended, n, search, &n, look / STARTS, first));
+    FW_TRY(fw_study_search_run(s->study, search, n));
+    for (int i = 0; i < n; i++)
+        join(s, &search[i]), *left -= search[i].used;
     return FW_OK;
 }
 
@@ -273,22 +315,17 @@ static fw_status try_ends(sizing *s, const aim *a, int *left) {
     return FW_OK;
 }
 
-/* devices with which a local search comes farther than its first steps, one for each input: with fewer the ends of the
-   ranges and one search from all that was judged have them */
-static int worth_it(const fw_study *study) {
-    return 2 * (study->nvary + 1);
-}
-
 /* searches for one aim; all that they judged joins what was judged */
 static fw_status seek(sizing *s, aim *a, int most, long *first) {
     fw_study_search *search = fw_arena_array(s->study->arena, fw_study_search, STARTS);
     int n, left = SEARCHES * most;
     FW_NEED(search);
-    FW_TRY(starts(s, a, search, &n, most, first));
+    FW_TRY(starts(s, a, 0, NULL, 0, search, &n, most, first));
     if (most < worth_it(s->study)) n = 0;
     FW_TRY(fw_study_search_run(s->study, search, n));
     for (int i = 0; i < n; i++)
         join(s, &search[i]), left -= search[i].used;
+    if (!a->held) FW_TRY(look_again(s, a, search, n, most, &left, first));
     if (!a->held) FW_TRY(try_ends(s, a, &left));
     return go_on(s, a, left, first);
 }
@@ -328,130 +365,10 @@ static fw_status finish(sizing *s) {
     return fw_study_keep_found(s->study, &s->kept[best], c, r->found);
 }
 
-/* ---- what is in the way ---- */
-
-enum { LIMITS_MOST = 8 /* sentences */ };
-/* share of a limit that a search takes for all of it */
-static const double at_limit = 0.97;
-
-static fw_status tell(fw_study *study, fw_study_found *f, const fw_text *text) {
-    FW_TRY(fw_text_end(text));
-    for (int k = 0; k < f->nlimit; k++)
-        if (strcmp(f->limit[k], text->data) == 0) return FW_OK;
-    if (f->nlimit == LIMITS_MOST) return FW_OK;
-    FW_NEED(f->limit[f->nlimit++] = fw_arena_strdup(study->arena, text->data));
-    return FW_OK;
-}
-
-/* a flow that says no to what hinges bear, and why, as `check` says it */
-static fw_status tell_unmade(fw_study *study, const fw_plan *plan, fw_study_found *f) {
-    for (int i = 0; i < plan->nflow; i++) {
-        const fw_process_flow *flow = plan->flow[i].flow;
-        fw_text text = fw_text_new(study->arena);
-        if (!flow || flow->manufacturable != 0) continue;
-        const char *why = flow->fails ? flow->fails : flow->nreason > 0 ? flow->reason[0] : "";
-        fw_text_printf(&text, "it cannot be made in %s: %s", flow->id, why);
-        FW_TRY(tell(study, f, &text));
-    }
-    return FW_OK;
-}
-
-static fw_status tell_reasons(fw_study *study, const fw_plan *plan, fw_study_found *f) {
-    const fw_verdict *v = &plan->verdict;
-    for (int i = 0; i < v->nvariant; i++)
-        for (int k = 0; k < v->variant[i].nreason; k++) {
-            const char *words;
-            fw_text text = fw_text_new(study->arena);
-            if (v->variant[i].reason[k].decision != v->decision) continue;
-            FW_TRY(fw_verdict_reason_words(plan->arena, v, i, k, &words));
-            if (!words) continue;
-            fw_text_add(&text, words);
-            FW_TRY(tell(study, f, &text));
-        }
-    if (!plan->layout || plan->layout->nfault == 0) return tell_unmade(study, plan, f);
-    fw_text text = fw_text_new(study->arena);
-    fw_text_printf(&text, "it cannot be made: %s [FW-D%03d]", plan->layout->fault[0].message,
-                   plan->layout->fault[0].number);
-    return tell(study, f, &text);
-}
-
-/* the hinge or the requirement that governs, where it is not accepted or uses nearly all of its limit */
-static fw_status tell_governing(fw_study *study, const fw_plan *plan, int kinds,
-                                fw_study_found *f) {
-    fw_verdict_check c;
-    bool found;
-    fw_text text = fw_text_new(study->arena);
-    FW_TRY(fw_verdict_governing(plan->arena, &plan->verdict, kinds, true, &c, &found));
-    if (!found || (c.decision == FW_ACCEPT && !(fmax(c.used, c.high) > at_limit))) return FW_OK;
-    if (c.requirement && c.decision != FW_ACCEPT) return FW_OK; /* it is among the reasons */
-    if (c.requirement)
-        fw_text_add(&text, c.of);
-    else
-        fw_text_printf(&text, "%s uses %.1f %% of %s (%.1f to %.1f %%)", c.what, 100 * c.used, c.of,
-                       100 * c.low, 100 * c.high);
-    if (c.scene) fw_text_printf(&text, " in %s", c.scene);
-    if (c.corner && strcmp(c.corner, "nominal") != 0) fw_text_printf(&text, ", with %s", c.corner);
-    return tell(study, f, &text);
-}
-
-/* a limit (NaN: none) of a response that it misses; where all hold, one that it is at and its goal does not lead away from */
-static fw_status tell_responses(fw_study *study, fw_study_found *f) {
-    for (int k = 0; k < study->nresponse; k++) {
-        const fw_study_response *of = &study->response[k];
-        const fw_device_respond_goal way = of->asked->goal;
-        const bool missed = f->excess > 0;
-        const double value = f->response[k], slack = missed ? 0 : (1 - at_limit) * fabs(value);
-        const bool low = value < of->min + slack && (missed || way != FW_GOAL_MAXIMISE),
-                   high = value > of->max - slack && (missed || way != FW_GOAL_MINIMISE);
-        fw_text text = fw_text_new(study->arena);
-        if (!low && !high) continue;
-        fw_text_printf(&text, "%s is ", of->asked->name);
-        fw_study_response_text(&text, of, value);
-        fw_text_add(&text, low ? ", and at least " : ", and at most ");
-        fw_study_response_text(&text, of, low ? of->min : of->max);
-        fw_text_add(&text, " is asked for");
-        FW_TRY(tell(study, f, &text));
-    }
-    return FW_OK;
-}
-
-static fw_status tell_ranges(fw_study *study, fw_study_found *f) {
-    for (int k = 0; k < study->nvary; k++) {
-        const fw_study_input *in = &study->input[k];
-        const double share = in->ntext > 0 ? 0.5 : fw_study_input_share(in, f->value[k]);
-        fw_text text = fw_text_new(study->arena);
-        if (share > 1e-4 && share < 1 - 1e-4) continue;
-        fw_text_printf(&text, "%s is at the end of its range, %s", in->what, f->text[k]);
-        FW_TRY(tell(study, f, &text));
-    }
-    return FW_OK;
-}
-
-/* It is judged once more: of samples their numbers are kept, and no words. What cannot be judged says nothing here. */
-static fw_status tell_limits(fw_study *study, fw_study_found *f) {
-    int status;
-    fw_design *design = fw_study_design(study, study->options.cancel, f->text, &status);
-    FW_NEED(design);
-    FW_NEED(f->limit = fw_arena_array(study->arena, const char *, LIMITS_MOST));
-    if (status == FW_STATUS_OK) status = fw_design_judge(design);
-    const fw_plan *plan = fw_plan_design_plan(design);
-    fw_status told = FW_OK;
-    if (status == FW_STATUS_OK && f->decision != FW_ACCEPT) told = tell_reasons(study, plan, f);
-    if (status == FW_STATUS_OK && told == FW_OK)
-        told = tell_governing(study, plan, FW_CHECK_HINGES, f);
-    if (status == FW_STATUS_OK && told == FW_OK)
-        told = tell_governing(study, plan, FW_CHECK_REQUIREMENTS, f);
-    fw_design_free(design);
-    if (fw_plan_is_final((fw_status)status)) return (fw_status)status;
-    FW_TRY(told);
-    FW_TRY(tell_responses(study, f));
-    return f->decision == FW_ACCEPT ? tell_ranges(study, f) : FW_OK;
-}
-
 static fw_status tell_what_limits(sizing *s) {
     fw_study_result *r = s->result;
-    if (r->nearest.text) return tell_limits(s->study, &r->nearest);
-    return r->nfound == 1 && s->ngoal == 1 ? tell_limits(s->study, r->found) : FW_OK;
+    if (r->nearest.text) return fw_study_tell_limits(s->study, &r->nearest);
+    return r->nfound == 1 && s->ngoal == 1 ? fw_study_tell_limits(s->study, r->found) : FW_OK;
 }
 
 /* Devices of each search for a goal alone, where two share the budget: at least as many as get somewhere, up to half of

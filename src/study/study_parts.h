@@ -142,11 +142,11 @@ void fw_study_tell(const fw_study *study);
 int fw_study_jobs(const fw_study *study);
 
 /* ---- study_search.c: optimisers over the inputs ---- */
-
 struct fw_study_found; /* a device that was found, with all that is told of it */
 fw_status fw_study_keep_found(fw_study *study, const fw_study_sample *sample, double excess,
                               struct fw_study_found *found);
 
+fw_status fw_study_tell_limits(fw_study *study, struct fw_study_found *found); /* study_limits.c */
 /* study_descent.c: what is judged next */
 
 typedef struct fw_study_tried { /* a device that was judged, as a search sees it */

@@ -151,6 +151,13 @@ double fw_verdict_tires(const fw_mechanism *m, int hinge);
 /* body_bears.c: "what is allowed", tires: by the fatigue limit; NULL: FW_NOMEM */
 const char *fw_verdict_allowed_words(fw_arena *arena, const fw_mechanism *m, bool tires);
 
+/* the largest of n that are at least 0 */
+static inline double fw_verdict_most_of(const double *x, int n) {
+    double most = 0;
+    for (int i = 0; i < n; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
 /* a.M b of motions (3 nbody) of the bodies' centres */
 static inline double fw_verdict_mass_form(const fw_mechanism *m, const double *a, const double *b) {
     double sum = 0;

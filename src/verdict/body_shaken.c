@@ -445,6 +445,7 @@ fw_status fw_verdict_may_swing(fw_arena *arena, const fw_verdict_variant_verdict
     double hangs_s2;
     *may = false;
     if (!v->arm || v->straight || !motion || motion->nsample < 2 || !motion->q) return FW_OK;
+    if (motion->loads && motion->loads->quasi_static) return FW_OK; /* equilibria do not swing */
     const double slow_s = sqrt(slow_alone_s2(v, &hangs_s2));
     if (!(slow_s > 0)) return FW_OK;
     const double behind = laws_behind(m, &m->device->scene[scene], 1 / slow_s);

@@ -192,16 +192,9 @@ void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, dou
     drop_rounding(m, far);
 }
 
-static double largest_of(const double *x, int n) {
-    double most = 0;
-    for (int i = 0; i < n; i++)
-        most = fmax(most, x[i]);
-    return most;
-}
-
 /* largest (sign 1) or least (-1) of now over was, of those of n that move by more than hardly_moves of the farthest; 1: none moves */
 static double change(const double *was, const double *now, int n, int sign) {
-    const double most = largest_of(was, n);
+    const double most = fw_verdict_most_of(was, n);
     double by = sign > 0 ? 0 : HUGE_VAL;
     for (int i = 0; i < n; i++)
         if (was[i] > hardly_moves * most)

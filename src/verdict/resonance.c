@@ -226,6 +226,8 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     fw_device_scene steady, still = {.name = "(none)", .duration_s = 1};
     bool moves, slowly;
     FW_TRY(find_laws(arena, m, s, by));
+    if (motion->loads && motion->loads->quasi_static)
+        by->n = 0, by->again = own = false; /* equilibria neither swing nor are pumped */
     if ((by->n == 0 && !by->again && !own) || motion->nsample < 2) return FW_OK;
     FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
     FW_TRY(fw_verdict_modes_about(arena, m, &steady, moves, 0.03, &modes));
@@ -451,13 +453,6 @@ static void may_come_near(int scene, double by, double ways, fw_verdict_variant_
     }
 }
 
-static double largest_of(const double *x, int n) {
-    double most = 0;
-    for (int i = 0; i < n; i++)
-        most = fmax(most, x[i]);
-    return most;
-}
-
 /* v->shaken; warnings, and a reason where what does not meet may then meet */
 fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
                             const fw_dynamics_motion_options *options,
@@ -478,7 +473,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
         FW_TRY(fw_verdict_may_swing(arena, v, i, shaken, bodies[i], &own, &may));
         if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], may, v));
-        const double shakes = largest_of(f, 2 * nh + 2);
+        const double shakes = fw_verdict_most_of(f, 2 * nh + 2);
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
         fw_verdict_requirement_factor(f, nh, v->shaken[i].required);
         v->shaken[i].required_late = v->shaken[i].late;
@@ -499,7 +494,7 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         FW_TRY(fw_verdict_swings_tell(arena, i, brief, diags, v));
         FW_TRY(may_ring(arena, i, v));
         may_come_near(i, far, ways * (g ? g[2 * nh] : 1), v);
-        most = largest_of(f, 2 * nh + 2);
+        most = fw_verdict_most_of(f, 2 * nh + 2);
         if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
             least = fmin(least, f[2 * h + 1]);

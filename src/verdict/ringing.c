@@ -266,13 +266,6 @@ static void see_most(const fw_mechanism *m, const fw_dynamics_motion *motion, do
     }
 }
 
-static double largest_of(const double *x, int n) {
-    double most = 0;
-    for (int i = 0; i < n; i++)
-        most = fmax(most, x[i]);
-    return most;
-}
-
 /* of hinge, body or what may be met i */
 static bent seen_by(const fw_mechanism *m, const fw_statics_modes *modes,
                     const fw_verdict_shaken *s, const double *u, int i) {
@@ -288,8 +281,8 @@ static void put_bends(const fw_mechanism *m, const fw_statics_modes *modes,
                       const fw_verdict_shaken *s, const double *u, double unit, bent *to) {
     const double hardly = 1e-3;
     const int nh = m->nhinge;
-    const double *most = s->most, bends = largest_of(most, nh),
-                 goes = largest_of(most + nh, m->nbody);
+    const double *most = s->most, bends = fw_verdict_most_of(most, nh),
+                 goes = fw_verdict_most_of(most + nh, m->nbody);
     for (int i = 0; i < nh + m->nbody + s->nreach; i++) {
         if (!(most[i] > hardly * (i < nh ? bends : goes))) continue;
         const bent of = seen_by(m, modes, s, u, i);
@@ -591,7 +584,7 @@ fw_status fw_verdict_rings_on(fw_arena *arena, const fw_mechanism *m, const fw_d
             swing[k] = swing_at_end(m, modes, k, x, swing + modes->count + k);
     for (int k = 0; k < m->npin; k++)
         turned = fmax(turned, fabs(x->peak[k].angle_rad));
-    const double bends = largest_of(most, m->nhinge);
+    const double bends = fw_verdict_most_of(most, m->nhinge);
     for (int h = 0; h < m->nhinge; h++) {
         (*after)[h].more = fmin(0.5 * turned * turned, much);
         if (most[h] > hardly * bends) rings_of(m, modes, h, most[h], x->q, swing, &(*after)[h]);

@@ -1044,6 +1044,18 @@ class Resonance(unittest.TestCase):
             done = run("check", device, "--corners", "none", "--advice", "none", "--json")
         return json.loads(done.stdout), done.stderr
 
+    def test_equilibria_do_not_swing(self):
+        """where inertia is left out nothing rings: bands were of what modes of bodies would do by the speeds of a sequence of
+        equilibria, 10^14 um"""
+        text = (ROOT / "docs/gallery/four-tendons/device.xml").read_text()
+        text = re.sub(r' law="ramp" rise="[^"]*"|<material-damping[^>]*/>', "", text)
+        text = text.replace("</device>", '<probe id="goes" kind="displacement" on="CD" direction="0 deg"/><require probe="goes" measure="final" min="-1 m"/></device>')
+        done = run("check", "-", "--corners", "none", "--advice", "none", "--json", "--effects", "joint-elasticity,gravity,applied-load,tendon,point-spring", input=text)
+        rows = [r for r in json.loads(done.stdout)["requirements"] if r["probe"] == "goes"]
+        self.assertTrue(rows and all(r["value"] is not None for r in rows), done.stderr)
+        for r in rows:
+            self.assertLess(r["band"][1] - r["band"][0], 6e-6, r)
+
     def test_what_damps_within_its_limits(self):
         """copper's loss factor of 2e-3 is known to a half: bands hold what its ends, stated one by one, make of a settling time and of a peak at a mode. They ended at
         7.1 ms of 12.3 and at 9.5 um of 16.4"""

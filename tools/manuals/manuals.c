@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* manuals DIRECTORY: writes there the manual pages flexwright.1 and flexwright-COMMAND.1, and completions
    flexwright.bash, _flexwright (zsh) and flexwright.fish. */
-#include "cli/options.h"
+#include "cli/cli.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Decks for a person's own solver: which files, and what is said where one cannot be written. */
-#include "cli/session.h"
+#include "cli/cli.h"
 #include "test.h"
 #include <stdlib.h>
 #include <sys/stat.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options of log: what they take, what they refuse, and in which order words reach the entry. */
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "test.h"
 #include <string.h>
 

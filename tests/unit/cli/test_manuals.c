@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Manual pages and completions have every command and option of the tables; that shells take them is tried in
    tests/install/test_install.py. */
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "test.h"
 
 static char *text_of(fw_arena *arena, fw_text *text) {

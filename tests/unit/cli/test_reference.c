@@ -2,7 +2,7 @@
 /* The generated reference pages are what the tables say. FW_UPDATE=1 in the environment rewrites
    them. */
 #include "base/diag.h"
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "device/device_table.h"
 #include "effects/effects.h"
 #include "process/pack.h"

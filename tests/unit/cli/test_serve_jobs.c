@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A job of the page is a command line that the program takes: every option of every kind. */
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "serve/jobs.h"
 #include "test.h"
 #include <jansson.h>

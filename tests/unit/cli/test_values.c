@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Values of options: of every option that takes one, what it takes up to the ends of its range, and what it refuses just beyond
    them. What is read of a value is looked at where it is a number. */
-#include "cli/options.h"
+#include "cli/cli.h"
 #include "test.h"
 
 static const struct {
