@@ -28,7 +28,7 @@ case ${2:-} in
         awk '{ n[$1]++; at = $1 " " int((n[$1] - 1) / 12); t[at] = t[at] " " $2; c[at]++ }
              END { for (a in t) { split(a, r, " "); print c[a], r[1] t[a] } }' |
         sort -k1,1nr -k2 | cut -d ' ' -f 2- |
-        awk -v turn="${FW_TURN:-all}" 'turn == "all" || /^(base|quantity|xml|device|drawing|process) / || other++ % 6 == turn' >"$build/unit-groups.txt"
+        awk -v turn="${FW_TURN:-all}" 'turn == "all" || /^(base|quantity|xml|device|drawing|process) / || other++ % 8 == turn' >"$build/unit-groups.txt"
     [ -s "$build/unit-groups.txt" ] || { echo "ctest knows no unit tests in $build"; exit 1; }
     xargs -P 2 -L 1 "$0" "$build" --these <"$build/unit-groups.txt"
     ;;
