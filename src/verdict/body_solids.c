@@ -244,8 +244,8 @@ static fw_status by_solids(fw_arena *arena, const fw_layout *layout, fw_verdict_
 fw_status fw_verdict_bending_end(fw_arena *arena, const fw_layout *layout,
                                  fw_verdict_strain_monitor *monitor,
                                  fw_verdict_strain_monitor *other, fw_verdict_variant_verdict *v) {
-    FW_TRY(by_solids(arena, layout, &monitor->bending, v));
-    FW_TRY(by_solids(arena, layout, &other->bending, v));
+    if (layout) FW_TRY(by_solids(arena, layout, &monitor->bending, v));
+    if (layout) FW_TRY(by_solids(arena, layout, &other->bending, v));
     fw_verdict_places_end(&monitor->bending);
     fw_verdict_places_end(&other->bending);
     return FW_OK;

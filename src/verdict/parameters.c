@@ -227,7 +227,8 @@ static fw_status step_out(parameter_search *h, const sample *outer, sample *far)
    found */
 static fw_status enclose(parameter_search *h, sample near, sample *far) {
     const sample outer = *far;
-    for (;;) { /* what was found by glances is judged even where the time is over */
+    double kind = 0.005; /* by how much glances are too kind, at least: doubled each time */
+    for (;;) {           /* what was found by glances is judged even where the time is over */
         sample inner = near;
         if (estimate(h, far) <= 1) FW_TRY(approach(h, &inner, far));
         if (estimate(h, far) > clear_of_limit) FW_TRY(step_out(h, &outer, far));
@@ -239,6 +240,7 @@ static fw_status enclose(parameter_search *h, sample near, sample *far) {
         if (far->at == outer.at) return FW_OK;
         if (spent(h)) return judge(h, outer.at, far); /* of what may be, the surest */
         near = *far; /* glances were too kind: further out, by what is known now */
+        if (estimate(h, far) <= 1) h->bias *= (1 + kind) / estimate(h, far), kind *= 2;
         FW_TRY(glance(h, outer.at, far));
         if (far->rejected) return FW_OK;
     }
@@ -322,7 +324,8 @@ static fw_status look_at_end(parameter_search *h, const outward *other, outward 
     FW_TRY(glance(h, at, &o->end));
     o->ended = true;
     const bool beyond = is_beyond(h, &o->near) && is_beyond(h, &o->end);
-    const bool worse = c >= (1 - unchanged) * other->near.coarse;
+    /* the present value was judged otherwise: as far as it had to be to be rejected */
+    const bool worse = other->near.at != h->value.now && c >= (1 - unchanged) * other->near.coarse;
     o->left = beyond && (worse ? !(o->end.coarse < (1 - unchanged) * c)
                                : comparable(&o->end) && o->end.coarse < c);
     return FW_OK;

@@ -462,6 +462,13 @@ double fw_verdict_trial_excess(const fw_verdict_trial *trial) {
     double most = trial->nhinge > 0 ? 0.0 : (double)NAN;
     for (int k = 0; k < trial->nhinge; k++)
         most = fmax(most, fmax(trial->hinge[k].likely, trial->hinge[k].reach));
+    for (int i = 0; i < trial->verdict->nvariant;
+         i++) { /* what is met counts, too: no jump at the limit */
+        const double *drawn = block_of(trial, i, trial->check).requirement,
+                     *made = block_of(trial, i, trial->made).requirement;
+        for (int k = 0; k < trial->verdict->variant[i].nrequirement; k++)
+            most = fmax(most, exp(fmax(drawn[k], made[k]))); /* NaN: not known */
+    }
     return most;
 }
 

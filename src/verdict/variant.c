@@ -337,7 +337,9 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, scene, v->motion[i]);
-        FW_TRY(fw_verdict_bending_end(arena, layout, &monitor[i], &other[i], v));
+        /* a glance of a search takes bodies as beams: what it finds is judged with all */
+        const bool beams = options->work && options->at_a_glance;
+        FW_TRY(fw_verdict_bending_end(arena, beams ? NULL : layout, &monitor[i], &other[i], v));
         if (!v->corner) fw_verdict_bending_tell(m, scene, v->motion[i], diags);
         FW_TRY(fw_verdict_rings_on(arena, m, scene, v->motion[i], &monitor[i].after));
         other[i].after = monitor[i].after;

@@ -268,6 +268,16 @@ class Proposals(unittest.TestCase):
         self.assertIn("flexure[leaf]/@length", [s["path"] for s in sets])
 
     @only_all
+    def test_a_value_between_two_ends_that_are_worse(self):
+        """a pull that is too much, of which the least is far too little: what it may be lies between, and corners are worse than the
+        present value, of which the drawing alone was judged. "No value was found, and none comes nearer" was said"""
+        device = self.changed(STAGE, ('value="115 uN"', 'value="200 uN"'))
+        document = json.loads(run("check", device, "--json").stdout)
+        pull, = [p for p in document["advice_parameters"] if p["set"] == "pull"]
+        self.assertEqual(pull["found"], "accepts", pull)
+        self.assertTrue(110e-6 < pull["value_SI"] < 130e-6, pull)
+
+    @only_all
     def test_units_are_those_of_the_file(self):
         """a required box in degrees and in parameters, loads in units of any size, and lengths in millimetres come back in them"""
         text = SIX.read_text()
