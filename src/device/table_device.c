@@ -456,7 +456,10 @@ static const fw_xml_element_row own[] = {
     {"workspace", "device", .most = 200, ROWS(workspace_rows),
      .sentence = "Platform poses that must be reachable, relative to the drawn pose: displacements "
                  "of the platform's centre of mass (of its drawing, or where its mass is stated), "
-                 "and rotations about it."},
+                 "and rotations about it. What holds a pose is as strong as it takes: loads of "
+                 "scenes are there without their size, so that no payload is at a pose; required "
+                 "stiffness and frequency are not those at poses, and the way from one box to "
+                 "another is not looked at. For these a scene drives to the pose."},
     {"die", "device", .once = true, ROWS(die_rows), .sentence = "The chip around the mechanism."},
     {"wafer", "device", .once = true, ROWS(wafer_rows),
      .sentence = "Step and repeat of the die on a wafer, and the mask plate for it."},

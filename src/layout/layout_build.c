@@ -7,6 +7,18 @@
 
 enum { BODIES_MOST = 2000, JOINTS_MOST = 4000 };
 
+/* of two bodies that a hinge of the six-bar joins already */
+static bool is_second(const fw_device *d, int joint) {
+    const fw_device_revolute *j = &d->revolute[joint];
+    for (int i = 0; d->six_bar && joint >= 6 && i < 6; i++) {
+        const fw_device_revolute *h = &d->revolute[i];
+        if ((h->body_a == j->body_a && h->body_b == j->body_b) ||
+            (h->body_a == j->body_b && h->body_b == j->body_a))
+            return true;
+    }
+    return false;
+}
+
 /* NULL when every body has a shape and every joint a flexure; else what is missing */
 static const char *missing(fw_arena *arena, const fw_device *device, bool *failed) {
     const char *why = NULL;
@@ -37,9 +49,14 @@ static const char *missing(fw_arena *arena, const fw_device *device, bool *faile
     for (int i = 0; i < device->nrevolute && !why && !*failed; i++) {
         const fw_device_revolute *j = &device->revolute[i];
         if (j->flexure == FW_NONE)
-            why =
-                fw_arena_printf(arena, "%s%s has no flexure: give it hinge=\"...\", the id of one",
-                                FW_NAMED("joint", j->id));
+            why = fw_arena_printf(arena, "%s%s has no flexure: %s", FW_NAMED("joint", j->id),
+                                  is_second(device, i)
+                                      ? "it is a second joint of two bodies that a hinge of "
+                                        "<six-bar> joins, and those hinges take no stops: remove "
+                                        "it and bound the way by a <contact> in the scenes, or "
+                                        "describe the device as a <mechanism>, whose <revolute> "
+                                        "have hinge, stop-min and stop-max"
+                                      : "give it hinge=\"...\", the id of one");
         else if (!isfinite(j->x_m + j->y_m))
             why = fw_arena_printf(arena, "%s%s has no place in the drawing",
                                   FW_NAMED("joint", j->id));

@@ -548,11 +548,11 @@ static void required(fw_text *out, const fw_device *d, const fw_report_workspace
     range(out, (fw_maths_interval){b->phi_min_rad, b->phi_max_rad}, FW_DEG_PER_RAD, 6);
     fw_text_add(out, " deg\n");
     if (!f->required->box_reachable[k]) {
-        fw_text_add(out, "  NOT REACHABLE: the mechanism cannot be assembled at ");
-        const double at[3] = {f->required->fail_x_m, f->required->fail_y_m,
-                              f->required->fail_phi_rad};
-        if (f->required->fail_box == k)
-            pose(out, at);
+        const bool here = f->required->fail_box == k, sure = here && f->required->beyond.certain;
+        fw_text_add(out, sure ? "  NOT REACHABLE, whatever its flexures give: "
+                              : "  NOT REACHED BY PINS, perhaps by flexures that give: ");
+        if (here)
+            pose(out, f->required->beyond.pose);
         else
             fw_text_add(out, "a pose of it");
         fw_text_add(out, "\n");

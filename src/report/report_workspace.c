@@ -352,11 +352,12 @@ static void boxes(fw_report_page *page, const char *flow) {
 }
 
 static void judgement(fw_text *out, const fw_workspace_result *w) {
+    const fw_workspace_beyond *b = &w->beyond;
     if (!w->reachable)
-        fw_markup(out,
-                  "<p><strong class=\"no\">Not reachable:</strong> the mechanism cannot be "
-                  "assembled at ({u}, {u}, {d}).</p>\n",
-                  w->fail_x_m, "m", w->fail_y_m, "m", w->fail_phi_rad);
+        fw_markup(out, "<p><strong class=\"no\">{s}</strong> at ({u}, {u}, {d}).</p>\n",
+                  b->certain ? "Not reachable: neither the legs nor what their flexures give goes"
+                             : "Not reached by pins, and perhaps by flexures that give:",
+                  b->pose[0], "m", b->pose[1], "m", b->pose[2]);
     else
         fw_markup(out, "<p>All of it can be reached{r}. Volume {n} mm\u00b2\u00b7\u00b0.</p>\n",
                   w->certified ? ", <strong>certified</strong> by interval arithmetic: the "

@@ -270,8 +270,9 @@ static void across(fw_text *out, const fw_verdict_across *s, const fw_mechanism_
     if (looked && !fw_verdict_across_tips(s)) fw_text_add(out, "nothing that tips it was found");
     if (looked && fw_verdict_across_tips(s)) {
         number(out, "does not tip below ", s->tips, " times its forces, which may be off by ");
-        number(out, "", 100 * s->tips_error, " %: sure up to ");
-        number(out, "", s->tips / (1 + s->tips_error), "");
+        number(out, "", 100 * s->tips_error,
+               s->tips > 0 ? " %: sure up to " : " %: nothing is sure");
+        if (s->tips > 0) number(out, "", s->tips / (1 + s->tips_error), "");
     }
     fw_text_add(out, "\n");
 }

@@ -507,7 +507,7 @@ static bool turned(const fw_dynamics_motion *motion) {
 static const char *hopeless(const fw_device *device, const fw_verdict *verdict) {
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
-        if (v->workspace.required && !v->workspace.reachable)
+        if (v->workspace.required && !v->workspace.reachable && v->workspace.beyond.certain)
             return "part of the required workspace is out of reach, and no flexure can change "
                    "that: make the links longer or the workspace smaller";
         for (int k = 0; k < device->nscene; k++)

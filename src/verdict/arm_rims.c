@@ -412,24 +412,53 @@ static fw_status judge_unknown(fw_arena *arena, fw_verdict_variant_verdict *v) {
 }
 
 /* a required pose that no pose of the legs has: nothing of a hinge can be said there */
+static const char *beyond_text(fw_arena *arena, const fw_workspace_result *w) {
+    const fw_workspace_beyond *b = &w->beyond;
+    const char *leg = b->leg ? "F-E-D" : "A-B-C", *most = "by an amount that is not known";
+    char x[32], y[32], phi[32], lacks[32], by[32];
+    fw_number_text(x, sizeof x, b->pose[0] * 1e6, 4);
+    fw_number_text(y, sizeof y, b->pose[1] * 1e6, 4);
+    fw_number_text(phi, sizeof phi, b->pose[2] * FW_DEG_PER_RAD, 3);
+    fw_number_text(lacks, sizeof lacks, fmax(b->lacks_m, 0) * 1e6, 3);
+    if (b->turns)
+        return fw_arena_printf(arena,
+                               "the required workspace holds a pose out of reach: dx = %s um, dy = "
+                               "%s um, turned by %s deg, and within their limits hinges %s turn it "
+                               "by no more than %s deg together",
+                               x, y, phi, leg,
+                               fw_number_text(by, sizeof by, b->gives_rad * FW_DEG_PER_RAD, 3));
+    if (b->certain)
+        return fw_arena_printf(arena,
+                               "the required workspace holds a pose out of reach: dx = %s um, dy = "
+                               "%s um, turned by %s deg, where leg %s lacks %s um and its flexures "
+                               "give no more than %s um within their limits",
+                               x, y, phi, leg, lacks,
+                               fw_number_text(by, sizeof by, b->gives_m * 1e6, 3));
+    if (isfinite(b->gives_m))
+        most = fw_arena_printf(arena, "by up to %s um",
+                               fw_number_text(by, sizeof by, b->gives_m * 1e6, 3));
+    return most ? fw_arena_printf(
+                      arena,
+                      "the required workspace holds a pose that pins do not reach, and flexures "
+                      "may: dx = %s um, dy = %s um, turned by %s deg, where leg %s lacks %s um, "
+                      "and its flexures may give %s within their limits; what that strains is not "
+                      "known: judge such a pose as a scene with the force that takes the platform "
+                      "there, ask for a smaller box, or draw the legs farther from stretched",
+                      x, y, phi, leg, lacks, most)
+                : NULL;
+}
+
 fw_status fw_verdict_required_poses(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_workspace_result *w = &v->workspace;
-    char x[32], y[32], phi[32];
     if (!w->required) return FW_OK;
     if (w->reachable) {
         FW_TRY(judge_held(arena, v));
         FW_TRY(judge_unknown(arena, v));
         return judge_give(arena, v);
     }
-    return fw_verdict_workspace_reason(
-        v, 201, FW_REJECT,
-        fw_arena_printf(
-            arena,
-            "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, turned "
-            "by %s deg",
-            fw_number_text(x, sizeof x, w->fail_x_m * 1e6, 4),
-            fw_number_text(y, sizeof y, w->fail_y_m * 1e6, 4),
-            fw_number_text(phi, sizeof phi, w->fail_phi_rad * FW_DEG_PER_RAD, 3)));
+    return fw_verdict_workspace_reason(v, w->beyond.certain ? 201 : 727,
+                                       w->beyond.certain ? FW_REJECT : FW_INCONCLUSIVE,
+                                       beyond_text(arena, w));
 }
 
 /* ---- what takes hold where it is met ----

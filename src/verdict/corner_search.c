@@ -150,7 +150,7 @@ static fw_status take_reason(const fw_verdict_search *s, const fw_verdict_varian
         corner->not_by_loads = now->reason[i].not_by_loads;
         corner->not_by_width = now->reason[i].not_by_width;
     }
-    if (now->workspace.required && !now->workspace.reachable)
+    if (now->workspace.required && !now->workspace.reachable && now->workspace.beyond.certain)
         why = "part of the required workspace is out of reach";
     if (why) FW_NEED(corner->why = fw_arena_strdup(s->arena, why));
     return FW_OK;

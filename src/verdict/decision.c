@@ -148,6 +148,7 @@ static int missing_most(const fw_device *device) {
 size_t fw_verdict_reasons_most(const fw_device *d, int nrequirement) {
     size_t most =
         (FW_REASONS + 1) * (size_t)d->nscene + (size_t)d->nworkspace + (size_t)nrequirement +
+        (size_t)d->nrequirement + /* those that nothing answers */
         (size_t)d->nrevolute + (size_t)missing_most(d) +
         17; /* what no mask draws; rings on, scenes together; strips; out of reach or badly held, held against what is unknown, tipping, what hinges give, as made, what nobody knows of it, between corners, riders, rims; stiction; drawn bent */
     for (int i = 0; i < d->nscene; i++)
@@ -434,20 +435,23 @@ fw_status fw_verdict_across_tipping(fw_arena *arena, const fw_mechanism_plates *
     if (to->tips_error > 1) /* what little there is differs */
         FW_TRY(tipping_off(arena, p, motion, other, 2 * n, looked, to->tips, &to->tips_error));
     to->stiffened *= 1 + error;
-    to->tips *= 1 - error;
+    to->tips = fmax(to->tips * (1 - error), 0); /* 0: nothing is sure */
     if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
     const double sure = to->tips / (1 + to->tips_error);
     if (!(sure < 1)) return FW_OK;
     char by[32];
     to->decision = FW_INCONCLUSIVE;
     return fw_verdict_scene_reason(
-        v, s, 582, FW_INCONCLUSIVE, 0.95 * sure,
+        v, s, 582, FW_INCONCLUSIVE, fmax(0.95 * sure, 1e-3),
         fw_arena_printf(
             arena,
-            "the forces of %s%s may tip the device out of its plane: that they do not is "
-            "sure up to %s times them%s%s%s; a thicker layer, wider or shorter flexures, or less "
-            "load keep it flat",
-            FW_NAMED("scene", s->name), fw_number_text(by, sizeof by, sure, 2),
+            "the forces of %s%s may tip the device out of its plane: %s%s%s%s%s%s; a thicker "
+            "layer, "
+            "wider or shorter flexures, or less load keep it flat",
+            FW_NAMED("scene", s->name),
+            sure > 0 ? "that they do not is sure up to "
+                     : "up to what multiple of them it stays flat is not known",
+            sure > 0 ? fw_number_text(by, sizeof by, sure, 2) : "", sure > 0 ? " times them" : "",
             to->hinge ? ", and the least sure by itself is " : "",
             to->hinge ? fw_text_kind("hinge ", to->hinge) : "", to->hinge ? to->hinge : ""));
 }

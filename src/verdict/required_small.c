@@ -311,11 +311,11 @@ double fw_verdict_laws_go_on_s(const fw_mechanism *m, const fw_device_scene *sce
     return l.more ? l.end_s : fmin(longest, l.end_s);
 }
 
-/* by how much of its value a bound is missed; what is not known there is not known */
-static double worst_share(const fw_verdict_requirement *r) {
+/* by how much a bound is missed; however far it is, what is nearest to it is the worst. What is not known there is not known */
+static double worst_miss(const fw_verdict_requirement *r) {
     if (r->why || isnan(r->value)) return HUGE_VAL;
-    return fmax(isnan(r->min) ? -HUGE_VAL : (r->min - r->low) / fabs(r->value),
-                isnan(r->max) ? -HUGE_VAL : (r->high - r->max) / fabs(r->value));
+    return fmax(isnan(r->min) ? -HUGE_VAL : r->min - r->low,
+                isnan(r->max) ? -HUGE_VAL : r->high - r->max);
 }
 
 /* The worse of two instants stays; what is beyond a bound for certain at one of them is so, whatever is not known at others. A
@@ -323,7 +323,7 @@ static double worst_share(const fw_verdict_requirement *r) {
 static void take_worse(const fw_verdict_requirement *best, fw_verdict_requirement *now) {
     const fw_verdict_requirement then = *now;
     const bool out = best->decision == FW_REJECT, then_out = then.decision == FW_REJECT;
-    if (out != then_out ? out : worst_share(best) >= worst_share(&then)) *now = *best;
+    if (out != then_out ? out : worst_miss(best) >= worst_miss(&then)) *now = *best;
     if (out || then_out || isnan(now->min) || isnan(now->max) || now->why) return;
     now->low = fmin(best->low, then.low), now->high = fmax(best->high, then.high);
     if (now->low < now->min || now->high > now->max) now->decision = FW_INCONCLUSIVE;

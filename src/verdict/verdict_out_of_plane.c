@@ -458,11 +458,13 @@ static fw_status judge_required(fw_arena *arena, const both *is, fw_verdict_vari
     if (!(sure < 1)) return FW_OK;
     FW_TRY(fw_verdict_workspace_reason(
         v, 647, FW_INCONCLUSIVE,
-        fw_arena_printf(arena,
-                        "what holds the required poses may tip the device out of its plane: it is "
-                        "sure to stay flat up to %s times that; a thicker layer or a smaller box "
-                        "keep it flat",
-                        fw_number_text(by, sizeof by, sure, 2))));
+        fw_arena_printf(
+            arena,
+            "what holds the required poses may tip the device out of its plane: %s%s%s; a thicker "
+            "layer or a smaller box keep it flat",
+            sure > 0 ? "it is sure to stay flat up to " : "how far it stays flat is not known",
+            sure > 0 ? fw_number_text(by, sizeof by, sure, 2) : "",
+            sure > 0 ? " times that" : "")));
     v->reason[v->nreason - 1].keep = fmin(fmax(sure, 1e-3), 0.99);
     v->reason[v->nreason - 1].either_way = true;
     return FW_OK;

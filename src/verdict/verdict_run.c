@@ -8,20 +8,97 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { PLATFORM = 2 }; /* of the six-bar's bodies AB BC CD DE EF */
+
 const char fw_verdict_not_searched[] = "no change that would be accepted was searched for";
 
 static void unreachable(const fw_device *device, const fw_verdict_variant_verdict *v,
                         fw_diags *diags) {
     const fw_place place = device->workspace[v->workspace.fail_box].place;
-    char x[32], y[32], phi[32];
-    if (fw_diag_said(diags, 201, place))
-        return; /* reach is a matter of the links, not of the flow */
-    fw_diag_warning(diags, 201, place,
-                    "the required workspace holds a pose out of reach: dx = %s um, dy = %s um, "
-                    "turned by %s deg; the design is rejected",
-                    fw_number_text(x, sizeof x, v->workspace.fail_x_m * 1e6, 4),
-                    fw_number_text(y, sizeof y, v->workspace.fail_y_m * 1e6, 4),
-                    fw_number_text(phi, sizeof phi, v->workspace.fail_phi_rad * 180 / FW_PI, 3));
+    for (int i = 0; i < v->nreason; i++) {
+        const int number = v->reason[i].number;
+        if ((number != 201 && number != 727) || fw_diag_said(diags, number, place)) continue;
+        fw_diag_warning(diags, number, place, "%s%s", v->reason[i].text,
+                        number == 201 ? "; the design is rejected" : "");
+        return;
+    }
+}
+
+/* ---- what a description states and nothing here answers ---- */
+
+static bool holds_in_any(const fw_device *d, const char *flow) {
+    bool any = d->nflow == 0;
+    for (int i = 0; i < d->nflow && !any; i++)
+        any = fw_device_in_flow(flow, d->flow[i].ref);
+    return any;
+}
+
+/* Of a motion that no scene of the flow has: an empty set of scenes meets every bound. A scene that is named, and what is in
+   scenes alone (a tendon), are asked for in their own flows: then only where no flow has it. */
+static bool is_unanswered(const fw_device *d, const fw_device_requirement *q, const char *flow) {
+    const fw_device_probe *p = &d->probe[q->probe];
+    const bool elsewhere = q->scene != FW_NONE || p->of;
+    if (!fw_device_probe_moves(&fw_device_probe_kinds[p->row])) return false;
+    for (int i = 0; i < d->nscene; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        if ((q->scene == FW_NONE || q->scene == i) && fw_device_probe_in_scene(p, s) &&
+            (elsewhere ? holds_in_any(d, s->flow) : fw_device_in_flow(s->flow, flow)))
+            return false;
+    }
+    return true;
+}
+
+static fw_status unanswered(fw_arena *arena, const fw_device *d, fw_diags *diags,
+                            fw_verdict_variant_verdict *v) {
+    for (int i = 0; i < d->nrequirement; i++) {
+        const fw_device_requirement *q = &d->requirement[i];
+        const fw_device_probe *p = &d->probe[q->probe];
+        if (!is_unanswered(d, q, v->variant->flow)) continue;
+        const char *text = fw_arena_printf(
+            arena,
+            "what is required of probe %s is of a motion, and no <scene>%s%s %s, so that nothing "
+            "says "
+            "whether the device does it: write a <scene> that moves it, or take the <require> away",
+            fw_text_name(p->id), d->nscene > 0 && v->variant->flow ? " of flow " : "",
+            d->nscene > 0 && v->variant->flow ? v->variant->flow : "",
+            d->nscene > 0 ? "has what it sees" : "is there");
+        FW_NEED(text);
+        v->reason[v->nreason++] = (fw_verdict_reason){.scene = fw_verdict_at_rest,
+                                                      .flow = v->variant->flow,
+                                                      .number = 729,
+                                                      .decision = FW_INCONCLUSIVE,
+                                                      .keep = 0.99,
+                                                      .text = text};
+        v->decision = v->drawn = fw_verdict_worse(v->decision, FW_INCONCLUSIVE);
+        if (!fw_diag_said(diags, 729, q->place)) fw_diag_warning(diags, 729, q->place, "%s", text);
+    }
+    return FW_OK;
+}
+
+/* a payload that somebody stated is not at the required poses */
+static void loads_elsewhere(const fw_device *d, fw_diags *diags,
+                            const fw_verdict_variant_verdict *v) {
+    const fw_device_scene *of = NULL;
+    int box = FW_NONE;
+    for (int i = 0; i < d->nworkspace && box == FW_NONE; i++)
+        if (v->workspace.required && v->workspace.asked[i]) box = i;
+    for (int i = 0; i < d->nscene && !of; i++) {
+        const fw_device_scene *s = &d->scene[i];
+        bool any = false;
+        for (int k = 0; k < s->nforce; k++)
+            any = any || s->force[k].body == PLATFORM;
+        for (int k = 0; k < s->ntorque; k++)
+            any = any || s->torque[k].body == PLATFORM;
+        if (any && fw_device_in_flow(s->flow, v->variant->flow)) of = s;
+    }
+    if (box == FW_NONE || !of || fw_diag_said(diags, 730, d->workspace[box].place)) return;
+    fw_diag_warning(
+        diags, 730, d->workspace[box].place,
+        "%s%s loads the platform with a size that acts in that scene alone: a required "
+        "pose is held by such a load as strong as it takes, without payload, and neither "
+        "required stiffness and frequency nor the way from one <workspace> to another is "
+        "looked at there; for these write a scene that drives to the pose",
+        FW_NAMED("scene", of->name));
 }
 
 static bool judged(const fw_verdict_variant_verdict *v, const fw_device *device) {
@@ -118,7 +195,9 @@ static fw_status judge_drawn(const judging *j, size_t i, fw_arena *arena) {
     FW_TRY(fw_verdict_variant(arena, device, j->layout, m, j->options, diags, v));
     if (v->workspace.required && !v->workspace.reachable) unreachable(device, v, diags);
     j->nothing[i] = !judged(v, device);
-    return FW_OK;
+    if (j->nothing[i] || j->options->only_scene) return FW_OK;
+    loads_elsewhere(device, diags, v);
+    return unanswered(arena, device, diags, v);
 }
 
 static fw_status attempt(fw_arena *arena, const fw_device *device, const fw_layout *layout,
@@ -308,6 +387,10 @@ bool fw_verdict_no_number_helps(const fw_verdict *verdict, const char **why) {
                 *why = "flexures are bent where the masks draw them at rest, and the motion is not "
                        "that of "
                        "what is made: state their free-angle first";
+                return true;
+            } else if (verdict->variant[i].reason[k].number == 729) {
+                *why = "a requirement is of a motion that no scene has, and no change of the "
+                       "design answers it: write the scene first";
                 return true;
             } else if (verdict->variant[i].reason[k].number == 694) {
                 *why = "what the flow makes is not known, and no change of the design makes it "

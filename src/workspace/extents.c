@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "workspace/pose_load.h"
 #include "workspace/reach.h"
 #include "maths/dense.h"
 
@@ -270,4 +271,117 @@ fw_status fw_workspace_reach_extents(fw_arena *arena, const fw_workspace_loop *l
         }
     fw_arena_rewind(arena, mark);
     return FW_OK;
+}
+
+/* ---- what pins do not reach ----
+   A strip whose strain is nowhere beyond e is nowhere bent by more than e over its strain per moment, times what a moment
+   bends it there: c ds. From its middle each half turns its body by at most sum c ds and moves the pin by at most
+   sum c ds (r + u) + e ds, r from the place to the pin as drawn, u from what lies farther out. Three hinges in a row turn by
+   no more than theirs together, and the leg is longer or shorter than its links allow by no more than their pins move.
+   Error: a tenth and the strain's own for shear, roots and sections. Test: test_workspace.py */
+
+enum { BITS = 64, TURNED = 33 };
+
+typedef struct supple {
+    double turn_rad, shift_m;
+} supple;
+
+static supple supple_of(const fw_mechanism *m, int pin) {
+    const int k = m->pin[pin].hinge;
+    if (k == FW_NONE) return (supple){.turn_rad = HUGE_VAL};
+    const fw_flexure_path_strain *s = &m->hinge[k].section;
+    const fw_flexure_result *c = &m->hinge[k].closed_form;
+    const fw_flexure_limit *limit = fw_flexure_limits_governing(&m->hinge[k].limits);
+    if (!limit || s->n < 2) return (supple){HUGE_VAL, HUGE_VAL};
+    const double strain = limit->allowable_Pa / m->device->safety_factor / c->youngs_Pa *
+                          (1.1 + c->error.strain + c->error.place_less[0]);
+    supple all = {0, 0};
+    for (int half = 0; half < 2; half++) {
+        const fw_flexure_path_point *root = &s->point[half ? s->n - 1 : 0];
+        double bends = strain * root->soft_per_Nm / root->strain_per_Nm * c->root_length_m /
+                       s->length_m; /* the block, too */
+        double u = bends * hypot(root->x_m - s->W_m[0], root->y_m - s->W_m[1]);
+        all.turn_rad += bends;
+        for (int i = 0, at = 0; i < BITS / 2; i++) {
+            const double bit = (i + 0.5) / BITS, part = half ? 1 - bit : bit;
+            for (at = 0; at + 2 < s->n && s->point[at + 1].part < part; at++)
+                ;
+            const fw_flexure_path_point *p = &s->point[at], *q = p + 1;
+            const double t = (part - p->part) / (q->part - p->part);
+            const double x = p->x_m + t * (q->x_m - p->x_m), y = p->y_m + t * (q->y_m - p->y_m);
+            bends = strain / BITS *
+                    fmax(p->soft_per_Nm / p->strain_per_Nm, q->soft_per_Nm / q->strain_per_Nm);
+            u += bends * (hypot(x - s->W_m[0], y - s->W_m[1]) + u) + strain * s->length_m / BITS;
+            all.turn_rad += bends;
+        }
+        all.shift_m += u;
+    }
+    return all;
+}
+
+/* by how much a leg is too short, or too long, for a pose */
+static double lacks(const fw_workspace_loop *k, int side, const double pose[3]) {
+    const fw_workspace_leg *leg = &k->leg[side];
+    const double c = cos(pose[2]), n = sin(pose[2]), l = hypot(leg->a.x, leg->a.y),
+                 b = hypot(leg->b.x, leg->b.y);
+    const double way = hypot(k->centre.x + pose[0] + c * leg->to.x - n * leg->to.y - leg->base.x,
+                             k->centre.y + pose[1] + n * leg->to.x + c * leg->to.y - leg->base.y);
+    return fmax(way - l - b, fabs(l - b) - way);
+}
+
+static void look_beyond(const fw_workspace_loop *k, const supple may[2], const double pose[3],
+                        bool first, fw_workspace_beyond *b) {
+    for (int side = 0; side < 2; side++) {
+        const double now = lacks(k, side, pose);
+        if (!first && !(now - may[side].shift_m > b->lacks_m - b->gives_m)) continue;
+        first = false;
+        *b = (fw_workspace_beyond){.leg = side,
+                                   .lacks_m = now,
+                                   .gives_m = may[side].shift_m,
+                                   .certain = now > may[side].shift_m,
+                                   .pose = {pose[0], pose[1], pose[2]}};
+    }
+}
+
+bool fw_workspace_beyond_of(const fw_mechanism *m, const fw_workspace_loop *k,
+                            const fw_workspace_box3 *box, const double *at,
+                            fw_workspace_beyond *b) {
+    supple may[2] = {{0, 0}, {0, 0}};
+    for (int i = 0; i < FW_SIX; i++) {
+        const supple one = supple_of(m, i);
+        may[i > 2].turn_rad += one.turn_rad, may[i > 2].shift_m += one.shift_m;
+    }
+    const double turned = fmax(fabs(box->lo[2]), fabs(box->hi[2]));
+    const int stiff = may[1].turn_rad < may[0].turn_rad;
+    if (turned > may[stiff].turn_rad) {
+        *b = (fw_workspace_beyond){.leg = stiff,
+                                   .certain = true,
+                                   .turns = true,
+                                   .gives_rad = may[stiff].turn_rad,
+                                   .pose = {0.5 * (box->lo[0] + box->hi[0]),
+                                            0.5 * (box->lo[1] + box->hi[1]),
+                                            -box->lo[2] > box->hi[2] ? box->lo[2] : box->hi[2]}};
+        return true;
+    }
+    if (!at) return false;
+    look_beyond(k, may, at, true, b);
+    for (int i = 0; i < TURNED;
+         i++) /* the way to a corner is longest; that to a place within is shortest */
+        for (int corner = 0; corner < 6; corner++) {
+            const int side = corner - 4;
+            double pose[3] = {box->lo[0], box->lo[1],
+                              box->lo[2] + (box->hi[2] - box->lo[2]) * i / (TURNED - 1)};
+            for (int j = 0; j < 2 && corner < 4; j++)
+                pose[j] = corner >> j & 1 ? box->hi[j] : box->lo[j];
+            if (corner >= 4) {
+                const fw_workspace_leg *leg = &k->leg[side];
+                const double c = cos(pose[2]), n = sin(pose[2]);
+                const double x = leg->base.x - k->centre.x - c * leg->to.x + n * leg->to.y,
+                             y = leg->base.y - k->centre.y - n * leg->to.x - c * leg->to.y;
+                pose[0] = fmin(fmax(x, box->lo[0]), box->hi[0]);
+                pose[1] = fmin(fmax(y, box->lo[1]), box->hi[1]);
+            }
+            look_beyond(k, may, pose, false, b);
+        }
+    return true;
 }

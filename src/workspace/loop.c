@@ -131,8 +131,9 @@ bool fw_workspace_six_bar_solve(const fw_workspace_six_bar *k, double x_m, doubl
     if (!solve_dyad(&k->left, at_c, &a, &b)) return false;
     *leg = 1;
     if (!solve_dyad(&k->right, at_d, &f, &e)) return false;
-    /* left leg counts from the ground up, right leg from the platform down */
-    const double turn[FW_SIX] = {a, b, wrapped(phi_rad - a - b), -wrapped(phi_rad - f - e), -e, -f};
+    /* Left leg counts from the ground up, right leg from the platform down. The elbow keeps its side, so that within half
+       a turn of the first link all of a turn of the platform is in its own hinge. */
+    const double turn[FW_SIX] = {a, b, phi_rad - a - b, -(phi_rad - f - e), -e, -f};
     for (int i = 0; i < FW_SIX; i++)
         angle_rad[i] = turn[i] + k->start_rad[i];
     return true;

@@ -329,7 +329,7 @@ static void stiff(const limber *l, const double pose[3], const fw_workspace_pose
         fw_geometry_vec2 base = h->loop->leg[side].base;
         s->body[k][0] = k == PLATFORM ? pose[0] : base.x + o->a[side].x.v.m - h->at[k].x;
         s->body[k][1] = k == PLATFORM ? pose[1] : base.y + o->a[side].y.v.m - h->at[k].y;
-        s->body[k][2] = atan2(o->turn[k].y.v.m, o->turn[k].x.v.m);
+        s->body[k][2] = k == PLATFORM ? pose[2] : atan2(o->turn[k].y.v.m, o->turn[k].x.v.m);
     }
 }
 

@@ -419,6 +419,10 @@ fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold,
                              const fw_mechanism *mechanism, const fw_workspace_box3 *box,
                              const fw_workspace_strain_proof *proof,
                              fw_workspace_give give[FW_SIX]);
+/* at: a pose that pins do not reach; NULL: they reach all of the box, and only turns are looked at. false: nothing is beyond */
+bool fw_workspace_beyond_of(const fw_mechanism *mechanism, const fw_workspace_loop *loop,
+                            const fw_workspace_box3 *box, const double *at,
+                            fw_workspace_beyond *beyond);
 /* What is known of a hinge at its worst pose beside the strain: see fw_workspace_load. */
 fw_status fw_workspace_load_of(fw_arena *arena, const fw_workspace_hold *hold,
                                const fw_mechanism *mechanism,

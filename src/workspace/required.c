@@ -23,15 +23,16 @@ static double towards(int e, fw_maths_interval angle, bool far) {
     return far ? angle.hi : angle.lo;
 }
 
-/* rotations beyond +-180 deg would be others by a turn */
-static bool unambiguous(fw_maths_interval psi) {
-    return psi.lo > -FW_PI && psi.hi < FW_PI;
+/* Rotations of the links beyond +-180 deg would be others by a turn; those of C and D are what the platform's own has beyond
+   them, however far it turns. */
+static bool unambiguous(int hinge, fw_maths_interval psi) {
+    return hinge == 2 || hinge == 3 || (psi.lo > -FW_PI && psi.hi < FW_PI);
 }
 
 static fw_maths_interval angle_over(const proving *p, const fw_workspace_loop_box *known, int hinge,
                                     const double half[3], bool *clear) {
     fw_maths_interval psi = fw_form_range(&known->psi[hinge], half);
-    *clear = *clear && unambiguous(psi);
+    *clear = *clear && unambiguous(hinge, psi);
     return fw_workspace_loop_angle_range(p->loop, hinge, psi);
 }
 
@@ -220,25 +221,14 @@ static void refine(const fw_workspace_six_bar *k, const fw_workspace_box3 *box, 
     }
 }
 
-static void unreachable(fw_workspace_result *result, const double at[3]) {
-    if (!result->reachable) return; /* the first one is named */
-    result->fail_x_m = at[0];
-    result->fail_y_m = at[1];
-    result->fail_phi_rad = at[2];
-}
-
 /* Where the proof is left undecided (close to a stretched leg, for instance): grid of 17^3 poses,
    best one climbed to its local maximum. Not a proof; the error is what the refinement from a 9^3
    to the 17^3 grid and the climb still changed. Cost about 6000 inverse kinematics, 1 ms. source:
    docs/theory/workspace.md; test_required.c corners_and_interior */
 static bool sampled(const fw_workspace_six_bar *k, const fw_workspace_box3 *box,
-                    fw_workspace_result *result) {
+                    fw_workspace_result *result, double at[3]) {
     fw_workspace_peak coarse[FW_SIX], fine[FW_SIX];
-    double at[3];
-    if (!scan(k, box, COARSE, coarse, at) || !scan(k, box, FINE, fine, at)) {
-        unreachable(result, at);
-        return false;
-    }
+    if (!scan(k, box, COARSE, coarse, at) || !scan(k, box, FINE, fine, at)) return false;
     for (int j = 0; j < FW_SIX; j++) {
         refine(k, box, j, &coarse[j]);
         refine(k, box, j, &fine[j]);
@@ -338,7 +328,21 @@ typedef struct required_box { /* of one box */
     fw_workspace_kept *kept;
     const fw_workspace_box3 *box;
     fw_workspace_result *result;
+    int index;
 } required_box;
+
+/* at: a pose that pins do not reach, or NULL. true: the box is not reached, for certain or with pins; what is certain is
+   named, else the first one */
+static bool is_beyond(const required_box *q, const fw_workspace_loop *loop,
+                      const fw_workspace_box3 *box, const double *at) {
+    fw_workspace_result *r = q->result;
+    fw_workspace_beyond now;
+    if (!fw_workspace_beyond_of(q->m, loop, box, at, &now)) return false;
+    if (r->reachable || (now.certain && !r->beyond.certain))
+        r->beyond = now, r->fail_box = q->index;
+    r->reachable = false;
+    return true;
+}
 
 /* what holds the box where the ground stands at `strain`, and what is given in that scene, or in none (NULL); box: in the
    layer's lengths */
@@ -378,7 +382,7 @@ static fw_status grown_rotations(fw_arena *arena, const required_box *q,
     fw_workspace_proof_end end;
     double at[3];
     FW_TRY(certify(arena, hold->loop, q->kept, box, &found, at, &end));
-    if (end == FW_REFUTED) unreachable(q->result, at), *whole = false;
+    if (end == FW_REFUTED) *whole = !is_beyond(q, hold->loop, box, at);
     if (end == FW_UNDECIDED) q->result->certified = false;
     for (int j = 0; j < FW_SIX && end == FW_PROVED; j++) {
         fw_workspace_peak now = peak_of(&found, j);
@@ -509,24 +513,22 @@ static fw_status left_out(fw_arena *arena, const fw_mechanism *m, const fw_devic
     return FW_OK;
 }
 
-/* one required box: proved where that can be, else sampled; false: not reachable */
-static fw_status one_box(fw_arena *arena, const fw_workspace_six_bar *k,
-                         const fw_workspace_loop *loop, fw_workspace_kept *kept,
-                         const fw_device_workspace_box *asked, fw_workspace_proof *proof,
-                         fw_workspace_result *result, bool *whole) {
-    const fw_workspace_box3 box = {{asked->x_min_m, asked->y_min_m, asked->phi_min_rad},
-                                   {asked->x_max_m, asked->y_max_m, asked->phi_max_rad}};
+/* one required box: proved where that can be, else sampled; *whole: it is reached */
+static fw_status one_box(fw_arena *arena, const fw_workspace_six_bar *k, bool provable,
+                         const required_box *q, fw_workspace_proof *proof, bool *whole) {
+    const fw_workspace_box3 *box = q->box;
+    fw_workspace_result *result = q->result;
     result->volume_m2_rad +=
-        (box.hi[0] - box.lo[0]) * (box.hi[1] - box.lo[1]) * (box.hi[2] - box.lo[2]);
+        (box->hi[0] - box->lo[0]) * (box->hi[1] - box->lo[1]) * (box->hi[2] - box->lo[2]);
     fw_workspace_proof_end end = FW_UNDECIDED;
     double at[3];
-    if (loop) FW_TRY(certify(arena, loop, kept, &box, proof, at, &end));
+    if (provable) FW_TRY(certify(arena, q->loop, q->kept, box, proof, at, &end));
     *whole = end == FW_PROVED;
-    if (end == FW_REFUTED) unreachable(result, at);
     if (end == FW_UNDECIDED) {
         result->certified = false;
-        *whole = sampled(k, &box, result);
+        *whole = sampled(k, box, result, at);
     }
+    *whole = !is_beyond(q, q->loop, box, *whole ? NULL : at);
     for (int j = 0; j < FW_SIX && end == FW_PROVED; j++) {
         fw_workspace_peak now = peak_of(proof, j);
         if (fabs(now.angle_rad) > fabs(result->peak[j].angle_rad)) result->peak[j] = now;
@@ -575,18 +577,13 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_works
                                  held);
         result->required = true;
         in_flow[i] = true;
-        FW_TRY(one_box(arena, &k, provable ? loop : NULL, kept, of, &proof[i], result, &whole[i]));
-        if (whole[i] && provable && m->nhinge > 0) {
-            const fw_workspace_box3 box = {{of->x_min_m, of->y_min_m, of->phi_min_rad},
-                                           {of->x_max_m, of->y_max_m, of->phi_max_rad}};
-            const required_box q = {
-                .m = m, .loop = loop, .kept = kept, .box = &box, .result = result};
+        const fw_workspace_box3 box = {{of->x_min_m, of->y_min_m, of->phi_min_rad},
+                                       {of->x_max_m, of->y_max_m, of->phi_max_rad}};
+        const required_box q = {
+            .m = m, .loop = loop, .kept = kept, .box = &box, .result = result, .index = i};
+        FW_TRY(one_box(arena, &k, provable, &q, &proof[i], &whole[i]));
+        if (whole[i] && provable && m->nhinge > 0)
             FW_TRY(all_strains(arena, &q, &strain[i], &whole[i]));
-        }
-        if (!whole[i] && result->reachable) {
-            result->reachable = false;
-            result->fail_box = i;
-        }
     }
     for (int i = 0; i < m->device->nscene && result->required; i++)
         if (fw_device_in_flow(m->device->scene[i].flow, m->variant->flow))

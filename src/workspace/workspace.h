@@ -88,13 +88,22 @@ typedef struct fw_workspace_load { /* of one hinge, the worst over all required 
     const char *actuation; /* what holds the pose, the worst that the description allows */
 } fw_workspace_load;
 
+/* Of a box that pins do not reach, the pose that is farthest from what its flexures may give: a leg of pins lacks that much
+   there, and its three hinges move it by at most so much within their limits. certain: it lacks more; turns: it lacks
+   rotation, of which they have gives_rad together. */
+typedef struct fw_workspace_beyond {
+    bool certain, turns;
+    int leg; /* 0: A-B-C, 1: F-E-D */
+    double lacks_m, gives_m, gives_rad, pose[3];
+} fw_workspace_beyond;
+
 typedef struct fw_workspace_result {
-    bool required;                           /* the device asks for one in this flow */
-    bool reachable;                          /* all of it can be assembled */
-    bool certified;                          /* interval proof; sampled otherwise */
-    double volume_m2_rad;                    /* of the required box */
-    double fail_x_m, fail_y_m, fail_phi_rad; /* a pose out of reach ... */
-    int fail_box;                            /* ... of this one of the device's boxes; FW_NONE */
+    bool required;              /* the device asks for one in this flow */
+    bool reachable;             /* all of it can be assembled */
+    bool certified;             /* interval proof; sampled otherwise */
+    double volume_m2_rad;       /* of the required box */
+    fw_workspace_beyond beyond; /* a pose out of reach ... */
+    int fail_box;               /* ... of this one of the device's boxes; FW_NONE */
     const bool *asked,
         *box_reachable; /* (device->nworkspace) holds in this flow; all of it reachable */
     const fw_workspace_proof *proof;         /* (device->nworkspace) */

@@ -232,7 +232,7 @@ class Mechanism:
             qy = axis[1] + Jet(Interval(self.centre[1])) + s.scaled(x) + c.scaled(y)
             alpha, beta = leg.angles(qx, qy)
             first, elbow = wrapped(alpha - leg.drawn[0]), wrapped(beta - leg.drawn[1])
-            last = wrapped(axis[2] - first - elbow)
+            last = axis[2] - first - elbow  # all else that the platform turns by
             bodies[4 if number_ else 0], bodies[3 if number_ else 1] = first, first + elbow
             for place, jet in enumerate((first, elbow, last)):
                 hinge = 5 - place if number_ else place

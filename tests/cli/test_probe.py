@@ -293,6 +293,34 @@ class Probe(unittest.TestCase):
         self.assertEqual(said.returncode, 3)
         self.assertIn("and 'pin' is none; name one of those there are: tendon 'T' [FW-D321]", said.stderr)
 
+    def test_a_value_is_the_worst_one_however_far_its_bound(self):
+        """121.6 N/m where the laws begin and 128.2 where they end: a bound far away took either for the other"""
+        text = (ROOT / "tests/data/probes/stiffer-as-it-goes.xml").read_text()
+        with tempfile.TemporaryDirectory() as here:
+            device = pathlib.Path(here) / "device.xml"
+            for bound in ('min="0.001 N/m"', 'min="110 N/m"'):
+                device.write_text(text.replace('min="0.001 N/m"', bound))
+                data = json.loads(run("check", device, "--json", "--advice", "none", "--corners", "none").stdout)
+                self.assertAlmostEqual(data["requirements"][0]["value"], 121.6, delta=0.3)
+
+    def test_a_requirement_that_no_scene_answers_is_told(self):
+        """every scene that has the probe was none, and the device accepted"""
+        text = (ROOT / "docs/gallery/reference-six-bar/device.xml").read_text()
+        text = re.sub(r"<scene name=.step-load.*?</scene>", '<probe id="way" kind="displacement" on="CD" direction="0 deg"/>'
+                      '<require probe="way" measure="final" min="1 mm"/>', text, flags=re.S)
+        with tempfile.TemporaryDirectory() as here:
+            device = pathlib.Path(here) / "device.xml"
+            for scene, told in (("", True), ('<scene name="s" duration="1 us"/>', False)):
+                device.write_text(text.replace("</device>", scene + "</device>"))
+                result = run("check", device, "--json", "--advice", "none", "--corners", "none")
+                data = json.loads(result.stdout)
+                said = [r for r in data["reasons"] if r["code"] == "FW-D729"]
+                self.assertEqual(bool(said), told, data["reasons"])
+                self.assertEqual("FW-D729" in result.stderr, told)
+                self.assertNotEqual(data["verdict"], "accept")
+                if told:
+                    self.assertIn("probe way", said[0]["text"])
+
     def test_mistakes_are_reported_at_their_place(self):
         spring = '<spring id="s" a="arm" b="ground" b-y="1 mm" stiffness="1 N/m"/>'
         other = '<scene name="other" duration="1 ms"><contact id="touch" a="arm" b="ground" b-y="-1 mm" side="outside" distance="0.1 mm" stiffness="1 N/m"/></scene>'

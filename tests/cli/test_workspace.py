@@ -292,6 +292,57 @@ class Judged(InTemporary):
             self.assertEqual(any(r["code"] == "FW-D647" for r in verdict["reasons"]), not flat, verdict["reasons"])
             self.assertAlmostEqual(max(h["utilisation"] for h in verdict["hinges"]), 0.47, delta=0.01)
 
+    def straight(self, box, change=lambda text: text):
+        """the verdict on a device whose legs of pins end 17.9 um above the drawn pose"""
+        device = self.here / "straight.xml"
+        text = re.sub("<workspace[^>]*>", f"<workspace {box}/>", (ROOT / "tests/data/straight-legs.xml").read_text())
+        device.write_text(change(text))
+        result = run("check", device, "--json", "--advice", "none", "--corners", "none")
+        return json.loads(result.stdout) if result.stdout else result.stderr
+
+    def test_what_pins_do_not_reach_and_flexures_may(self):
+        """a scene with 1.592 mN reaches 20 um at a fifth of the limit; 0.6 mm nothing reaches"""
+        pose = 'x-min="0 um" x-max="0 um" y-min="{0} um" y-max="{0} um" phi-min="0 deg" phi-max="0 deg"'
+        for y, verdict, code in ((15, None, None), (20, "inconclusive", "FW-D727"), (600, "reject", "FW-D201")):
+            data = self.straight(pose.format(y))
+            said = {r["code"] for r in data["reasons"]} & {"FW-D727", "FW-D201"}
+            self.assertEqual(said, {code} if code else set(), (y, data["reasons"]))
+            if verdict:
+                self.assertEqual(data["verdict"], verdict)
+        # of a whole box the pose that is farthest counts, not the first that is found
+        data = self.straight('x-min="0 um" x-max="0 um" y-min="0 um" y-max="600 um" phi-min="0 deg" phi-max="0 deg"')
+        self.assertEqual(data["verdict"], "reject")
+        up = '<scene name="up" duration="2000 ms"><force on="CD" fy="1.592 mN" law="ramp" rise="1900 ms"/></scene>' \
+             '<probe id="dy" kind="displacement" on="CD" direction="90 deg"/><require probe="dy" measure="final" min="18 um"/>'
+        data = self.straight("", lambda text: re.sub("<workspace[^>]*>", up, text))
+        self.assertEqual(data["verdict"], "accept", data["reasons"])
+
+    def test_a_platform_that_turns_all_the_way(self):
+        """360 degrees were none: its hinges were at 0 %"""
+        for box in ('x-min="0 um" x-max="0 um" y-min="0 um" y-max="0 um" phi-min="360 deg" phi-max="360 deg"',
+                    'x-min="-5 um" x-max="5 um" y-min="-5 um" y-max="5 um" phi-min="-360 deg" phi-max="-359 deg"'):
+            data = self.straight(box)
+            self.assertEqual(data["verdict"], "reject")
+            self.assertIn("turn it by no more than", [r["text"] for r in data["reasons"] if r["code"] == "FW-D201"][0])
+
+    def test_a_second_joint_at_a_hinge_of_the_six_bar(self):
+        """has no flexure and cannot have one: the advice says what is possible"""
+        stop = '<mechanism><revolute id="st" a="ground" b="AB" a-x="0.7 mm" a-y="0.15 mm" b-x="0.075 mm" b-y="-0.625 mm" ' \
+               'stop-min="-0.1 deg" stop-max="0.1 deg" stop-stiffness="1e-3 N m/rad"/></mechanism>'
+        text = str(self.straight("", lambda text: re.sub("<workspace[^>]*>", stop + '<scene name="s" duration="1 ms"/>', text)))
+        self.assertIn("those hinges take no stops", text)
+        self.assertNotIn("give it hinge=", text)
+
+    def test_what_is_sure_to_stay_flat_is_no_negative_multiple(self):
+        """a layer far thicker than its flexures are wide: nothing of its buckling is known"""
+        text = (ROOT / "tests/data/straight-legs.xml").read_text().replace('thickness="50 um"', 'thickness="1200 um"')
+        text = re.sub(' width="120 um"| width="1.40 mm" height="0.40 mm"', ' mass="0.02 mg" inertia="0.003 mg mm^2"', text)
+        device = self.here / "thick.xml"
+        device.write_text(re.sub("<workspace[^>]*>", '<scene name="s" duration="5 ms"><force on="CD" fx="1 uN"/></scene>'
+                                 '<workspace x-min="-1 um" x-max="1 um" y-min="-1 um" y-max="1 um" phi-min="0 deg" phi-max="0.1 deg"/>', text))
+        result = run("check", device, "--advice", "none", "--corners", "none")
+        self.assertNotRegex(result.stdout, "up to -")
+
     def test_a_spring_at_what_rides_on_it(self):
         device = self.here / "rides.xml"
         rider = ('<mechanism><body id="R" x="1.5 mm" y="3.5 mm" mass="1 ug" inertia="1 ug mm^2"/><revolute id="r" a="CD" a-y="0.325 mm" '
