@@ -57,7 +57,7 @@ enum {
     FW_STATUS_INPUT = 2,     /* the description or a pack is invalid; see the diagnostics */
     FW_STATUS_GEOMETRY = 3,  /* impossible geometry */
     FW_STATUS_IO = 4,        /* a file could not be read or written */
-    FW_STATUS_NOMEM = 5,     /* out of memory, or over memory_cap */
+    FW_STATUS_NOMEM = 5,     /* over memory_cap (FW-D720), or out of memory (FW-D721) */
     FW_STATUS_LIMIT = 6,     /* another limit was reached */
     FW_STATUS_SOLVER = 7,    /* no numerical solution */
     FW_STATUS_CANCELLED = 8, /* fw_design_cancel was called */
@@ -345,8 +345,13 @@ typedef struct fw_diagnostic {
     const char *message; /* what is wrong, the limit and its source, what to do */
 } fw_diagnostic;
 
-/* How many there are so far (the first 100 are kept); 0 for NULL. */
+/* How many there are so far; 0 for NULL. At most 100 are kept: of one call the first, errors before warnings and notes. Where
+   they are full, errors of earlier calls make room for what a later one says, the oldest first. */
 FW_API size_t fw_design_diagnostics(const fw_design *design);
+
+/* How many of them were said before the latest call that answers with a status began: those from this number on are what
+   that call said. 0 for NULL. */
+FW_API size_t fw_design_diagnostics_before(const fw_design *design);
 
 /* The i-th in the order in which they were found; NULL beyond the last. Belongs to the design;
    fields may be added at the end. */

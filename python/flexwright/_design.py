@@ -9,6 +9,7 @@ from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Tup
 
 import numpy as np
 
+from . import _arguments
 from ._library import TOLD, ArrayStruct, OptionsStruct, lib
 from .errors import BY_STATUS, Cancelled, Diagnostic, FlexwrightError, MemoryLimitError, Severity
 
@@ -69,13 +70,26 @@ def _text(raw: Optional[bytes]) -> Optional[str]:
     return None if raw is None else raw.decode("utf-8", "replace")
 
 
+class _Owner:
+    """The library's design, freed with this. A Design has one, and so have the arrays that stand on its memory: these hold
+    nothing else, since Python does not look for cycles through arrays, and a Design keeps arrays."""
+
+    __slots__ = ("pointer",)
+
+    def __init__(self, pointer: int) -> None:
+        self.pointer = pointer
+
+    def __del__(self) -> None:
+        lib.fw_design_free(self.pointer)
+
+
 class _Memory:
     """What a NumPy array stands on: memory of a design, which lives as long as the array does."""
 
-    __slots__ = ("design", "__array_interface__")
+    __slots__ = ("owner", "__array_interface__")
 
-    def __init__(self, design: "Design", address: int, shape: Tuple[int, ...], kind: str) -> None:
-        self.design = design
+    def __init__(self, owner: _Owner, address: int, shape: Tuple[int, ...], kind: str) -> None:
+        self.owner = owner
         self.__array_interface__ = {"version": 3, "shape": shape, "typestr": kind,
                                     "data": (address, True)}
 
@@ -84,10 +98,10 @@ _KINDS = {REAL: np.dtype(np.float64).str, WHOLE: np.dtype(np.int32).str,
           COMPLEX: np.dtype(np.complex128).str, TRUTH: np.dtype(np.int32).str}
 
 
-def _values(design: "Design", raw: ArrayStruct, shape: Tuple[int, ...]) -> np.ndarray:
+def _values(owner: _Owner, raw: ArrayStruct, shape: Tuple[int, ...]) -> np.ndarray:
     """A view of the library's own memory, which cannot be written to; texts become str or None."""
     if raw.type != TEXT:
-        return np.asarray(_Memory(design, raw.data, shape, _KINDS[raw.type]))
+        return np.asarray(_Memory(owner, raw.data, shape, _KINDS[raw.type]))
     n = int(np.prod(shape, dtype=np.int64))
     texts = np.empty(n, dtype=object)
     pointers = ctypes.cast(raw.data, ctypes.POINTER(ctypes.c_char_p))
@@ -96,6 +110,14 @@ def _values(design: "Design", raw: ArrayStruct, shape: Tuple[int, ...]) -> np.nd
     texts = texts.reshape(shape)
     texts.flags.writeable = False
     return texts
+
+
+def _nothing_to_begin_with(cap: int) -> MemoryLimitError:
+    """No design at all: the library has nowhere to say why."""
+    small = 0 < cap < 1 << 20
+    what = f"no device fits into memory_cap = {cap} bytes; allow more" if small else \
+        "out of memory: the machine has no more of it"
+    return MemoryLimitError(what, [Diagnostic(720 if small else 721, Severity.ERROR, None, 0, 0, what)])
 
 
 def _is_interruptible() -> bool:
@@ -127,27 +149,27 @@ class Question:
 
 
 class Design:
-    """A design of the library, freed when nothing uses it any more, arrays included."""
+    """A design of the library, freed when nothing uses it any more, arrays included.
+
+    options: as _arguments.options has them.
+    """
 
     def __init__(self, options: Mapping[str, Any]) -> None:
-        self._pointer: Optional[int] = None
         self._lock = threading.RLock()
         self._cancelling = threading.RLock()
         self._working = False
         self._done: set = set()
         self._numbers: Dict[str, Dict[str, Array]] = {}
+        self._said: List[Tuple[str, Diagnostic]] = []  # by calls that were answered
         struct = OptionsStruct()
         lib.fw_design_options_init(ctypes.byref(struct), ctypes.sizeof(struct))
         for name, value in options.items():
-            setattr(struct, name, value.encode() if isinstance(value, str) else value)
-        self._pointer = lib.fw_design_new(ctypes.byref(struct))
-        if not self._pointer:
-            raise MemoryLimitError("out of memory")
-
-    def __del__(self) -> None:
-        if getattr(self, "_pointer", None):
-            lib.fw_design_free(self._pointer)
-            self._pointer = None
+            setattr(struct, name, _arguments.raw(name, value))
+        pointer = lib.fw_design_new(ctypes.byref(struct))
+        if not pointer:
+            raise _nothing_to_begin_with(options.get("memory_cap", 0))
+        self._owner = _Owner(pointer)
+        self._pointer: int = pointer
 
     # ---- calls ----
 
@@ -155,7 +177,17 @@ class Design:
         if status == OK:
             return
         name = _text(lib.fw_status_name(status))
-        raise BY_STATUS.get(status, FlexwrightError)(f"{what}: {name}", self.diagnostics)
+        raise BY_STATUS.get(status, FlexwrightError)(f"{what}: {name}", self._of_the_last_call())
+
+    def _of_the_last_call(self) -> List[Diagnostic]:
+        """What the last call of the library said."""
+        out = []
+        for i in range(lib.fw_design_diagnostics_before(self._pointer),
+                       lib.fw_design_diagnostics(self._pointer)):
+            d = lib.fw_design_diagnostic(self._pointer, i).contents
+            out.append(Diagnostic(d.number, Severity(d.severity), _text(d.file), d.line, d.column,
+                                  _text(d.message) or ""))
+        return out
 
     def _in_thread(self, function: Callable[..., int], arguments: tuple) -> int:
         """The call in a thread of its own, so that this one can take signals: Ctrl-C, an alarm.
@@ -182,17 +214,21 @@ class Design:
             if isinstance(error, RuntimeError) and "start new thread" in str(error):
                 raise
             raised = error
+            raised._of_a_handler = True  # it ends whatever asked, and not this question alone: sweep looks
             lib.fw_design_cancel(self._pointer)
         while not answer:  # what a handler raises may come when the work has just ended: no lock is given up twice
             try:
                 ended.acquire()
             except BaseException:
                 lib.fw_design_cancel(self._pointer)
-        if raised is not None:
-            raise raised
-        if isinstance(answer[0], BaseException):
-            raise answer[0]
-        return answer[0]
+        try:
+            if raised is not None:
+                raise raised
+            if isinstance(answer[0], BaseException):
+                raise answer[0]
+            return answer[0]
+        finally:  # an exception knows this frame, which would know it
+            del raised, answer
 
     def call(self, name: str, *arguments: Any, progress: Optional[ProgressCallback] = None) -> None:
         """fw_design_NAME(design, *arguments), which may take long.
@@ -229,9 +265,13 @@ class Design:
                     lib.fw_design_cancel_clear(self._pointer)
                 lib.fw_design_progress(self._pointer, TOLD(), None)
             self._numbers.clear()
-            if raised:
-                raise raised[0]
+            try:
+                if raised:
+                    raise raised[0]
+            finally:
+                raised.clear()
             self._check(status, name.replace("_", " "))
+            self._said += [(name, d) for d in self._of_the_last_call()]
 
     def stage(self, name: str, *arguments: Any,
               progress: Optional[ProgressCallback] = None) -> "Design":
@@ -258,14 +298,9 @@ class Design:
     def name(self) -> Optional[str]:
         return _text(lib.fw_design_name(self._pointer))
 
-    @property
-    def diagnostics(self) -> Tuple[Diagnostic, ...]:
-        out = []
-        for i in range(lib.fw_design_diagnostics(self._pointer)):
-            d = lib.fw_design_diagnostic(self._pointer, i).contents
-            out.append(Diagnostic(d.number, Severity(d.severity), _text(d.file), d.line, d.column,
-                                  _text(d.message) or ""))
-        return tuple(out)
+    def said(self, *calls: str) -> Tuple[Diagnostic, ...]:
+        """By these calls, where they were answered: what one that failed said is in its exception."""
+        return tuple(d for call, d in self._said if call in calls)
 
     @property
     def decision(self) -> int:
@@ -306,7 +341,7 @@ class Design:
                            if raw.label[k] else None for k, n in enumerate(shape))
             name = _text(raw.name) or ""
             out[name] = Array(name, _text(raw.unit) or "", _text(raw.about) or "", labels,
-                              _values(self, raw, shape))
+                              _values(self._owner, raw, shape))
         return out
 
 

@@ -86,6 +86,7 @@ _FUNCTIONS = {
     "fw_design_document": (c_int, [c_void_p, c_int, POINTER(c_void_p), POINTER(c_size_t)]),
     "fw_design_text_style": (c_int, [c_void_p, c_int, c_int]),
     "fw_design_diagnostics": (c_size_t, [c_void_p]),
+    "fw_design_diagnostics_before": (c_size_t, [c_void_p]),
     "fw_design_diagnostic": (POINTER(DiagnosticStruct), [c_void_p, c_size_t]),
     "fw_design_cancel": (None, [c_void_p]),
     "fw_design_cancel_clear": (None, [c_void_p]),

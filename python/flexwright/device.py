@@ -5,60 +5,20 @@ from __future__ import annotations
 import difflib
 import functools
 import json
-import math
 import os
 import sys
 import threading
 import weakref
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
-from . import results
+from . import _arguments, results
+from ._arguments import Value
 from ._design import DOCUMENTS, Design, Progress, ProgressCallback, Question
-from ._library import OptionsStruct
-from .errors import (Diagnostic, FileError, FlexwrightError, MissingFileError, Severity,
-                     UsageError)
+from .errors import Diagnostic, FileError, FlexwrightError, MissingFileError, Severity
 from .tables import Table, table
-
-#: options of every question, as in flexwright.h: the description of fw_design_options says what they are
-OPTIONS = tuple(name for name, _type in OptionsStruct._fields_ if name != "size")
-_TRUTHS = ("force", "path", "figures")
 
 #: what `Device.write` writes, as FW_DESIGN_... of flexwright.h
 WRITES = {"verdict": 1, "masks": 2, "recipes": 4, "motion": 8, "report": 16}
-
-Value = Union[str, int, float]
-
-
-def _setting(name: str, value: Value) -> str:
-    """As the description would write it. A number without a unit is a pure number."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, tuple) and len(value) == 2:
-        return f"{_setting(name, value[0])} {value[1]}"
-    number = float(value)
-    if not math.isfinite(number):
-        raise ValueError(f"{name} = {value!r}: not a finite number")
-    return repr(int(number)) if number.is_integer() and abs(number) < 1e15 else repr(number)
-
-
-def _checked(options: Mapping[str, Any]) -> Dict[str, Any]:
-    out: Dict[str, Any] = {}
-    for name, value in options.items():
-        if name not in OPTIONS:
-            near = difflib.get_close_matches(name, OPTIONS, 1)
-            hint = f"; did you mean {near[0]}?" if near else f"; there are {', '.join(OPTIONS)}"
-            raise TypeError(f"there is no option {name}{hint}")
-        if value is None:
-            continue
-        if name in ("data_directory", "directory", "layers", "laboratory"):
-            value = os.fspath(value)
-        elif name == "effects" and not isinstance(value, str):
-            value = ",".join(value)
-        out[name] = int(bool(value)) if name in _TRUTHS else value
-    return out
-
 
 def show_progress(progress: Progress) -> None:
     """A line on standard error that is written over; for `progress=flexwright.show_progress`."""
@@ -84,20 +44,23 @@ class Device:
 
     The file is read at once, and here only: mistakes raise InputError, with all of them in its
     diagnostics. Any number of devices may work in parallel in threads.
+
+    What the library holds for it is freed when nothing uses it any more; `close()` or `with` lets it go
+    at once.
     """
 
-    def __init__(self, source: Union[str, "os.PathLike[str]"], *,
+    def __init__(self, source: Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"], *,
                  set: Optional[Mapping[str, Value]] = None,
                  options: Optional[Mapping[str, Any]] = None, **parameters: Value) -> None:
-        path = os.fspath(source)
+        path = _arguments.path("source", source)
         try:
             with open(path, "rb") as file:
                 text = file.read()
         except OSError as error:
             kind = MissingFileError if isinstance(error, FileNotFoundError) else FileError
             what = "cannot be read: %s" % error.strerror
-            raise kind(f"{os.fsdecode(path)} {what}", [
-                Diagnostic(220, Severity.ERROR, os.fsdecode(path), 0, 0, what)]) from error
+            raise kind(f"{path} {what}", [Diagnostic(220, Severity.ERROR, path, 0, 0, what)],
+                       error.errno, error.strerror) from error
         self._begin(text, path, os.path.dirname(path) or ".", set, options, parameters)
 
     @classmethod
@@ -108,8 +71,12 @@ class Device:
         """A device from a description in memory. name: of it in messages; directory: where the
         drawings lie that it names (None: none are opened)."""
         self = cls.__new__(cls)
-        self._begin(text.encode() if isinstance(text, str) else bytes(text), name,
-                    None if directory is None else os.fspath(directory), set, options, parameters)
+        if not isinstance(text, (str, bytes, bytearray, memoryview)):
+            raise TypeError(f"text is a description as str or bytes, not {type(text).__name__}")
+        self._begin(text.encode("utf-8", "surrogatepass") if isinstance(text, str) else bytes(text),
+                    _arguments.path("name", name),
+                    None if directory is None else _arguments.path("directory", directory), set,
+                    options, parameters)
         return self
 
     def _begin(self, text: bytes, file: str, directory: Optional[str],
@@ -118,7 +85,8 @@ class Device:
                habit: Optional[Dict[str, Mapping[str, Any]]] = None) -> None:
         self._text, self._file, self._directory = text, file, directory
         self._set: Dict[str, Value] = {**(attributes or {}), **parameters}
-        self._options = _checked(options or {})
+        self._options = _arguments.options(options or {})
+        self._closed = False
         if "data_directory" not in self._options and os.environ.get("FLEXWRIGHT_DATA"):
             self._options["data_directory"] = os.environ["FLEXWRIGHT_DATA"]
         if directory is not None:
@@ -137,6 +105,7 @@ class Device:
             if not self._habit["options"]:
                 raise
             self._own = self._design({})
+        self._name = self._own.name or ""
 
     # ---- designs: one for each set of options ----
 
@@ -144,6 +113,8 @@ class Device:
         """Read, with the settings of this device."""
         key = tuple(sorted(options.items()))
         with self._lock:
+            if self._closed:
+                raise _arguments.refused("the device is closed, and answers nothing any more; `with_` makes another one of it")
             known = self._known.get(key)
             if known is not None:
                 return known
@@ -151,7 +122,7 @@ class Device:
             with self._listing:
                 self._busy.add(design)
             for name, value in self._set.items():
-                design.set(name, _setting(name, value))
+                design.set(_arguments.setting_name(name), _arguments.setting(name, value))
             design.call("read_memory", self._file.encode("utf-8", "surrogateescape"), self._text,
                         len(self._text))
             self._known[key] = design
@@ -167,7 +138,7 @@ class Device:
             self._questions.append(question)
         try:
             with question:
-                design = self._design(_checked(options))
+                design = self._design(_arguments.options(options))
                 try:
                     for stage, *arguments in stages:
                         design.stage(stage, *arguments, progress=progress)
@@ -181,7 +152,7 @@ class Device:
         finally:
             with self._listing:
                 self._questions.remove(question)
-        self._habit["options"] = dict(options)
+        self._habit["options"] = _arguments.options(options)
         return design
 
     # ---- what it is ----
@@ -193,7 +164,7 @@ class Device:
     @property
     def name(self) -> str:
         """Of the device, as the description has it."""
-        return self._any.name or ""
+        return self._name
 
     @property
     def file(self) -> str:
@@ -218,7 +189,7 @@ class Device:
     @property
     def diagnostics(self) -> Tuple[Diagnostic, ...]:
         """What was said of the description, warnings and notes too."""
-        return self._any.diagnostics
+        return self._any.said("read_memory")
 
     @property
     def settings(self) -> Dict[str, Value]:
@@ -234,7 +205,7 @@ class Device:
         """The same description, as it was read, with other settings."""
         other = type(self).__new__(type(self))
         merged = {k: v for k, v in self._options.items()}
-        merged.update(_checked(options or {}))
+        merged.update(_arguments.options(options or {}))
         other._begin(self._text, self._file, self._directory, {**self._set, **(set or {})}, merged,
                      parameters, self._habit)
         return other
@@ -250,6 +221,23 @@ class Device:
             question.cancelled = True
         for design in busy:
             design.cancel()
+
+    def close(self) -> None:
+        """Lets go of what the library holds for this device. Questions that are being answered end with Cancelled, later ones
+        are refused; results and arrays that were handed out stay as they are."""
+        self._closed = True
+        self.cancel()
+        with self._lock:
+            self._own = None
+            self._known.clear()
+        for cached in ("parameters", "scene_table"):
+            self.__dict__.pop(cached, None)
+
+    def __enter__(self) -> "Device":
+        return self
+
+    def __exit__(self, *_raised: object) -> None:
+        self.close()
 
     # ---- questions ----
 
@@ -276,7 +264,7 @@ class Device:
                 progress: Optional[ProgressCallback] = None, **options: Any) -> results.Statics:
         """The equilibrium under the loads of a scene; path: and the way there from rest."""
         return results.Statics(self._ask((("statics",),),
-                                         {**options, "scene": scene, "path": path or None},
+                                         {**options, "scene": scene, "path": _arguments.truth("path", path) or None},
                                          progress))
 
     def assemble(self, scene: Optional[str] = None, *, progress: Optional[ProgressCallback] = None,
@@ -292,7 +280,7 @@ class Device:
     def tradeoff(self, scene: Optional[str] = None, budget_s: float = 0, *,
                  progress: Optional[ProgressCallback] = None, **options: Any) -> results.Tradeoff:
         """What accuracy costs. budget_s: work to spend, s of a usual machine; 0: 20."""
-        return results.Tradeoff(self._ask((("tradeoff", float(budget_s), 0),),
+        return results.Tradeoff(self._ask((("tradeoff", _arguments.real("budget_s", budget_s), 0),),
                                           {**options, "scene": scene}, progress))
 
     def fabricate(self, *, progress: Optional[ProgressCallback] = None,
@@ -314,15 +302,15 @@ class Device:
 
         what: of "verdict", "masks", "recipes", "motion", "report"; none: all, as `flexwright plan`.
         """
-        wrong = [name for name in what if name not in WRITES]
+        wrong = [name for name in what if not isinstance(name, str) or name not in WRITES]
         if wrong:
-            raise UsageError(f"write knows {', '.join(WRITES)}, not {wrong[0]!r}")
+            raise _arguments.refused(f"write knows {', '.join(WRITES)}, not {wrong[0]!r}")
         bits = sum(WRITES[name] for name in dict.fromkeys(what or WRITES))
         stages: Tuple[tuple, ...] = (("judge",),)
         if bits & (WRITES["masks"] | WRITES["recipes"]):
             stages += (("fabricate",),)
         return self._ask(stages, options, progress,
-                         ("write", os.fsencode(directory), bits)).files_written
+                         ("write", os.fsencode(_arguments.path("directory", directory)), bits)).files_written
 
     def document(self, name: str, *, progress: Optional[ProgressCallback] = None,
                  **options: Any) -> str:

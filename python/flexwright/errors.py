@@ -41,7 +41,7 @@ class Diagnostic:
 class FlexwrightError(Exception):
     """Something that was asked for has no result. A rejected design is a result, and no error.
 
-    `diagnostics` has all messages of the design, notes and warnings too; `file`, `line`, `column`,
+    `diagnostics` has what the call that failed said, notes and warnings too; `file`, `line`, `column`,
     `number` and `code` are those of the first error among them (None, 0, 0, 0, None without one).
     """
 
@@ -93,6 +93,11 @@ class FlexwrightError(Exception):
     def __str__(self) -> str:
         return "\n".join(str(d) for d in self.errors) or self.what
 
+    def __repr__(self) -> str:
+        more = len(self.errors) - 1
+        said = str(self.first or self.what) + (f"; and {more} more" if more > 0 else "")
+        return f"{type(self).__name__}({said!r})"
+
 
 class UsageError(FlexwrightError, ValueError):
     """A wrong option or argument."""
@@ -113,9 +118,18 @@ class GeometryError(FlexwrightError, ValueError):
 
 
 class FileError(FlexwrightError, OSError):
-    """A file could not be read or written."""
+    """A file could not be read or written. `filename` is that of the first error; `errno` and `strerror` are the system's where
+    Python asked it, and None where the library did: its message says why."""
 
     status = 4
+
+    def __init__(self, what: str, diagnostics: Sequence[Diagnostic] = (), errno: Optional[int] = None,
+                 strerror: Optional[str] = None) -> None:
+        super().__init__(what, diagnostics)
+        self.errno, self.strerror, self.filename = errno, strerror, self.file
+
+    def __reduce__(self):
+        return type(self), (self.what, self.diagnostics, self.errno, self.strerror)
 
 
 class MissingFileError(FileError, FileNotFoundError):
@@ -123,7 +137,7 @@ class MissingFileError(FileError, FileNotFoundError):
 
 
 class MemoryLimitError(FlexwrightError, MemoryError):
-    """Out of memory, or over the design's memory_cap."""
+    """Over the design's memory_cap (FW-D720), or out of memory (FW-D721)."""
 
     status = 5
 

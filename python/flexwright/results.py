@@ -32,14 +32,15 @@ class Result:
     _json: str = ""
     _text: str = ""
     _svg: str = ""
+    _stages: Tuple[str, ...] = ()  #: calls of the library that make it
 
     def __init__(self, design: Design) -> None:
         self._design = design
 
     @property
     def diagnostics(self) -> Tuple[Diagnostic, ...]:
-        """Everything that was said, notes and warnings too."""
-        return self._design.diagnostics
+        """Everything that was said of the description and of this result, notes and warnings too."""
+        return self._design.said("read_memory", *self._stages)
 
     @property
     def unreliable(self) -> bool:
@@ -70,6 +71,16 @@ class Result:
     def cancel(self) -> None:
         """Asks a running call of this result to stop; from any thread."""
         self._design.cancel()
+
+    def __reduce_ex__(self, _protocol: Any):
+        raise TypeError(f"a {type(self).__name__} stands on memory of the library and does not pass between processes: return "
+                        "what is wanted of it (numbers, .json, tables and arrays do pass), or the Device, and ask it there")
+
+    def __copy__(self) -> "Result":  # nothing of it changes
+        return self
+
+    def __deepcopy__(self, _known: Any) -> "Result":
+        return self
 
     def _repr_svg_(self) -> str:
         return element_of(self.svg)
@@ -125,6 +136,7 @@ class Verdict(Result):
     """Does any hinge leave its elastic range? `Device.check`."""
 
     _json, _text, _svg = "verdict_json", "verdict_text", "device_svg"
+    _stages = ("judge",)
 
     @property
     def decision(self) -> str:
@@ -205,6 +217,7 @@ class Motion(Result):
     """One scene in time. `Device.simulate`. Arrays are views of the library's memory."""
 
     _json, _text, _svg = "simulate_json", "simulate_text", "animation_svg"
+    _stages = ("simulate",)
 
     @property
     def t(self) -> np.ndarray:
@@ -292,6 +305,7 @@ class Modes(Result):
     """Small motions. `Device.modes`."""
 
     _json, _text, _svg = "modes_json", "modes_text", "modes_svg"
+    _stages = ("modes",)
 
     @functools.cached_property
     def table(self) -> Table:
@@ -396,6 +410,7 @@ class Statics(Result):
     """Equilibrium under the loads of a scene. `Device.statics`."""
 
     _json, _text, _svg = "statics_json", "statics_text", "statics_svg"
+    _stages = ("statics",)
 
     @property
     def q(self) -> Named:
@@ -465,6 +480,7 @@ class Assembly(Result):
     """The position with all joints closed. `Device.assemble`."""
 
     _json, _text, _svg = "assemble_json", "assemble_text", "assemble_svg"
+    _stages = ("assemble",)
 
     @property
     def q(self) -> Named:
@@ -497,6 +513,7 @@ class Workspace(Result):
     """Platform poses that the elastic limits leave. `Device.workspace`."""
 
     _json, _text, _svg = "workspace_json", "workspace_text", "workspace_svg"
+    _stages = ("workspace",)
 
     @property
     def flows(self) -> Tuple[Optional[str], ...]:
@@ -530,6 +547,7 @@ class Tradeoff(Result):
     """What accuracy costs. `Device.tradeoff`."""
 
     _json, _text, _svg = "tradeoff_json", "tradeoff_text", "tradeoff_svg"
+    _stages = ("tradeoff",)
 
     @property
     def csv(self) -> str:
@@ -541,6 +559,7 @@ class Fabrication(Result):
     """Masks and recipes. `Device.fabricate`."""
 
     _json, _text, _svg = "recipes_json", "verdict_text", "device_svg"
+    _stages = ("judge", "fabricate")
 
     @staticmethod
     def _by_flow(document: Dict[str, Any], several: str) -> Dict[str, Dict[str, Any]]:

@@ -10,10 +10,14 @@ import os
 from typing import (Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence,
                     Union)
 
+from . import _arguments
+from ._arguments import Value
 from ._design import Design, ProgressCallback
 from ._library import StudySettingsStruct
-from .device import Device, Value, _checked
+from .device import Device
 from .errors import FlexwrightError
+
+JOBS_MOST = 256  # threads of one work, as of the library's studies
 
 Settings = Mapping[str, Value]
 Measure = Callable[[Device], Mapping[str, Any]]
@@ -44,7 +48,9 @@ def sweep(device: Union[Device, str, "os.PathLike[str]"], settings: Iterable[Set
           measure: Measure = verdict_of, jobs: int = 1,
           options: Optional[Mapping[str, Any]] = None) -> Iterator[Dict[str, Any]]:
     """A dict for each of the settings, in their order, as soon as it is known: the settings, then what
-    was measured. A device that has no result gives "error" (its message) and nothing is raised.
+    was measured. A device that has no result gives "error" (its message) and nothing is raised: neither by settings
+    that no device takes nor by `measure`, whatever it raises. Wrong arguments of sweep itself are, and what a handler of a
+    signal raises (Ctrl-C, an alarm) while the library works.
 
         rows = flexwright.sweep("stage.xml", flexwright.grid(arc=["220 deg", "230 deg"]))
         frame = pandas.DataFrame(rows)
@@ -52,6 +58,7 @@ def sweep(device: Union[Device, str, "os.PathLike[str]"], settings: Iterable[Set
     measure: from a Device to named numbers. jobs: threads that work side by side; 0: one for each
     processor. Nothing is computed ahead of what is asked for but by as many as there are jobs.
     """
+    _arguments.whole("jobs", jobs, 0, JOBS_MOST)
     base = device if isinstance(device, Device) else Device(device, options=options)
     if options and base is device:
         base = base.with_(options=options)
@@ -59,8 +66,9 @@ def sweep(device: Union[Device, str, "os.PathLike[str]"], settings: Iterable[Set
     working: Dict[int, Device] = {}
 
     def one(setting: Settings) -> Dict[str, Any]:
-        row: Dict[str, Any] = dict(setting)
+        row: Dict[str, Any] = {}
         try:
+            row.update(setting)
             device = base.with_(set=setting)
             working[id(device)] = device
             try:
@@ -69,13 +77,15 @@ def sweep(device: Union[Device, str, "os.PathLike[str]"], settings: Iterable[Set
                 del working[id(device)]
         except FlexwrightError as error:
             row["error"] = str(error)
+        except Exception as error:  # pylint: disable=broad-except - a row's error is the row's
+            if getattr(error, "_of_a_handler", False):
+                raise
+            row["error"] = f"{type(error).__name__}: {error}"
         return row
 
     if jobs == 1:
-        for setting in settings:
-            yield one(setting)
-        return
-    yield from _side_by_side(one, settings, jobs or os.cpu_count() or 1, working)
+        return (one(setting) for setting in settings)
+    return _side_by_side(one, settings, jobs or min(os.cpu_count() or 1, JOBS_MOST), working)
 
 
 def _side_by_side(one: Callable[[Settings], Dict[str, Any]], settings: Iterable[Settings],
@@ -107,7 +117,7 @@ def columns(rows: Iterable[Mapping[str, Any]]) -> Dict[str, list]:
 
 def run_study(file: Union[str, "os.PathLike[str]"], directory: Union[str, "os.PathLike[str]"], *,
               study: Optional[str] = None, jobs: int = 0, shard: int = 0, shards: int = 0,
-              resume: bool = False, set: Optional[Mapping[str, str]] = None,
+              resume: bool = False, set: Optional[Mapping[str, Value]] = None,
               progress: Optional[ProgressCallback] = None, **options: Any) -> Optional[Dict[str, Any]]:
     """Runs a <study> of a device file, or a study file, as `flexwright study` does: sweep, yield, size,
     sensitivity or worst case. What it found, as study.json has it (SI); None for a shard.
@@ -119,16 +129,19 @@ def run_study(file: Union[str, "os.PathLike[str]"], directory: Union[str, "os.Pa
     processor. set: settings of every device, before the study's own. options: of every device
     (accuracy, flow, ...). Ctrl-C keeps the samples so far, and resume=True goes on with them.
     """
-    chosen = _checked(options)
+    chosen = _arguments.options(options)
     if "data_directory" not in chosen and os.environ.get("FLEXWRIGHT_DATA"):
         chosen["data_directory"] = os.environ["FLEXWRIGHT_DATA"]
     design = Design(chosen)
     for path, value in (set or {}).items():
-        design.set(path, value)
+        design.set(_arguments.setting_name(path), _arguments.setting(path, value))
     text, length = ctypes.c_void_p(), ctypes.c_size_t()
     settings = StudySettingsStruct(ctypes.sizeof(StudySettingsStruct),
-                                   study.encode() if study else None, os.fsencode(directory), jobs,
-                                   shard, shards, int(resume))
-    design.call("study", os.fsencode(file), ctypes.byref(settings), ctypes.byref(text),
+                                   None if study is None else _arguments.text("study", study).encode(),
+                                   os.fsencode(_arguments.path("directory", directory)),
+                                   _arguments.whole("jobs", jobs), _arguments.whole("shard", shard),
+                                   _arguments.whole("shards", shards),
+                                   int(_arguments.truth("resume", resume)))
+    design.call("study", os.fsencode(_arguments.path("file", file)), ctypes.byref(settings), ctypes.byref(text),
                 ctypes.byref(length), progress=progress)
     return json.loads(ctypes.string_at(text.value, length.value)) if text.value else None

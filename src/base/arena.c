@@ -35,6 +35,7 @@ struct fw_arena {
     const fw_cancel *cancel;
     const fw_progress *progress; /* NULL: nobody is told */
     fw_team *team;               /* NULL: nobody helps */
+    atomic_bool *capped;         /* was it the cap that refused? NULL: nobody asks */
 };
 
 /* AddressSanitizer sees only blocks of malloc, of which an arena hands out parts: without its being told, nothing that is read or
@@ -126,7 +127,18 @@ fw_arena *fw_arena_part(const fw_arena *whole, size_t cap_bytes) {
     arena->cancel = whole->cancel;
     arena->progress = whole->progress;
     arena->team = whole->team;
+    if (arena->cap == whole->cap) arena->capped = whole->capped;
     return arena;
+}
+
+void fw_arena_capped_with(fw_arena *arena, atomic_bool *capped) {
+    arena->capped = capped;
+}
+
+/* nothing is handed out, and who asks is told why */
+static void *refuse(const fw_arena *arena, bool by_cap) {
+    if (arena->capped) atomic_store(arena->capped, by_cap);
+    return NULL;
 }
 
 void fw_arena_tell_with(fw_arena *arena, const fw_progress *progress) {
@@ -227,15 +239,15 @@ static chunk *add_chunk(fw_arena *arena, size_t bytes) {
 }
 
 void *fw_arena_raw(fw_arena *arena, size_t bytes) {
-    if (injected_fault()) return NULL;
-    if (bytes > SIZE_MAX - ALIGNMENT - BETWEEN) return NULL;
+    if (injected_fault()) return refuse(arena, false);
+    if (bytes > SIZE_MAX - ALIGNMENT - BETWEEN) return refuse(arena, true);
     const size_t asked = bytes;
     bytes = (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     if (bytes == 0) bytes = ALIGNMENT;
-    if (bytes > arena->cap || arena->total > arena->cap - bytes) return NULL;
+    if (bytes > arena->cap || arena->total > arena->cap - bytes) return refuse(arena, true);
     chunk *c = arena->last;
     if (!c || c->size - c->used < bytes + BETWEEN) c = add_chunk(arena, bytes + BETWEEN);
-    if (!c) return NULL;
+    if (!c) return refuse(arena, false);
     void *block = c->data + c->used;
     show(block, asked);
     c->used += bytes + BETWEEN;
@@ -370,6 +382,7 @@ static bool take_over(fw_arena *whole, fw_arena *part) {
     whole->held += part->held;
     if (whole->total > whole->peak) whole->peak = whole->total;
     part->last = NULL;
+    if (whole->total > whole->cap) refuse(whole, true);
     return whole->total <= whole->cap;
 }
 

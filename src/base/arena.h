@@ -85,6 +85,9 @@ int fw_processors(void);     /* of this machine, 1 to FW_JOBS_MOST */
 void fw_arena_help_with(fw_arena *arena,
                         fw_team *team);      /* NULL: nobody, everything is done in turn */
 bool fw_arena_helped(const fw_arena *arena); /* is anybody idle at the moment? */
+/* Likewise of who wants to know why there was no memory: *capped is true after the cap of the arena refused, false after the
+   machine did. Parts with another cap than the whole's do not say it. NULL: nobody asks */
+void fw_arena_capped_with(fw_arena *arena, atomic_bool *capped);
 /* n parts of work that need nothing of each other: `one` does part i in the arena that it is given, in this thread or in one
    that helps, and what it leaves there is the whole's afterwards. Where nobody helps that arena is the whole itself. Results do
    not depend on how many help. Only this thread tells how far it is. After a part that fails no other is begun; the status

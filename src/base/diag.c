@@ -32,17 +32,36 @@ fw_diags fw_diags_new(fw_arena *arena) {
     return (fw_diags){.arena = arena};
 }
 
-/* in a full list the last note, or else warning, goes before an error is lost; false: there is none */
+bool fw_diags_reserve(fw_diags *diags) {
+    fw_diag *item =
+        fw_arena_grow(diags->arena, diags->item, diags->count, FW_DIAG_MOST, sizeof *diags->item);
+    if (!item) return false;
+    diags->item = item;
+    diags->capacity = FW_DIAG_MOST;
+    return true;
+}
+
+void fw_diags_call(fw_diags *diags) {
+    diags->before = diags->count;
+    diags->failed = 0; /* the call that it was of has answered so */
+}
+
+static bool take_out(fw_diags *diags, size_t i) {
+    diags->count--;
+    memmove(&diags->item[i], &diags->item[i + 1], (diags->count - i) * sizeof diags->item[0]);
+    if (i < diags->before) diags->before--;
+    return true;
+}
+
+/* In a full list the oldest error of earlier calls goes first; then, before an error is lost, the last note or else warning.
+   false: there is none */
 static bool make_room(fw_diags *diags, fw_severity severity) {
+    for (size_t i = 0; i < diags->before; i++)
+        if (diags->item[i].severity == FW_ERROR) return take_out(diags, i);
     for (fw_severity least = FW_NOTE; severity == FW_ERROR && least != FW_ERROR;
          least = least == FW_NOTE ? FW_WARNING : FW_ERROR)
         for (size_t i = diags->count; i-- > 0;)
-            if (diags->item[i].severity == least) {
-                diags->count--;
-                memmove(&diags->item[i], &diags->item[i + 1],
-                        (diags->count - i) * sizeof diags->item[0]);
-                return true;
-            }
+            if (diags->item[i].severity == least) return take_out(diags, i);
     return false;
 }
 
@@ -59,15 +78,24 @@ bool fw_diag_said(fw_diags *diags, int number, fw_place place) {
     return is_said(diags, number, place);
 }
 
+/* counts it, and says whether there is a place for it */
+static bool has_place(fw_diags *diags, const fw_diag *kind) {
+    if (kind->severity == FW_ERROR) diags->errors++;
+    if (kind->unreliable) diags->unreliable++;
+    if (diags->count < FW_DIAG_MOST) return true;
+    diags->dropped++;
+    return make_room(diags, kind->severity);
+}
+
+void fw_diags_put(fw_diags *diags, fw_diag ready) {
+    if (!has_place(diags, &ready)) diags->count--;
+    if (diags->count < diags->capacity) diags->item[diags->count++] = ready;
+}
+
 /* kind: all but the message */
 static void add(fw_diags *diags, fw_diag kind, const char *format, va_list arguments) {
     kind.once = kind.once || kind.number == diags->once;
-    if (kind.severity == FW_ERROR) diags->errors++;
-    if (kind.unreliable) diags->unreliable++;
-    if (diags->count == FW_DIAG_MOST) {
-        diags->dropped++;
-        if (!make_room(diags, kind.severity)) return;
-    }
+    if (!has_place(diags, &kind)) return;
     if (diags->count == diags->capacity) {
         size_t more = diags->capacity ? 2 * diags->capacity : 8;
         fw_diag *item =

@@ -48,7 +48,8 @@ typedef struct fw_diags {
     fw_diag *item; /* (count) */
     size_t count, capacity;
     size_t errors, unreliable;
-    size_t dropped; /* beyond the first FW_DIAG_MOST */
+    size_t dropped; /* beyond FW_DIAG_MOST */
+    size_t before;  /* of the items: said before the call that is at work */
     int failed;     /* memory was short while collecting */
     int once;       /* number of what is to be said once of a place; 0: of nothing */
 } fw_diags;
@@ -56,6 +57,11 @@ typedef struct fw_diags {
 enum { FW_DIAG_MOST = 100 };
 
 fw_diags fw_diags_new(fw_arena *arena);
+/* all of its room at once, so that fw_diags_put needs no memory; false: there is none */
+bool fw_diags_reserve(fw_diags *diags);
+/* A list that is asked of over and over: another call begins. In a full list errors of earlier calls, which these were
+   answered with, make room for whatever a later one says, the oldest first. Test: test_diag.c */
+void fw_diags_call(fw_diags *diags);
 /* printf rules of fw_text_printf hold: format numbers with fw_number_text. Returns FW_INPUT for
    errors, so that `return fw_diag_error(...)` reads well. */
 fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char *format, ...)
@@ -77,6 +83,9 @@ void fw_diag_note(fw_diags *diags, int number, fw_place place, const char *forma
 bool fw_diag_said(fw_diags *diags, int number, fw_place place);
 /* adds what was said of a try that now counts, as if it had been said here */
 void fw_diags_take(fw_diags *diags, const fw_diags *from);
+/* Adds one whose text is there already and lives as long as the list. Where that is full of errors of this call it takes the
+   place of the last of them. */
+void fw_diags_put(fw_diags *diags, fw_diag ready);
 /* adds one of another list, as a message of this severity */
 void fw_diags_add(fw_diags *diags, const fw_diag *diag, fw_severity severity);
 

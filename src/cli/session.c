@@ -150,9 +150,14 @@ bool fw_cli_session_file_on_stdout(const fw_cli_options *options) {
     return false;
 }
 
-static bool error_was_said(fw_design *design) {
-    for (size_t i = 0; i < fw_design_diagnostics(design); i++)
-        if (fw_design_diagnostic(design, i)->severity == FW_SEVERITY_ERROR) return true;
+/* status: of the call that failed; want of memory has numbers of its own, beside which an error of before says nothing */
+static bool error_was_said(fw_design *design, int status) {
+    for (size_t i = 0; i < fw_design_diagnostics(design); i++) {
+        const fw_diagnostic *d = fw_design_diagnostic(design, i);
+        const bool of_memory = d->number == 720 || d->number == 721;
+        if (d->severity == FW_SEVERITY_ERROR && (of_memory || status != FW_STATUS_NOMEM))
+            return true;
+    }
     return false;
 }
 
@@ -162,7 +167,7 @@ int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int s
     if (options->json && status != FW_STATUS_OK && !ended)
         print(design, options, FW_DOCUMENT_DIAGNOSTICS_JSON, stdout); /* in place of the document */
     bool said = print(design, options, FW_DOCUMENT_DIAGNOSTICS_TEXT, stderr) == FW_STATUS_OK &&
-                error_was_said(design);
+                error_was_said(design, status);
     int exit_status = status == FW_STATUS_OK ? result_if_ok : fw_status_exit((fw_status)status);
     int number = fw_cancel_requested(options->interrupted);
     bool late = status == FW_STATUS_CANCELLED && number == SIGALRM;
@@ -177,6 +182,8 @@ int fw_cli_session_close(fw_design *design, const fw_cli_options *options, int s
             "with --time-limit, or ask for less (a lower --accuracy, one --flow, --advice none) "
             "[FW-D460]\n",
             options->time_limit_s);
+    else if (status == FW_STATUS_NOMEM && said)
+        fputs("flexwright: nothing was written\n", stderr);
     else if (status == FW_STATUS_NOMEM)
         fprintf(stderr,
                 "flexwright: error: out of memory: a design may take %zu MiB; nothing was written; "

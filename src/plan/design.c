@@ -212,6 +212,15 @@ static size_t cap_of(const fw_design_options *options) {
 static fw_status fill(fw_design *d, const fw_design_options *options) {
     FW_NEED(d->diagnostic = fw_arena_array(d->plan->arena, fw_diagnostic, FW_DIAG_MOST));
     FW_TRY(take_options(d, options));
+    FW_NEED(fw_diags_reserve(&d->plan->diags));
+    const size_t given = cap_of(options), cap = given ? given : FW_ARENA_USUAL;
+    const bool whole = cap % ((size_t)1 << 20) == 0;
+    FW_NEED(d->over_cap = fw_arena_printf(
+                d->plan->arena,
+                "out of memory: this design may take %zu %s, and what was asked for takes more; "
+                "allow more (memory_cap; --memory of the commands), or ask for less (a lower "
+                "accuracy, one flow, fewer samples, fewer steps of a <sweep>)",
+                whole ? cap >> 20 : cap, whole ? "MiB" : "bytes"));
     d->locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     return d->locale == (locale_t)0 ? FW_NOMEM : FW_OK;
 }
@@ -226,6 +235,7 @@ fw_design *fw_design_new(const fw_design_options *options) {
         fw_arena_stop_with(plan->arena, &design->cancel);
         fw_arena_tell_with(plan->arena, &design->progress);
         fw_arena_help_with(plan->arena, &design->team);
+        fw_arena_capped_with(plan->arena, &design->capped);
         if (fill(design, options) == FW_OK) return design;
     }
     fw_plan_free(plan);
@@ -240,9 +250,32 @@ void fw_design_free(fw_design *design) {
 
 /* ---- calls ---- */
 
+bool fw_plan_design_begin(fw_design *d) {
+    if (!d) return false;
+    fw_diags_call(&d->plan->diags);
+    atomic_store(&d->capped, false);
+    return true;
+}
+
+/* the status of a call; where there was no memory, with a message that needs none */
+static fw_status answer(fw_design *d, fw_status status) {
+    fw_diags *diags = &d->plan->diags;
+    if (status != FW_NOMEM) return status;
+    for (size_t i = diags->before; i < diags->count; i++)
+        if (diags->item[i].number == 720 || diags->item[i].number == 721) return status;
+    const bool capped = atomic_load(&d->capped);
+    fw_diags_put(diags, (fw_diag){.number = capped ? 720 : 721,
+                                  .severity = FW_ERROR,
+                                  .message = capped ? d->over_cap
+                                                    : "out of memory: the machine has no more of "
+                                                      "it, whatever the design may take; end "
+                                                      "other programs, or ask for less"});
+    return status;
+}
+
 fw_status fw_plan_design_usage(fw_design *d, const char *what) {
     fw_status status = fw_diag_error(&d->plan->diags, 230, (fw_place){0}, "%s", what);
-    return status == FW_NOMEM ? FW_NOMEM : FW_USAGE;
+    return answer(d, status == FW_NOMEM ? FW_NOMEM : FW_USAGE);
 }
 
 /* all work runs in the "C" locale of this thread, so that the caller's cannot change a byte */
@@ -255,7 +288,7 @@ int fw_plan_design_run(fw_design *d, fw_status (*work)(fw_design *d, void *argum
     /* a warning that found no room must not make a result look better than it is, and an error that
        found none is not the description's */
     if (status != FW_CANCELLED && whole && d->plan->diags.failed) status = FW_NOMEM;
-    return (int)status;
+    return (int)answer(d, status);
 }
 
 void fw_plan_design_forget_documents(fw_design *d) {
@@ -273,7 +306,7 @@ static double seconds_since(clock_t start) {
 /* a stage is done once; `work` is not called again after it succeeded */
 static int stage(fw_design *d, unsigned before, const char *missing, unsigned self,
                  fw_status (*work)(fw_design *d, void *argument)) {
-    if (!d) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(d)) return FW_STATUS_USAGE;
     if (!(d->done & before)) return (int)fw_plan_design_usage(d, missing);
     if (d->done & self) return FW_STATUS_OK;
     clock_t before_work = clock();
@@ -286,7 +319,7 @@ static int stage(fw_design *d, unsigned before, const char *missing, unsigned se
 }
 
 int fw_design_set(fw_design *design, const char *path, const char *value) {
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (!path || !value || !path[0])
         return (int)fw_plan_design_usage(design, "set needs a path and a value");
     if (design->tried)
@@ -297,13 +330,13 @@ int fw_design_set(fw_design *design, const char *path, const char *value) {
         int more = design->set_capacity ? 2 * design->set_capacity : 16;
         fw_device_set *grown =
             fw_arena_grow(arena, design->set, (size_t)o->nset, (size_t)more, sizeof *grown);
-        if (!grown) return FW_STATUS_NOMEM;
+        if (!grown) return (int)answer(design, FW_NOMEM);
         design->set = grown;
         design->set_capacity = more;
         o->set = grown;
     }
     fw_device_set set = {fw_arena_strdup(arena, path), fw_arena_strdup(arena, value)};
-    if (!set.path || !set.value) return FW_STATUS_NOMEM;
+    if (!set.path || !set.value) return (int)answer(design, FW_NOMEM);
     design->set[o->nset++] = set;
     return FW_STATUS_OK;
 }
@@ -331,13 +364,13 @@ static int read_from(fw_design *d, fw_plan_bytes in) {
 }
 
 int fw_design_read(fw_design *design, const char *path) {
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (!path) return (int)fw_plan_design_usage(design, "read needs the name of a file");
     return read_from(design, (fw_plan_bytes){.name = path});
 }
 
 int fw_design_read_memory(fw_design *design, const char *name, const void *xml, size_t n) {
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (!xml)
         return (int)fw_plan_design_usage(design,
                                          "fw_design_read_memory needs the text of a "
@@ -453,10 +486,6 @@ fw_status fw_plan_design_know(fw_design *d, unsigned wanted) {
     return subject(d, mechanism, scene);
 }
 
-int fw_design_unreliable(const fw_design *design) {
-    return design && design->plan && design->plan->diags.unreliable > 0;
-}
-
 int fw_design_simulate(fw_design *design) {
     return stage(design, FW_DONE_READ, "read a description before simulating it", FW_DONE_SIMULATED,
                  simulate_work);
@@ -486,54 +515,7 @@ int fw_design_assemble(fw_design *design) {
     return status;
 }
 
-typedef struct target {
-    const char *directory;
-    unsigned what;
-} target;
-
-static fw_status write_work(fw_design *d, void *argument) {
-    const target *t = argument;
-    const char *directory = fw_arena_strdup(d->plan->arena, t->directory);
-    FW_NEED(directory);
-    return fw_plan_write(d->plan, directory, t->what);
-}
-
-int fw_design_write(fw_design *design, const char *directory, unsigned what) {
-    if (!design) return FW_STATUS_USAGE;
-    if (!directory || !directory[0])
-        return (int)fw_plan_design_usage(design, "write needs a directory");
-    if (what & ~(unsigned)FW_DESIGN_EVERYTHING)
-        return (int)fw_plan_design_usage(design,
-                                         "write knows the bits of FW_DESIGN_EVERYTHING only");
-    if (!(design->done & FW_DONE_JUDGED))
-        return (int)fw_plan_design_usage(design, "judge a design before writing it");
-    if ((what & (FW_DESIGN_MASKS | FW_DESIGN_RECIPES)) && !(design->done & FW_DONE_FABRICATED))
-        return (int)fw_plan_design_usage(design,
-                                         "call fabricate before masks and recipes are written");
-    return fw_plan_design_run(design, write_work, &(target){directory, what});
-}
-
-int fw_design_files_written(const fw_design *design) {
-    return design && design->plan ? design->plan->files_written : 0;
-}
-
-/* ---- diagnostics, cancelling ---- */
-
-size_t fw_design_diagnostics(const fw_design *design) {
-    return design ? design->plan->diags.count : 0;
-}
-
-const fw_diagnostic *fw_design_diagnostic(fw_design *design, size_t i) {
-    if (!design || i >= design->plan->diags.count) return NULL;
-    const fw_diag *d = &design->plan->diags.item[i];
-    design->diagnostic[i] = (fw_diagnostic){.number = d->number,
-                                            .severity = (int32_t)d->severity,
-                                            .file = d->place.file,
-                                            .line = d->place.line,
-                                            .column = d->place.column,
-                                            .message = d->message};
-    return &design->diagnostic[i];
-}
+/* ---- cancelling ---- */
 
 void fw_design_cancel(fw_design *design) {
     if (design) fw_cancel_request(&design->cancel, SIGINT);

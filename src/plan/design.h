@@ -61,6 +61,8 @@ struct fw_design {
     fw_cancel cancel;     /* of this design; its arenas carry it */
     fw_progress progress; /* likewise */
     fw_team team;         /* likewise: who may help to judge */
+    atomic_bool capped;   /* likewise: was it the design's own cap that refused memory? */
+    const char *over_cap; /* what is said then, which needs no memory */
     locale_t locale;
     unsigned done;
     bool tried; /* a description was given, read or not */
@@ -94,6 +96,9 @@ typedef struct fw_plan_bytes {
     size_t n;
 } fw_plan_bytes;
 
+/* Every call of the header that may fail begins so: what it says is told apart from what was said before. false: NULL, which
+   is no design */
+bool fw_plan_design_begin(fw_design *d);
 /* says what was called wrongly: FW_USAGE */
 fw_status fw_plan_design_usage(fw_design *d, const char *what);
 /* work in the "C" locale of this thread, so that the caller's cannot change a byte */

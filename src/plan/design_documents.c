@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the public library hands out: documents, one row each, and numbers, a row per set. All are composed
-   when first asked for. */
+/* What the public library hands out: documents, one row each, and numbers, a row per set, composed when first
+   asked for; files, and diagnostics. */
 #include "base/json.h"
 #include "plan/design.h"
 #include "plan/stages.h"
@@ -268,7 +268,7 @@ static fw_status document_work(fw_design *d, void *argument) {
 int fw_design_document(fw_design *design, int document, const char **text, size_t *length) {
     if (text) *text = NULL;
     if (length) *length = 0;
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (!text) return (int)fw_plan_design_usage(design, "document needs a place for the text");
     if (document < 0 || document >= FW_DESIGN_DOCUMENTS || !document_table[document].compose)
         return (int)fw_plan_design_usage(design, "no such document");
@@ -296,7 +296,7 @@ static fw_status save_work(fw_design *d, void *argument) {
 }
 
 int fw_design_save(fw_design *design, int document, const char *path) {
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (!path || !path[0])
         return (int)fw_plan_design_usage(design, "save needs the name of a file");
     const char *text;
@@ -307,12 +307,45 @@ int fw_design_save(fw_design *design, int document, const char *path) {
 }
 
 int fw_design_text_style(fw_design *design, int detail, int colour) {
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (detail < FW_DETAIL_QUIET || detail > FW_DETAIL_VERBOSE)
         return (int)fw_plan_design_usage(design, "detail is -1, 0 or 1");
     design->style = (fw_report_terminal_style){detail, colour != 0};
     fw_plan_design_forget_documents(design);
     return FW_STATUS_OK;
+}
+
+/* ---- files ---- */
+
+typedef struct target {
+    const char *directory;
+    unsigned what;
+} target;
+
+static fw_status write_work(fw_design *d, void *argument) {
+    const target *t = argument;
+    const char *directory = fw_arena_strdup(d->plan->arena, t->directory);
+    FW_NEED(directory);
+    return fw_plan_write(d->plan, directory, t->what);
+}
+
+int fw_design_write(fw_design *design, const char *directory, unsigned what) {
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
+    if (!directory || !directory[0])
+        return (int)fw_plan_design_usage(design, "write needs a directory");
+    if (what & ~(unsigned)FW_DESIGN_EVERYTHING)
+        return (int)fw_plan_design_usage(design,
+                                         "write knows the bits of FW_DESIGN_EVERYTHING only");
+    if (!(design->done & FW_DONE_JUDGED))
+        return (int)fw_plan_design_usage(design, "judge a design before writing it");
+    if ((what & (FW_DESIGN_MASKS | FW_DESIGN_RECIPES)) && !(design->done & FW_DONE_FABRICATED))
+        return (int)fw_plan_design_usage(design,
+                                         "call fabricate before masks and recipes are written");
+    return fw_plan_design_run(design, write_work, &(target){directory, what});
+}
+
+int fw_design_files_written(const fw_design *design) {
+    return design && design->plan ? design->plan->files_written : 0;
 }
 
 /* ---- numbers ---- */
@@ -357,7 +390,7 @@ static fw_status compose(fw_design *d, void *argument) {
 
 int fw_design_arrays(fw_design *design, int numbers, size_t *count) {
     if (count) *count = 0;
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (!is_set(numbers)) return (int)fw_plan_design_usage(design, "no such set of numbers");
     const unsigned needs = set_table[numbers].needs;
     if ((design->done & needs) != needs)
@@ -376,7 +409,8 @@ static const fw_plan_arrays *set_of(fw_design *design, int numbers) {
     if (!design || !is_set(numbers)) return NULL;
     const unsigned needs = set_table[numbers].needs;
     if ((design->done & needs) != needs) return NULL;
-    if (fw_design_arrays(design, numbers, NULL) != FW_STATUS_OK) return NULL;
+    if (!design->numbers[numbers] && fw_design_arrays(design, numbers, NULL) != FW_STATUS_OK)
+        return NULL;
     return design->numbers[numbers];
 }
 
@@ -390,4 +424,30 @@ const fw_array *fw_design_array_named(fw_design *design, int numbers, const char
     for (size_t i = 0; set && name && i < set->count; i++)
         if (strcmp(set->item[i]->name, name) == 0) return set->item[i];
     return NULL;
+}
+
+/* ---- what is said of it ---- */
+
+int fw_design_unreliable(const fw_design *design) {
+    return design && design->plan && design->plan->diags.unreliable > 0;
+}
+
+size_t fw_design_diagnostics(const fw_design *design) {
+    return design ? design->plan->diags.count : 0;
+}
+
+const fw_diagnostic *fw_design_diagnostic(fw_design *design, size_t i) {
+    if (!design || i >= design->plan->diags.count) return NULL;
+    const fw_diag *d = &design->plan->diags.item[i];
+    design->diagnostic[i] = (fw_diagnostic){.number = d->number,
+                                            .severity = (int32_t)d->severity,
+                                            .file = d->place.file,
+                                            .line = d->place.line,
+                                            .column = d->place.column,
+                                            .message = d->message};
+    return &design->diagnostic[i];
+}
+
+size_t fw_design_diagnostics_before(const fw_design *design) {
+    return design ? design->plan->diags.before : 0;
 }

@@ -46,6 +46,7 @@ static fw_status work(fw_design *d, void *argument) {
                                 .shards = a->settings.shards,
                                 .resume = a->settings.resume != 0,
                                 .cancel = &d->cancel,
+                                .capped = &d->capped,
                                 .progress = told,
                                 .progress_context = d};
     fw_study *study;
@@ -71,7 +72,7 @@ int fw_design_study(fw_design *design, const char *file, const fw_study_settings
     asked a = {.file = file};
     if (json) *json = NULL;
     if (length) *length = 0;
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (!file || !settings || settings->size < offsetof(fw_study_settings, study) ||
         settings->size > 4096)
         return (int)fw_plan_design_usage(design, "a study needs a file and its settings");

@@ -339,6 +339,7 @@ static fw_study *new_study(const fw_study_options *options) {
     }
     *study = (fw_study){.arena = arena, .diags = fw_diags_new(arena), .options = *options};
     if (options->cancel) fw_arena_stop_with(arena, options->cancel);
+    fw_arena_capped_with(arena, options->capped);
     return study;
 }
 

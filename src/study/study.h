@@ -35,6 +35,7 @@ typedef struct fw_study_options {
     bool resume;        /* go on with the store that is there */
     bool timed;         /* some devices are judged for their time, which a plan says */
     const fw_cancel *cancel;
+    atomic_bool *capped; /* told why there was no memory, see fw_arena_capped_with; may be NULL */
     /* called now and then from the thread that runs the study; NULL: nobody asks */
     /* all below 0: so many at most, since searches end earlier; 0: nobody knows how many */
     void (*progress)(void *context, long done, long all, double seconds);

@@ -264,7 +264,7 @@ fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char *
 
 struct fw_study_failure {
     pthread_mutex_t lock;
-    int number; /* of the first error of a file, whose design is gone; 0: there was none */
+    int number; /* of the first error of a file, or of memory, whose design is gone; 0: there was none */
     char file[256], message[512];
     int line, column;
 };
@@ -279,8 +279,13 @@ void fw_study_failure_close(fw_study *study) {
     study->failure = NULL;
 }
 
+/* statuses that end a study, and of which the design says more */
+static bool ends_it(int status) {
+    return status == FW_STATUS_IO || status == FW_STATUS_NOMEM;
+}
+
 void fw_study_note_error(const fw_study *study, fw_design *design, int status) {
-    if (status != FW_STATUS_IO || !study->failure) return;
+    if (!ends_it(status) || !study->failure) return;
     const fw_diags *from = &fw_plan_design_plan(design)->diags;
     pthread_mutex_lock(&study->failure->lock);
     struct fw_study_failure *e = study->failure;
@@ -295,7 +300,7 @@ void fw_study_note_error(const fw_study *study, fw_design *design, int status) {
 }
 
 fw_status fw_study_said(fw_study *study, fw_status status) {
-    if (status != FW_IO || !study->failure || study->diags.errors > 0) return status;
+    if (!ends_it((int)status) || !study->failure || study->diags.errors > 0) return status;
     const struct fw_study_failure *e = study->failure;
     if (e->number == 0) return status;
     const fw_place place = {e->file[0] ? e->file : NULL, e->line, e->column};

@@ -527,7 +527,7 @@ static fw_status work(fw_design *d, void *argument) {
 
 int fw_design_tradeoff(fw_design *design, double budget_s, int times) {
     fw_study_tradeoff_options options = {.budget_s = budget_s, .times = times != 0};
-    if (!design) return FW_STATUS_USAGE;
+    if (!fw_plan_design_begin(design)) return FW_STATUS_USAGE;
     if (!(budget_s == 0 || (budget_s >= 1 && budget_s <= 3600)))
         return (int)fw_plan_design_usage(design, "the budget of tradeoff is 1 to 3600 s, or 0");
     if (!(design->done & FW_DONE_READ))

@@ -821,7 +821,9 @@ class Usage(InTemporary):
         """what does not fit in the memory allowed: nothing is left behind, and what to do is said"""
         out = self.here / "large"
         result = self.expect(run("simulate", GALLERY, "--memory", "32", "--samples", "200000", "-o", out), 6)
-        self.assertIn("may take 32 MiB; nothing was written; allow more with --memory", result.stderr)
+        self.assertRegex(result.stderr, r"error: out of memory: this design may take 32 MiB, .*allow more \(memory_cap; --memory of .*\[FW-D720\]\n"
+                                        r"flexwright: nothing was written\n")
+        self.assertEqual(result.stderr.count("out of memory"), 1)
         self.assertFalse(out.exists())
         self.expect(run("simulate", GALLERY, "--memory", "900", "--samples", "20000", "-o", out, "-q"), 0)
         self.assertEqual(sorted(p.name for p in out.iterdir()), ["forces.csv", "motion.csv", "motion.svg"])

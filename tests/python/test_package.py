@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """test_package.py BUILD: the Python package against the documents of the program."""
 import base64
+import copy
 import csv
 import faulthandler
 import gc
@@ -19,6 +20,7 @@ import tempfile
 import threading
 import time
 import unittest
+import weakref
 from unittest import mock
 
 import common  # first: it names the library
@@ -394,6 +396,179 @@ class Files(unittest.TestCase):
         self.assertEqual(list(one), ["al-masked-rie"])
 
 
+class Lifetimes(unittest.TestCase):
+    """What the library holds is freed when nothing uses it any more, arrays included."""
+
+    def freed(self, ask):
+        """how many designs of the library are freed when what `ask` answered is let go, without a look for cycles"""
+        gc.collect()
+        gc.disable()
+        try:
+            freed, free = [], _design.lib.fw_design_free
+            with mock.patch.object(_design.lib, "fw_design_free", lambda pointer: (freed.append(pointer), free(pointer))):
+                kept = ask(flexwright.Device(SIX_BAR))
+                before = len(freed)
+                del kept
+                return before, len(freed)
+        finally:
+            gc.enable()
+
+    def test_numbers_are_let_go(self):
+        for ask in (lambda d: d.modes().f.copy(), lambda d: d.simulate(samples=11).q["CD"].copy(),
+                    lambda d: float(d.statics().q["CD"][0]), lambda d: d.parameters["arc"].value):
+            before, after = self.freed(ask)
+            self.assertGreaterEqual(before, 1)  # nothing of the device is left beside the copy
+            self.assertEqual(before, after)
+
+    def test_views_and_results_keep_it(self):
+        for ask in (lambda d: d.modes().f, lambda d: d.simulate(samples=11).angle["A"], lambda d: d.modes()):
+            before, after = self.freed(ask)
+            self.assertEqual(after, before + 1)
+
+    def test_a_sweep_lets_go(self):
+        known = []
+
+        def measure(device):
+            result = device.modes()
+            known.append(weakref.ref(result._design))
+            return {"f": result.f[0]}
+
+        gc.disable()
+        try:
+            for _row in flexwright.sweep(SIX_BAR, flexwright.grid(arc=["220 deg", "225 deg", "230 deg"]), measure=measure):
+                self.assertEqual([ref() for ref in known], [None] * len(known))
+        finally:
+            gc.enable()
+
+    def test_what_a_callback_raised_is_let_go(self):
+        d = flexwright.Device(SIX_BAR)
+        known = []
+
+        def told(_progress):
+            known.append(weakref.ref(list(d._busy)[-1]))
+            raise KeyError("x")
+
+        gc.collect()
+        gc.disable()
+        try:
+            with self.assertRaises(KeyError):
+                d.check(progress=told)
+            d.close()
+            self.assertIsNone(known[0]())
+        finally:
+            gc.enable()
+
+    def test_close(self):
+        with flexwright.Device(SIX_BAR) as d:
+            m = d.simulate(samples=11)
+            own = weakref.ref(d._own)
+            self.assertTrue(d.parameters["arc"].value > 0)
+        self.assertIsNone(own())
+        self.assertEqual(m.q["CD"].shape, (11, 3))  # results stay
+        self.assertEqual((d.name, "reference-six-bar" in repr(d)), ("reference-six-bar", True))
+        with self.assertRaisesRegex(flexwright.UsageError, "closed"):
+            d.check()
+        with self.assertRaisesRegex(flexwright.UsageError, "closed"):
+            d.parameters
+        self.assertEqual(d.with_(arc="230 deg").name, "reference-six-bar")
+
+    def test_results_do_not_pass_between_processes(self):
+        d = flexwright.Device(SIX_BAR)
+        for result in (d.modes(), d.simulate(samples=11), d.statics(path=True)):
+            with self.assertRaisesRegex(TypeError, f"a {type(result).__name__} stands on memory of the library .* return"):
+                pickle.dumps(result)
+            self.assertIs(copy.deepcopy(result), result)
+            self.assertIs(copy.copy(result), result)
+        m = d.simulate(samples=11)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(m.q))["CD"], m.q["CD"])
+        self.assertEqual(pickle.loads(pickle.dumps(m.peaks))["A"].angle, m.peaks["A"].angle)
+
+
+class Mistakes(unittest.TestCase):
+    """An exception has what its own call said; what the library would cut or turn round is refused by its name."""
+
+    def fails(self, kind, ask):
+        with self.assertRaises(kind) as caught:
+            ask()
+        return caught.exception
+
+    def test_an_exception_is_of_its_call(self):
+        d = flexwright.Device(SIX_BAR)
+        quick = {"advice": "none", "corners": "none"}
+        v = d.check(**quick)
+        said = v.diagnostics
+        with tempfile.TemporaryDirectory() as full:
+            pathlib.Path(full, "mine.txt").write_text("x")
+            for _ in range(2):
+                error = self.fails(flexwright.FileError, lambda: d.write(full, "verdict", **quick))
+                self.assertEqual((error.code, len(error.errors), error.filename), ("FW-D223", 1, full))
+            self.assertEqual(self.fails(flexwright.FileError, lambda: d.write("/proc/none/x", "verdict", **quick)).code, "FW-D222")
+            for _ in range(110):  # more than a design keeps
+                self.fails(flexwright.FileError, lambda: d.write(full, "verdict", **quick))
+            again = self.fails(flexwright.FileError, lambda: d.write("/proc/none/x", "verdict", **quick))
+        self.assertEqual((again.code, again.file, len(again.diagnostics)), ("FW-D222", "/proc/none/x", 1))
+        self.assertEqual(v.diagnostics, said)
+        self.assertEqual(d.check(**quick).diagnostics, said)
+        self.assertEqual(self.fails(flexwright.UsageError, lambda: d.tradeoff(budget_s=-1)).code, "FW-D230")
+
+    def test_values_that_c_would_cut(self):
+        d = flexwright.Device(SIX_BAR)
+        for wrong in ({"samples": 2**32 + 11}, {"memory_cap": -1}, {"memory_cap": 2**64}, {"jobs": 2**33}, {"flow": "al-masked-rie\0x"},
+                      {"flow": "\udce4"}, {"effects": ["inertia\0"]}, {"directory": "a\0b"}):
+            error = self.fails(flexwright.UsageError, lambda wrong=wrong: d.check(**wrong))
+            self.assertIn(next(iter(wrong)), str(error))
+            self.assertEqual(error.code, "FW-D230")
+        for wrong in ({"force": "no"}, {"figures": 2}, {"samples": 11.0}, {"samples": "11"}, {"accuracy": "1e-3"}, {"accuracy": 1j},
+                      {"flow": ["al-masked-rie"]}, {"flow": {"a": 1}}, {"flow": b"al-masked-rie"}, {"laboratory": 1}):
+            self.assertIn(next(iter(wrong)), str(self.fails(TypeError, lambda wrong=wrong: d.check(**wrong))))
+        self.assertIn("path", str(self.fails(TypeError, lambda: d.statics(path="no"))))
+        self.assertIn("scene", str(self.fails(flexwright.UsageError, lambda: d.simulate("step-load\0x"))))
+        self.assertIn("budget_s", str(self.fails(TypeError, lambda: d.tradeoff(budget_s="x"))))
+        self.assertIn("directory", str(self.fails(flexwright.UsageError, lambda: d.write("a\0b"))))
+        self.assertIn("write knows", str(self.fails(flexwright.UsageError, lambda: d.write("out", ["verdict"]))))
+        self.assertEqual(d.simulate(samples=np.int64(11), accuracy=np.float32(1e-3), force=np.bool_(False)).t.shape, (11,))
+
+    def test_settings(self):
+        for value in ("230 deg\0garbage", (230, "deg\0"), math.nan):
+            self.assertIn("arc", str(self.fails(flexwright.UsageError, lambda value=value: flexwright.Device(SIX_BAR, arc=value))))
+        for value in (None, [230, "deg"], (1, 2, 3), 1j, b"230 deg"):
+            self.assertIn("arc = ", str(self.fails(TypeError, lambda value=value: flexwright.Device(SIX_BAR, arc=value))))
+        self.fails(flexwright.UsageError, lambda: flexwright.Device(SIX_BAR, set={"arc\0zzz": "230 deg"}))
+        self.assertIn("set takes names", str(self.fails(TypeError, lambda: flexwright.Device(SIX_BAR, set={1: "230 deg"}))))
+        self.fails(TypeError, lambda: flexwright.Device.from_text(5))
+        self.fails(flexwright.UsageError, lambda: flexwright.Device.from_text("<device/>", name="a\0b"))
+
+    def test_names_of_files(self):
+        text = pathlib.Path(SIX_BAR).read_bytes()
+        self.assertEqual(flexwright.Device(SIX_BAR.encode()).file, SIX_BAR)
+        with tempfile.TemporaryDirectory() as here:
+            directory = os.path.join(os.fsencode(here), b"bad\xffd")
+            os.mkdir(directory)
+            with open(os.path.join(directory, b"device.xml"), "wb") as out:
+                out.write(text)
+            for file in (os.path.join(directory, b"device.xml"), os.fsdecode(os.path.join(directory, b"device.xml"))):
+                d = flexwright.Device(file)
+                self.assertEqual(d.write(os.path.join(directory, b"out"), "verdict", advice="none", corners="none"), 1)
+            self.assertTrue(os.path.exists(os.path.join(directory, b"out", b"verdict.json")))
+
+    def test_errors_of_files_are_those_of_python(self):
+        error = self.fails(FileNotFoundError, lambda: flexwright.Device("there-is-none.xml"))
+        for one in (error, pickle.loads(pickle.dumps(error))):
+            self.assertEqual((one.errno, one.filename, one.strerror), (2, "there-is-none.xml", os.strerror(2)))
+        self.assertRegex(repr(error), r"^MissingFileError\('there-is-none.xml: error: .*\[FW-D220\]'\)$")
+        many = self.fails(flexwright.InputError, lambda: flexwright.Device.from_text(
+            pathlib.Path(SIX_BAR).read_text().replace("8 um", "8 umm")))
+        self.assertRegex(repr(many), r"^InputError\(.memory:\d+:.*; and \d+ more.\)$")
+
+    def test_memory_cap(self):
+        d = flexwright.Device(SIX_BAR)
+        error = self.fails(flexwright.MemoryLimitError, lambda: d.simulate(samples=200000, memory_cap=32 << 20))
+        self.assertEqual(error.code, "FW-D720")
+        self.assertRegex(str(error), "may take 32 MiB.*memory_cap")
+        error = self.fails(flexwright.MemoryLimitError, lambda: d.check(memory_cap=1000))
+        self.assertIn("memory_cap = 1000 bytes", str(error))
+
+
 class Working(unittest.TestCase):
     """Cancelling, progress, threads."""
 
@@ -592,6 +767,46 @@ class Studies(unittest.TestCase):
         rows = flexwright.sweep(SIX_BAR, settings(), measure=lambda d: {"u": 1})
         self.assertEqual(next(rows), {"arc": "230 deg", "u": 1})
         self.assertIn("FW-D025", next(rows)["error"])
+
+    def test_an_error_of_a_row_is_the_rows(self):
+        def measure(device):
+            return {"u": 1 / (device.settings["arc"] != "240 deg")}
+
+        values = [math.nan, "230 deg", "240 deg", None, "235 deg"]
+        for jobs in (1, 2):
+            rows = list(flexwright.sweep(SIX_BAR, flexwright.grid(arc=values), measure=measure, jobs=jobs))
+            self.assertEqual([sorted(set(row) - {"arc"}) for row in rows], [["error"], ["u"], ["error"], ["error"], ["u"]])
+            self.assertIn("arc = nan: not a finite number", rows[0]["error"])
+            self.assertEqual(rows[2]["error"], "ZeroDivisionError: division by zero")
+            self.assertIn("arc = None", rows[3]["error"])
+        rows = list(flexwright.sweep(SIX_BAR, [{"arc": "230 deg"}, 5], measure=lambda d: 7))
+        self.assertTrue(all(row["error"].startswith("TypeError: ") for row in rows))
+        for jobs in (-1, 257):
+            with self.assertRaisesRegex(flexwright.UsageError, "jobs = "):
+                flexwright.sweep(SIX_BAR, [], jobs=jobs)
+        with self.assertRaisesRegex(TypeError, "jobs is a whole number"):
+            flexwright.sweep(SIX_BAR, [], jobs=1.5)
+
+    def test_an_alarm_ends_a_sweep(self):
+        """what a handler of a signal raises is of whoever set it, and no row's"""
+        def late(_signal, _frame):
+            raise TimeoutError("late")
+
+        before = signal.signal(signal.SIGALRM, late)
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 0.3)
+            with self.assertRaises(TimeoutError):
+                list(flexwright.sweep(SIX_BAR, [{"arc": "230 deg"}], measure=lambda d: {"t": d.simulate(**Working.slow).t[-1]}))
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+
+    def test_arguments_of_a_study(self):
+        for wrong in ({"jobs": 2**33}, {"study": "a\0b"}, {"set": {"arc": "230 deg\0"}}):
+            with self.assertRaisesRegex(flexwright.UsageError, "jobs|study|arc"):
+                flexwright.run_study("none.xml", "none", **wrong)
+        with self.assertRaisesRegex(TypeError, "resume is True or False"):
+            flexwright.run_study("none.xml", "none", resume="no")
 
     def test_sweep_is_given_up(self):
         slow = {"rtol": 1e-13, "samples": 1000000, "integrator": "rk4"}  # seconds, none of which passes

@@ -58,6 +58,59 @@ static void errors_are_kept(void **state) {
     fw_arena_free(arena);
 }
 
+/* a list that is asked of over and over: what a later call says is not lost behind errors of earlier ones, and of one call the
+   first are kept as ever */
+static void a_later_call_finds_room(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    fw_diag_warning(&diags, 41, (fw_place){"f.xml", 1, 1}, "of the description");
+    for (int i = 0; i < 120; i++) {
+        fw_diags_call(&diags);
+        assert_int_equal(diags.before, i < 99 ? i + 1 : 100);
+        fw_diag_error(&diags, 223, (fw_place){0}, "call %d", i);
+        assert_int_equal(diags.item[diags.before].number, 223);
+        assert_int_equal(diags.before + 1, diags.count);
+    }
+    assert_int_equal(diags.count, 100);
+    assert_string_equal(diags.item[0].message, "of the description");
+    assert_string_equal(diags.item[1].message, "call 21");
+    fw_diags_call(&diags);
+    fw_diag_note(&diags, 42, (fw_place){0}, "told");
+    fw_diag_error(&diags, 230, (fw_place){0}, "the budget");
+    assert_int_equal(diags.before, 98);
+    assert_string_equal(diags.item[98].message, "told");
+    assert_string_equal(diags.item[99].message, "the budget");
+    for (int i = 0; i < 300;
+         i++) /* of one call the first; note and warning go before an error is lost */
+        fw_diag_error(&diags, 41, (fw_place){"f.xml", i + 1, 1}, "one");
+    assert_int_equal(diags.before, 0);
+    assert_int_equal(diags.item[0].number, 230);
+    assert_int_equal(diags.item[99].place.line, 99);
+    fw_diags_put(&diags, (fw_diag){.number = 720, .severity = FW_ERROR, .message = "ready"});
+    assert_string_equal(diags.item[99].message, "ready");
+    assert_int_equal(diags.count, 100);
+    fw_arena_free(arena);
+}
+
+/* a message that is there already is said where there is no memory at all */
+static void said_without_memory(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    assert_true(fw_diags_reserve(&diags));
+    fw_arena_fail_at(1, 1);
+    fw_diag_error(&diags, 41, (fw_place){0}, "no room for this");
+    fw_diags_put(&diags, (fw_diag){.number = 721, .severity = FW_ERROR, .message = "ready"});
+    fw_arena_fail_at(0, 0);
+    assert_true(diags.failed);
+    assert_int_equal(diags.count, 1);
+    assert_int_equal(diags.item[0].number, 721);
+    fw_diags_call(&diags);
+    assert_false(diags.failed); /* that call has answered so */
+    fw_arena_free(arena);
+}
+
 /* a message, a file's name and a line of the file are shown as they are, but for orders to the terminal */
 static void orders_are_not_shown(void **state) {
     (void)state;
@@ -121,6 +174,8 @@ int main(void) {
         cmocka_unit_test(printed_in_file_order_with_caret),
         cmocka_unit_test(only_the_first_hundred),
         cmocka_unit_test(errors_are_kept),
+        cmocka_unit_test(a_later_call_finds_room),
+        cmocka_unit_test(said_without_memory),
         cmocka_unit_test(orders_are_not_shown),
         cmocka_unit_test(once_of_a_place),
         cmocka_unit_test(table_is_sorted_and_complete),

@@ -524,7 +524,8 @@ static void memory_runs_out(void **state) {
     assert_true(same);
     long all = fw_arena_count(), nomem = 0;
     for (long i = 0; i < 60;
-         i += test_fewest(test_cases(1, 6), 12)) /* dense where the library itself allocates, then over all */
+         i += test_fewest(test_cases(1, 6),
+                          12)) /* dense where the library itself allocates, then over all */
         for (int ever = 0; ever < 2; ever++) {
             long n = i < 30 ? i + 1 : all - (i - 30) * (all / 30);
             fw_arena_fail_at(n, ever);
@@ -536,6 +537,67 @@ static void memory_runs_out(void **state) {
                          status);
         }
     assert_true(nomem > 30 / test_fewest(test_cases(1, 6), 12));
+    fw_design_free(design);
+}
+
+/* what the last call said, number of its last error; 0: none */
+static int32_t last_of_call(fw_design *design) {
+    int32_t number = 0;
+    for (size_t i = fw_design_diagnostics_before(design); i < fw_design_diagnostics(design); i++)
+        if (fw_design_diagnostic(design, i)->severity == FW_SEVERITY_ERROR)
+            number = fw_design_diagnostic(design, i)->number;
+    return number;
+}
+
+static void a_call_has_its_own_diagnostics(void **state) {
+    (void)state;
+    assert_int_equal(fw_design_diagnostics_before(NULL), 0);
+    fw_design *design = fresh();
+    assert_int_equal(fw_design_read(design, GALLERY), FW_STATUS_OK);
+    assert_int_equal(fw_design_diagnostics_before(design), 0);
+    for (int i = 0; i < 130; i++) {
+        assert_int_equal(fw_design_set(design, "t", "1 um"), FW_STATUS_USAGE);
+        assert_int_equal(last_of_call(design), 230);
+    }
+    assert_int_equal(fw_design_diagnostics(design), 100);
+    assert_int_equal(fw_design_read(design, GALLERY), FW_STATUS_USAGE);
+    assert_string_equal(fw_design_diagnostic(design, 99)->message,
+                        "one design reads one description");
+    assert_int_equal(fw_design_diagnostics_before(design), 99);
+    assert_int_equal(fw_design_simulate(design), FW_STATUS_OK); /* says nothing wrong */
+    assert_int_equal(last_of_call(design), 0);
+    fw_design_free(design);
+}
+
+/* whether the design's own cap refused or the machine is told apart, and each says what helps */
+static void want_of_memory_says_whose(void **state) {
+    (void)state;
+    fw_design_options o = options();
+    o.memory_cap = 32 << 20;
+    o.samples = 200000;
+    fw_design *design = fw_design_new(&o);
+    assert_int_equal(fw_design_read(design, GALLERY), FW_STATUS_OK);
+    assert_int_equal(last_of_call(design), 0);
+    for (int i = 0; i < 2; i++) { /* each call says it */
+        assert_int_equal(fw_design_simulate(design), FW_STATUS_NOMEM);
+        assert_int_equal(last_of_call(design), 720);
+    }
+    const fw_diagnostic *d = fw_design_diagnostic(design, fw_design_diagnostics(design) - 1);
+    assert_non_null(strstr(d->message, "may take 32 MiB"));
+    assert_non_null(strstr(d->message, "memory_cap"));
+    assert_int_equal(fw_design_write(design, NULL, 1),
+                     FW_STATUS_USAGE); /* and other mistakes are theirs */
+    assert_int_equal(last_of_call(design), 230);
+    fw_design_free(design);
+    design = fresh();
+    assert_int_equal(fw_design_read(design, GALLERY), FW_STATUS_OK);
+    for (long n = 1; n < 40; n += 13) {
+        fw_arena_fail_at(n, 1);
+        assert_int_equal(fw_design_simulate(design), FW_STATUS_NOMEM);
+        fw_arena_fail_at(0, 0);
+        assert_int_equal(last_of_call(design), 721);
+    }
+    assert_int_equal(fw_design_simulate(design), FW_STATUS_OK);
     fw_design_free(design);
 }
 
@@ -556,6 +618,8 @@ int main(void) {
         cmocka_unit_test(a_cancelled_design),
         cmocka_unit_test(the_callers_locale_is_his),
         cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(a_call_has_its_own_diagnostics),
+        cmocka_unit_test(want_of_memory_says_whose),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
