@@ -53,7 +53,7 @@ def layer(file, number, at=None):
     l = known[file]; i = l.find_layer(*number)
     r = pya.Region() if i is None else pya.Region(l.top_cell().begin_shapes_rec(i))
     r.merged_semantics = True
-    if at: r = r.transformed(pya.ICplxTrans(1, at[2], at[3], at[0], at[1]))
+    if at: r = r.transformed(pya.ICplxTrans(at[4] if len(at) > 4 else 1, at[2], at[3], at[0], at[1]))
     return r.merged()
 out = []
 for file, number, parts in json.loads(open(jobs).read()):
@@ -87,10 +87,10 @@ class Cells(unittest.TestCase):
         shutil.rmtree(cls.where)
 
     @classmethod
-    def make(cls, name, cells, wafer="", options=(), source=SIX, formats="all"):
+    def make(cls, name, cells, wafer="", options=(), source=SIX, formats="all", fast=FAST):
         text = source.read_text().replace("<die ", cells + "\n" + wafer + "<die ")
         (cls.where / (name + ".xml")).write_text(text)
-        return subprocess.run([PROGRAM, "mask", name + ".xml", "-o", name, "--mask-format", formats, *FAST, *options], cwd=cls.where, capture_output=True,
+        return subprocess.run([PROGRAM, "mask", name + ".xml", "-o", name, "--mask-format", formats, *fast, *options], cwd=cls.where, capture_output=True,
                               text=True, check=False, timeout=240)
 
     @classmethod
@@ -193,6 +193,31 @@ class Cells(unittest.TestCase):
         done = self.make("over", "", (wafer % "0").replace("-32", "0"))
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("FW-D571", done.stderr)
+
+    def test_scaled_wafer(self):
+        """a cell on the wafer is as large on the written plate as the order's scale has it, mirrored as it is; one beyond the wafer stays, and that is told"""
+        wafer = '<wafer diameter="50.8 mm">%s</wafer><order scale="1.0008" mirror="yes"/>'
+        self.own("bare", "", wafer % "", "gds")
+        rows = [row.split(",") for row in (self.where / "bare/masks" / (FLOW + "-wafer.csv")).read_text().splitlines()[1:]]
+        grid = json.loads((self.where / "bare/masks" / (FLOW + "-wafer.json")).read_text())["grid"]
+        w, h = 0.5 * grid["die_x_mm"] + 0.1, 0.5 * grid["die_y_mm"] + 0.1
+        middles = [(float(row[3]), float(row[4])) for row in rows]
+        x, y = max(((x, y) for x in range(-20, 20) for y in range(10, 24) if math.hypot(max(abs(x), abs(x + 0.9)), y + 0.4) < 25  # of the logo's box
+                    and not any(x < a + w and x + 0.9 > a - w and y - 0.2 < b + h and y + 0.4 > b - h for a, b in middles)),
+                   key=lambda p: math.hypot(*p))
+        cell = '<cell id="%s" file="logo.gds" x="%g mm" y="%g mm" layers="1/0>mask"/>'
+        done = self.make("scaled", "", wafer % (cell % ("on", x, y) + cell % ("beyond", 5, -32)), formats="gds,oasis", fast=[o for o in FAST if o != "-q"])
+        told = [line for line in done.stderr.splitlines() if "FW-D704" in line]
+        self.assertEqual((len(told), "cell beyond" in "".join(told)), (1, True), done.stderr)
+        bare, k = ["bare/masks/%s-plate.gds" % FLOW, [1, 0]], 1.0008
+        parts = [bare, ["logo.gds", [1, 0], [round(-1e6 * k * x), round(1e6 * k * y), 180, True, k]], ["logo.gds", [1, 0], [-5000000, -32000000, 180, True]]]
+        for ending in ("gds", "oas"):
+            (area, off, thick), (before, _, _) = self.compare([["scaled/masks/%s-plate.%s" % (FLOW, ending), [1, 0], parts], [*bare, []]])
+            self.assertGreater(area, before)
+            self.assertEqual(thick, 0)
+            self.assertLess(off, 1e7)  # the grid along the logo's edges: it is 1.6 um larger, as they are long 5e9 nm2
+        far = self.make("far", "", wafer.replace("1.0008", "1.1") % (cell % ("on", x, y)), formats="gds")
+        self.assertIn("cell on of <wafer> reaches", far.stderr)
 
     def test_bad_ones_are_refused(self):
         good = (self.where / "logo.gds").read_bytes()
