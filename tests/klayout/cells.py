@@ -358,6 +358,21 @@ pya.Application.instance().exit(0)
             for code in ("FW-D722", "FW-D724"):
                 self.assertEqual(code in done.stderr, code == told, (to, x, done.stderr))
 
+    def test_parts_that_nothing_holds_are_told(self):
+        """each part of a cell is looked at by itself: one beside what lies on the frame falls out, one that another cell holds does not"""
+        boxes = {"half": [(-60, -20, 60, 20), (80, -20, 120, 20)], "bridge": [(50, -10, 90, 10)], "island": [(0, 0, 40, 40)]}
+        klayout("import pya\nfor n, boxes in %r.items():\n"
+                "  l = pya.Layout(); l.dbu = 0.001; c = l.create_cell('C')\n"
+                "  c.shapes(l.layer(1, 0)).insert(pya.Region([pya.Box(*[1000 * v for v in b]) for b in boxes])); l.write(n + '.gds')\n"
+                "pya.Application.instance().exit(0)\n" % boxes, self.where)
+        for cells, told in ((("half",), "cell half: 1 of its 2 parts, from (-820, 3580) to (-780, 3620) um, hangs together with nothing"),
+                            (("half", "bridge"), None), (("island",), None), (("half", "bridge", "island"), None)):
+            text = "".join('<cell id="%s" file="%s.gds" x="-0.9 mm" y="3.6 mm" layers="1/0>mask"/>' % (n, n) for n in cells)
+            done = self.make("parts", text, formats="gds", fast=[o for o in FAST if o != "-q"])
+            said = [line for line in done.stderr.splitlines() if "FW-D574" in line]
+            self.assertEqual(len(said), int(told is not None), (cells, done.stderr))
+            self.assertTrue(told is None or told in said[0], said)
+
     def test_cells_around_what_is_there(self):
         """cells around others, one of them with an arm over the frame and two cells in it: one region with them, whatever their order"""
         drawn = {"small": [(-20, -20, 20, 20)], "large": [(-90, -90, 90, 90)], "long": [(-300, -90, 300, 90)],
