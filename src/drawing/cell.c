@@ -37,6 +37,14 @@ static fw_status say_of_file(const fw_drawing_flat *flat, const char *data, size
     return said->failed ? FW_NOMEM : FW_INPUT;
 }
 
+/* what it passed over: warnings, with the line */
+static void tell_of_file(const fw_drawing_flat *flat, const fw_diags *said) {
+    const fw_drawing_cell_asked *a = flat->asked;
+    for (size_t i = 0; i < said->count; i++)
+        fw_diag_warning(flat->diags, said->item[i].number, a->place, "%s, line %d: %s", a->file,
+                        said->item[i].place.line, said->item[i].message);
+}
+
 static fw_status add_outline(fw_drawing_flat *flat, int map, const fw_drawing_outline *o) {
     fw_geometry_contour moved;
     fw_geometry_polygon polygon;
@@ -71,6 +79,7 @@ static fw_status flatten_dxf(fw_drawing_flat *flat, const char *data, size_t n) 
         fw_status status = fw_drawing_read_dxf(flat->arena, data, n, &asked, &said, &drawing);
         if (status == FW_INPUT) return say_of_file(flat, data, n, &said);
         FW_TRY(status);
+        tell_of_file(flat, &said);
         flat->map[i].found = true;
         for (int k = 0; k < drawing.count; k++) {
             status = add_outline(flat, i, &drawing.outline[k]);

@@ -233,7 +233,8 @@ typedef struct fw_drawing_points {
     int n;
 } fw_drawing_points;
 /* Polygons that cover it: one, where its segments leave room for the mitres on their inner sides; else one
-   for each segment and each corner, which is mitred up to a right angle and cut off beyond (trace.c) */
+   for each segment and each corner, which is mitred up to a right angle and beyond is cut off half a width behind its point, as
+   KLayout draws paths: the format does not say how corners are (trace.c) */
 fw_status fw_drawing_stroke_parts(fw_arena *arena, const fw_drawing_stroke *stroke,
                                   fw_drawing_points **part, int *n);
 

@@ -182,6 +182,15 @@ class Cells(unittest.TestCase):
         self.assertLess(off, 2e-3 * area)
         self.assertEqual(wide, 0)
 
+    def test_what_is_passed_over_is_told(self):
+        """of a cell as of an outline: fillings, remarks and what the drawing does not show are told with their lines"""
+        square = "0\nLWPOLYLINE\n8\nA\n90\n4\n70\n1\n%s" + "".join("10\n%d\n20\n%d\n" % p for p in ((0, 0), (50, 0), (50, 50), (0, 50)))
+        (self.where / "told.dxf").write_text("0\nSECTION\n2\nENTITIES\n" + square % "" + square.replace("10\n", "10\n1") % "60\n1\n"
+                                             + "0\nHATCH\n8\nA\n0\nXLINE\n8\nA\n0\nENDSEC\n0\nEOF\n")
+        done = self.make("told", '<cell file="told.dxf" unit="um" layers="A>77/0"/>', formats="gds", fast=[o for o in FAST if o != "-q"])
+        for says in ("told.dxf, line 29: LWPOLYLINE on layer 'A' is invisible", "HATCH on layer 'A' is not taken", "XLINE on layer 'A' is not taken"):
+            self.assertIn(says, done.stderr)
+
     def test_wafer(self):
         wafer = '<wafer diameter="50.8 mm"><cell file="logo.gds" x="%s mm" y="-32 mm" layers="1/0>mask"/></wafer>'
         self.own("wafer", "", wafer % "5", "gds")
