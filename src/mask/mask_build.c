@@ -75,11 +75,6 @@ static fw_status refuse_bias(fw_arena *arena, const fw_layout *layout, fw_diags 
     return FW_OK;
 }
 
-double fw_mask_layer_bias_m(const fw_mask *mask, int layer) {
-    if (mask->table->layer[layer].biased) return mask->bias_m;
-    return mask->layer_bias_m ? mask->layer_bias_m[layer] : 0.0;
-}
-
 static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
                              fw_diags *diags) {
     enum { TOLD = 3 }; /* one bias that is too large has as many as there are parts */
