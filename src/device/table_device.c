@@ -404,7 +404,8 @@ static const fw_xml_attribute_row order_rows[] = {
     {"scale", D_PURE, RANGE(0.1, 10, "projection printers reduce at most ten times"),
      .fallback = "1",
      .sentence = "Of all that lies on the wafer, about the plate's middle: 5 for a reticle, 1.0002 "
-                 "where a bond shrinks. Title, barcode and crosses of the plate stay."},
+                 "where a bond shrinks. Title, barcode and crosses of the plate stay, and cells "
+                 "beyond the wafer."},
     {"size", D_LENGTH, .unit = "mm", RANGE(10e-3, 0.4, "plates are at most 14 inches wide"),
      .fallback = "plate of <wafer>; of one die the next plate in inches, 20 mm larger",
      .sentence = "Edge of the square plate; one for all plates."},

@@ -37,6 +37,14 @@ static fw_status say_of_file(const fw_drawing_flat *flat, const char *data, size
     return said->failed ? FW_NOMEM : FW_INPUT;
 }
 
+/* what it passed over: warnings, with the line */
+static void tell_of_file(const fw_drawing_flat *flat, const fw_diags *said) {
+    const fw_drawing_cell_asked *a = flat->asked;
+    for (size_t i = 0; i < said->count; i++)
+        fw_diag_warning(flat->diags, said->item[i].number, a->place, "%s, line %d: %s", a->file,
+                        said->item[i].place.line, said->item[i].message);
+}
+
 static fw_status add_outline(fw_drawing_flat *flat, int map, const fw_drawing_outline *o) {
     fw_geometry_contour moved;
     fw_geometry_polygon polygon;
@@ -71,6 +79,7 @@ static fw_status flatten_dxf(fw_drawing_flat *flat, const char *data, size_t n) 
         fw_status status = fw_drawing_read_dxf(flat->arena, data, n, &asked, &said, &drawing);
         if (status == FW_INPUT) return say_of_file(flat, data, n, &said);
         FW_TRY(status);
+        tell_of_file(flat, &said);
         flat->map[i].found = true;
         for (int k = 0; k < drawing.count; k++) {
             status = add_outline(flat, i, &drawing.outline[k]);
@@ -127,25 +136,35 @@ static fw_geometry_vec2 in_metres(fw_geometry_point p) {
     return (fw_geometry_vec2){p.x_dbu * FW_GEOMETRY_GRID_M, p.y_dbu * FW_GEOMETRY_GRID_M};
 }
 
+fw_status fw_drawing_outline_of(fw_arena *arena, const fw_geometry_polygon *p,
+                                fw_geometry_contour *c) {
+    FW_NEED(c->segment = fw_arena_array(arena, fw_geometry_segment, (size_t)p->count));
+    c->count = p->count;
+    for (int k = 0; k < p->count; k++)
+        c->segment[k] =
+            (fw_geometry_segment){.kind = FW_LINE,
+                                  .flags = FW_SEGMENT_ROUNDED,
+                                  .a = in_metres(p->vertex[k]),
+                                  .b = in_metres(p->vertex[k + 1 < p->count ? k + 1 : 0])};
+    return FW_OK;
+}
+
+fw_status fw_drawing_outlines_of(fw_arena *arena, const fw_geometry_merged *merged,
+                                 fw_geometry_contour **out) {
+    FW_NEED(*out = fw_arena_array(arena, fw_geometry_contour, (size_t)merged->n));
+    for (int i = 0; i < merged->n; i++)
+        FW_TRY(fw_drawing_outline_of(arena, &merged->polygon[i], &(*out)[i]));
+    return mark_cuts(arena, merged, *out);
+}
+
 static fw_status outlines_of(fw_arena *arena, const fw_geometry_merged *merged,
                              fw_drawing_cell_layer *layer) {
-    FW_NEED(layer->outline = fw_arena_array(arena, fw_geometry_contour, (size_t)merged->n));
+    FW_TRY(fw_drawing_outlines_of(arena, merged, &layer->outline));
     layer->n = merged->n;
     layer->box = (fw_geometry_box){HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
-    for (int i = 0; i < merged->n; i++) {
-        const fw_geometry_polygon *p = &merged->polygon[i];
-        fw_geometry_contour *c = &layer->outline[i];
-        FW_NEED(c->segment = fw_arena_array(arena, fw_geometry_segment, (size_t)p->count));
-        c->count = p->count;
-        for (int k = 0; k < p->count; k++)
-            c->segment[k] =
-                (fw_geometry_segment){.kind = FW_LINE,
-                                      .flags = FW_SEGMENT_ROUNDED,
-                                      .a = in_metres(p->vertex[k]),
-                                      .b = in_metres(p->vertex[k + 1 < p->count ? k + 1 : 0])};
-        layer->box = fw_box_join(layer->box, fw_geometry_contour_box(c));
-    }
-    return mark_cuts(arena, merged, layer->outline);
+    for (int i = 0; i < merged->n; i++)
+        layer->box = fw_box_join(layer->box, fw_geometry_contour_box(&layer->outline[i]));
+    return FW_OK;
 }
 
 /* all that goes to the layer of map `first`, as one region; holes of a DXF file are cut out */

@@ -5,6 +5,7 @@
 #ifndef FW_DRAWING_DRAWING_H
 #define FW_DRAWING_DRAWING_H
 #include "geometry/contour.h"
+#include "geometry/merge.h"
 #include "geometry/polygon.h"
 
 enum {
@@ -136,6 +137,12 @@ fw_status fw_drawing_cell_read(fw_arena *arena, const char *data, size_t n,
                                const fw_drawing_cell_asked *asked, fw_diags *diags,
                                fw_drawing_cell *out);
 
+/* the outline through points of the grid; outlines of merged polygons, whose cuts are JOINTs of both sides */
+fw_status fw_drawing_outline_of(fw_arena *arena, const fw_geometry_polygon *polygon,
+                                fw_geometry_contour *out);
+fw_status fw_drawing_outlines_of(fw_arena *arena, const fw_geometry_merged *merged,
+                                 fw_geometry_contour **out);
+
 /* what a flaw is, for a message about a file: "does not close: ..." */
 const char *fw_drawing_flaw_text(fw_arena *arena, const fw_drawing_flaw *flaw);
 
@@ -226,7 +233,8 @@ typedef struct fw_drawing_points {
     int n;
 } fw_drawing_points;
 /* Polygons that cover it: one, where its segments leave room for the mitres on their inner sides; else one
-   for each segment and each corner, which is mitred up to a right angle and cut off beyond (trace.c) */
+   for each segment and each corner, which is mitred up to a right angle and beyond is cut off half a width behind its point, as
+   KLayout draws paths: the format does not say how corners are (trace.c) */
 fw_status fw_drawing_stroke_parts(fw_arena *arena, const fw_drawing_stroke *stroke,
                                   fw_drawing_points **part, int *n);
 

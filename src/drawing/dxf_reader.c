@@ -97,23 +97,37 @@ typedef struct entity {
     char name[32], layer[LAYER_MOST];
     int line, flags; /* group 70 */
     double x[2], y[2], radius, from_deg, to_deg;
-    bool paper, thick, turned;
+    bool paper, thick, turned, hidden;
 } entity;
 
-/* What is drawn with lines that are not read is refused, and so is what is not known. Known to cover nothing are marks; what may
-   cover something, and is mostly a remark or fills what has its line, too, is passed over with one warning for each kind. */
+/* What is drawn with lines that are not read is refused, and so is what is not known. What is mostly a remark or a mark, or fills
+   what has its line, too, is passed over with one warning for each kind; of no warning is what has no
+   extent, or is never shown by itself. */
 static const struct {
     const char *name;
     bool told;
-} passed_over[] = {{"POINT", false},    {"DIMENSION", false},   {"ARC_DIMENSION", false},
-                   {"LEADER", false},   {"MULTILEADER", false}, {"TOLERANCE", false},
-                   {"ATTDEF", false},   {"ATTRIB", false},      {"SEQEND", false},
-                   {"VIEWPORT", false}, {"XLINE", false},       {"RAY", false},
-                   {"TEXT", true},      {"MTEXT", true},        {"HATCH", true}};
+} passed_over[] = {{"POINT", false},    {"DIMENSION", true},   {"ARC_DIMENSION", true},
+                   {"LEADER", true},    {"MULTILEADER", true}, {"TOLERANCE", true},
+                   {"ATTDEF", false},   {"ATTRIB", true},      {"SEQEND", false},
+                   {"VIEWPORT", false}, {"XLINE", true},       {"RAY", true},
+                   {"TEXT", true},      {"MTEXT", true},       {"HATCH", true}};
 
-static bool is_wanted(const reader *r, const entity *e) {
+/* what the drawing does not show (group 60) is not taken, and that is told once of a file */
+static bool is_seen(reader *r, const entity *e) {
+    const unsigned told = 1u << 31;
+    if (e->hidden && !(r->told & told))
+        fw_diag_warning(r->diags, 705, place_at(r, e->line),
+                        "%s on layer '%.64s' is invisible in the drawing (group 60) and not "
+                        "taken, and nor is anything else of this file that is: where it is meant "
+                        "to be drawn, make it visible",
+                        e->name, e->layer);
+    if (e->hidden) r->told |= told;
+    return !e->hidden;
+}
+
+static bool is_wanted(reader *r, const entity *e) {
     if (e->paper) return false;
-    return !r->asked->layer || strcmp(r->asked->layer, e->layer) == 0;
+    return (!r->asked->layer || strcmp(r->asked->layer, e->layer) == 0) && is_seen(r, e);
 }
 
 /* without a layer in the request all must lie on one */
@@ -121,10 +135,10 @@ static bool is_of_layer(reader *r, const entity *e) {
     if (r->asked->layer) return true;
     if (!r->layer) r->layer = fw_arena_strdup(r->arena, e->layer);
     if (!r->layer || strcmp(r->layer, e->layer) == 0) return true;
-    fw_diag_error(
-        r->diags, 314, r->asked->place,
-        "%s has lines on the layers '%.64s' and '%.64s'; say which one with layer=\"...\"",
-        r->asked->file, r->layer, e->layer);
+    fw_diag_error(r->diags, 314, r->asked->place,
+                  "%s has lines on the layers '%.64s' and '%.64s'; say which one with %s",
+                  r->asked->file, r->layer, e->layer,
+                  r->asked->segments_most ? "layers=\"FROM>TO\"" : "layer=\"...\"");
     r->failed = true;
     return false;
 }
@@ -207,7 +221,17 @@ static fw_status add_polyline(reader *r, const entity *e, const vertex *v, int n
     return shut || ends_meet ? add_closed(r, first, e->line) : FW_OK;
 }
 
+static fw_status add_circle(reader *r, const entity *e) {
+    int first = r->nedge;
+    fw_geometry_vec2 left = {e->x[0] - e->radius, e->y[0]}, right = {e->x[0] + e->radius, e->y[0]};
+    FW_TRY(add_edge(r, right, left, FW_PI, e->line));
+    FW_TRY(add_edge(r, left, right, FW_PI, e->line));
+    return add_closed(r, first, e->line);
+}
+
+/* one of a full turn is a circle, as some programs write these */
 static fw_status add_arc(reader *r, const entity *e) {
+    if (fabs(fabs(e->to_deg - e->from_deg) - 360) < 1e-9) return add_circle(r, e);
     double from = e->from_deg * FW_PI / 180, sweep = fmod(e->to_deg - e->from_deg, 360);
     if (sweep <= 0) sweep += 360;
     double to = from + sweep * FW_PI / 180;
@@ -215,14 +239,6 @@ static fw_status add_arc(reader *r, const entity *e) {
     return add_edge(r, (fw_geometry_vec2){c.x + e->radius * cos(from), c.y + e->radius * sin(from)},
                     (fw_geometry_vec2){c.x + e->radius * cos(to), c.y + e->radius * sin(to)},
                     sweep * FW_PI / 180, e->line);
-}
-
-static fw_status add_circle(reader *r, const entity *e) {
-    int first = r->nedge;
-    fw_geometry_vec2 left = {e->x[0] - e->radius, e->y[0]}, right = {e->x[0] + e->radius, e->y[0]};
-    FW_TRY(add_edge(r, right, left, FW_PI, e->line));
-    FW_TRY(add_edge(r, left, right, FW_PI, e->line));
-    return add_closed(r, first, e->line);
 }
 
 typedef struct vertices {
@@ -251,6 +267,8 @@ static void common_group(reader *r, entity *e) {
         e->layer[n] = '\0';
     } else if (code == 67)
         e->paper = number_now(r) != 0;
+    else if (code == 60)
+        e->hidden = number_now(r) != 0;
     else if (code == 70)
         e->flags = (int)fmax(0, fmin(number_now(r), 1e6));
     else if (code == 230)
@@ -355,7 +373,7 @@ static fw_status read_simple(reader *r, entity *e) {
 
 static fw_status read_other(reader *r, entity *e) {
     while (next(r) && r->now.code != 0)
-        if (r->now.code == 8 || r->now.code == 67) common_group(r, e);
+        if (r->now.code == 8 || r->now.code == 60 || r->now.code == 67) common_group(r, e);
     inherit(r, e);
     if (r->failed || !is_wanted(r, e)) return FW_OK;
     for (size_t i = 0; i < sizeof passed_over / sizeof *passed_over; i++) {
@@ -479,7 +497,7 @@ static fw_status read_insert(reader *r, entity *e) {
     while (next(r) && r->now.code != 0)
         insert_group(r, &in, e);
     inherit(r, e);
-    if (r->failed || e->paper) return FW_OK;
+    if (r->failed || e->paper || !is_seen(r, e)) return FW_OK;
     const fw_drawing_block *b = find_block(r, in.name);
     const char *fault = insert_fault(&in, e, b);
     if (fault) {

@@ -194,11 +194,12 @@ static fw_status corner_part(fw_arena *arena, const stroke *s, int i, fw_drawing
     fw_geometry_vec2 u = along(s, i - 1), v = along(s, i), *q;
     double side = vec_cross(u, v) > 0 ? -s->half : s->half;
     bool mitred = is_mitred(s, i);
-    FW_NEED(q = new_part(arena, part, mitred ? 4 : 3));
+    FW_NEED(q = new_part(arena, part, mitred ? 4 : 5));
     q[0] = s->p[i];
     q[1] = beside(s->p[i], u, 0, side);
-    if (mitred) q[2] = mitre(s, i, side);
-    q[mitred ? 3 : 2] = beside(s->p[i], v, 0, side);
+    q[2] = mitred ? mitre(s, i, side) : beside(s->p[i], u, s->half, side);
+    if (!mitred) q[3] = beside(s->p[i], v, -s->half, side);
+    q[mitred ? 3 : 4] = beside(s->p[i], v, 0, side);
     return FW_OK;
 }
 

@@ -282,3 +282,64 @@ fw_status fw_geometry_merge(fw_arena *arena, const fw_geometry_merge_input *inpu
     FW_TRY(fw_geometry_merge_monotone(arena, &sides));
     return fw_geometry_merge_parts(arena, &sides, most, out);
 }
+
+/* ---- the region as it is bounded ---- */
+
+static fw_status loop_of(fw_arena *arena, const fw_geometry_merge_side *side, int n,
+                         fw_geometry_polygon *out) {
+    int64_t area2;
+    FW_NEED(out->vertex = fw_arena_array(arena, fw_geometry_point, (size_t)n));
+    out->count = n;
+    for (int i = 0; i < n; i++)
+        out->vertex[i] = side[i].a;
+    area2 = fw_geometry_polygon_area2(out);
+    for (int i = 0; i < n && area2 < 0; i++)
+        out->vertex[i] = side[n - 1 - i].a;
+    return FW_OK;
+}
+
+/* is the middle of its first edge inside? Borders of a region do not lie upon each other. */
+static bool lies_in(const fw_geometry_polygon *p, const fw_geometry_polygon *around) {
+    const double x = 0.5 * ((double)p->vertex[0].x_dbu + p->vertex[1].x_dbu),
+                 y = 0.5 * ((double)p->vertex[0].y_dbu + p->vertex[1].y_dbu);
+    bool in = false;
+    for (int i = 0; i < around->count; i++) {
+        const fw_geometry_point a = around->vertex[i],
+                                b = around->vertex[i + 1 < around->count ? i + 1 : 0];
+        if ((a.y_dbu > y) == (b.y_dbu > y)) continue;
+        const double at =
+            a.x_dbu + (y - a.y_dbu) * ((double)b.x_dbu - a.x_dbu) / ((double)b.y_dbu - a.y_dbu);
+        if (at > x) in = !in;
+    }
+    return in;
+}
+
+fw_status fw_geometry_merge_loops(fw_arena *arena, const fw_geometry_merge_input *input, int ninput,
+                                  const fw_geometry_merge_term *term, int nterm,
+                                  fw_geometry_polygon **loop, int **depth, int *n) {
+    fw_geometry_merge_edges edges, nodes;
+    fw_geometry_merge_sides sides;
+    int rounded, outlines, holes;
+    *n = 0;
+    FW_TRY(edges_of(arena, input, ninput, &edges));
+    FW_TRY(fw_geometry_merge_nodes(arena, &edges, &nodes, &rounded));
+    FW_TRY(fw_geometry_merge_border(arena, &nodes, term, nterm, &sides, &outlines, &holes));
+    const size_t most = (size_t)outlines + (size_t)holes;
+    fw_geometry_polygon *list = fw_arena_array(arena, fw_geometry_polygon, most);
+    int *deep = fw_arena_array(arena, int, most);
+    FW_NEED(list && deep ? list : NULL);
+    for (int from = 0, to; from < sides.n; from = to) {
+        const int64_t start = fw_geometry_merge_key(sides.side[from].a);
+        for (to = from + 1; fw_geometry_merge_key(sides.side[to - 1].b) != start;)
+            to++;
+        FW_TRY(loop_of(arena, &sides.side[from], to - from, &list[(*n)++]));
+    }
+    for (int i = 0; i < *n; i++) {
+        for (int k = 0; k < *n; k++)
+            deep[i] += k != i && lies_in(&list[i], &list[k]);
+        if (deep[i] >= FW_MERGE_SETS) return FW_LIMIT;
+    }
+    *loop = list;
+    *depth = deep;
+    return FW_OK;
+}

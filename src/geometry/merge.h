@@ -54,6 +54,11 @@ fw_status fw_geometry_merge(fw_arena *arena, const fw_geometry_merge_input *inpu
                             const fw_geometry_merge_term *term, int nterm, int most,
                             fw_geometry_merged *out);
 
+/* The same region as it is bounded: closed lines, each counter-clockwise, and in how many others each lies: outlines of what is covered have 0, 2, ..., holes 1, 3, ... Of a depth of FW_MERGE_SETS or more: FW_LIMIT. */
+fw_status fw_geometry_merge_loops(fw_arena *arena, const fw_geometry_merge_input *input, int ninput,
+                                  const fw_geometry_merge_term *term, int nterm,
+                                  fw_geometry_polygon **loop, int **depth, int *n);
+
 /* ---- between the files of the room ---- */
 
 typedef struct fw_geometry_merge_edge { /* low before high, by x, then y */

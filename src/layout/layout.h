@@ -165,8 +165,15 @@ typedef struct fw_layout {
 
 /* the cell that a piece is of; NULL: of none */
 const fw_layout_cell *fw_layout_cell_of(const fw_layout *layout, const fw_layout_piece *piece);
-/* does a part of it lie on frame or bases? Then it is one with them on the mask (mask/mask_cells.c) */
-bool fw_layout_cell_is_held(const fw_layout *layout, const fw_layout_cell *cell);
+/* Of what a cell draws on a layer of the device: which of its parts (pieces that touch are one) hang on frame or bases, by
+   themselves or by cells in between? What does is one with them on the mask (mask/mask_cells.c). out: (ncell). Cost: pairs of
+   pieces of cells, and of these and what is fixed, whose boxes meet. Test: tests/klayout/cells.py */
+typedef struct fw_layout_hold {
+    int parts, loose;    /* 0 where it draws nothing there */
+    fw_geometry_box box; /* of the first loose part */
+    const char *of; /* ": 1 of its 2 parts, from ... um," for messages; "" where it is all of it */
+} fw_layout_hold;
+fw_status fw_layout_cells_hold(fw_arena *arena, const fw_layout *layout, fw_layout_hold **out);
 /* pieces of cells behind those of a list: of *layout, whose pieces and cells they become (layout_cells.c) */
 fw_status fw_layout_cells_add(fw_arena *arena, const fw_device_cell *cell, int ncell,
                               fw_layout *layout, int *capacity);

@@ -78,16 +78,104 @@ static bool meet(const fw_layout_piece *p, const fw_layout_piece *q, fw_geometry
            TOUCH_M;
 }
 
-bool fw_layout_cell_is_held(const fw_layout *layout, const fw_layout_cell *cell) {
-    fw_geometry_vec2 at;
-    for (int i = 0; i < layout->npiece; i++)
-        for (int k = 0; layout->piece[i].label == cell->label && k < layout->npiece; k++) {
-            const fw_layout_piece *q = &layout->piece[k];
-            if (q->body == FW_GROUND && fw_layout_is_wall(q) && !fw_layout_cell_of(layout, q) &&
-                meet(&layout->piece[i], q, &at))
-                return true;
+/* ---- what holds them ---- */
+
+typedef struct held { /* pieces of cells on a layer of the device */
+    const fw_layout *layout;
+    const fw_layout_piece **piece; /* (n) */
+    const fw_layout_cell **cell;
+    fw_geometry_box *box;
+    int *part;  /* of which each is: 0 hangs on frame or bases, -1: not known yet */
+    int *queue; /* what was reached */
+    int n;
+} held;
+
+/* all that hangs together with piece i is of this part */
+static void spread(held *h, int i, int part) {
+    int from = 0, to = 0;
+    h->part[i] = part;
+    for (h->queue[to++] = i; from < to; from++)
+        for (int k = 0; k < h->n; k++) {
+            const int q = h->queue[from];
+            fw_geometry_vec2 at;
+            if (h->part[k] >= 0 || fw_box_gap(h->box[q], h->box[k]) > TOUCH_M ||
+                !meet(h->piece[q], h->piece[k], &at))
+                continue;
+            h->part[k] = part;
+            h->queue[to++] = k;
         }
-    return false;
+}
+
+static void spread_from_fixed(held *h) {
+    for (int k = 0; k < h->layout->npiece; k++) {
+        const fw_layout_piece *q = &h->layout->piece[k];
+        if (q->body != FW_GROUND || !fw_layout_is_wall(q) || fw_layout_cell_of(h->layout, q))
+            continue;
+        const fw_geometry_box box = fw_geometry_contour_box(&q->contour);
+        fw_geometry_vec2 at;
+        for (int i = 0; i < h->n; i++)
+            if (h->part[i] < 0 && fw_box_gap(h->box[i], box) <= TOUCH_M &&
+                meet(h->piece[i], q, &at))
+                spread(h, i, 0);
+    }
+}
+
+/* parts of a cell: one for all that hangs on what is fixed, and each that does not */
+static void sum_up(const held *h, const fw_layout_cell **seen, const fw_layout_cell *cell,
+                   fw_layout_hold *out) {
+    int first = 0;
+    for (int i = 0; i < h->n; i++) {
+        const int p = h->part[i];
+        if (h->cell[i] != cell) continue;
+        if (p > 0 && first == 0) first = p, out->box = h->box[i];
+        if (p > 0 && p == first) out->box = fw_box_join(out->box, h->box[i]);
+        if (seen[p] == cell) continue;
+        seen[p] = cell;
+        out->parts++;
+        out->loose += p > 0;
+    }
+}
+
+static const char *which(fw_arena *arena, const fw_layout_hold *hold) {
+    const fw_geometry_box b = hold->box;
+    char t[4][32];
+    if (hold->parts < 2 || hold->loose == 0) return "";
+    return fw_arena_printf(arena, ": %d of its %d parts, %sfrom (%s, %s) to (%s, %s) um,",
+                           hold->loose, hold->parts, hold->loose > 1 ? "the first " : "",
+                           fw_number_text(t[0], sizeof t[0], b.x0 * 1e6, 6),
+                           fw_number_text(t[1], sizeof t[1], b.y0 * 1e6, 6),
+                           fw_number_text(t[2], sizeof t[2], b.x1 * 1e6, 6),
+                           fw_number_text(t[3], sizeof t[3], b.y1 * 1e6, 6));
+}
+
+fw_status fw_layout_cells_hold(fw_arena *arena, const fw_layout *layout, fw_layout_hold **out) {
+    const size_t most = (size_t)layout->npiece;
+    held h = {.layout = layout,
+              .piece = fw_arena_array(arena, const fw_layout_piece *, most),
+              .cell = fw_arena_array(arena, const fw_layout_cell *, most),
+              .box = fw_arena_array(arena, fw_geometry_box, most),
+              .part = fw_arena_array(arena, int, most),
+              .queue = fw_arena_array(arena, int, most)};
+    const fw_layout_cell **seen = fw_arena_array(arena, const fw_layout_cell *, most + 1);
+    int parts = 1;
+    FW_NEED(seen);
+    FW_NEED(*out = fw_arena_array(arena, fw_layout_hold, (size_t)layout->ncell + 1));
+    FW_NEED(h.piece && h.cell && h.box && h.part && h.queue ? h.piece : NULL);
+    for (int i = 0; i < layout->npiece && layout->ncell > 0; i++) {
+        const fw_layout_piece *p = &layout->piece[i];
+        const fw_layout_cell *cell = fw_layout_cell_of(layout, p);
+        if (!cell || !fw_layout_is_wall(p)) continue;
+        h.piece[h.n] = p, h.cell[h.n] = cell, h.part[h.n] = -1;
+        h.box[h.n++] = fw_geometry_contour_box(&p->contour);
+    }
+    spread_from_fixed(&h);
+    for (int i = 0; i < h.n; i++)
+        if (h.part[i] < 0) spread(&h, i, parts++);
+    for (int i = 0; i < layout->ncell; i++) {
+        sum_up(&h, seen, &layout->cell[i], &(*out)[i]);
+        FW_NEED((*out)[i].of = which(arena, &(*out)[i]));
+    }
+    return FW_OK;
 }
 
 static fw_status check_touch(const fw_layout *l, const fw_layout_cell *c, const fw_layout_piece *p,

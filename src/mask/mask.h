@@ -485,6 +485,7 @@ typedef struct fw_mask_merge_options {
     bool inverted;        /* written is what is left free of `field` */
     fw_mask_window field; /* as written */
     double scale;         /* of the mask, each vertex to the nearest point of the grid */
+    const double *scales; /* (nshape) of each of its shapes instead; NULL: of all the same */
     bool mirror;          /* x becomes -x */
     int vertices;         /* most of a polygon */
 } fw_mask_merge_options;

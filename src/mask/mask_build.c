@@ -75,21 +75,21 @@ static fw_status refuse_bias(fw_arena *arena, const fw_layout *layout, fw_diags 
     return FW_OK;
 }
 
-double fw_mask_layer_bias_m(const fw_mask *mask, int layer) {
-    if (mask->table->layer[layer].biased) return mask->bias_m;
-    return mask->layer_bias_m ? mask->layer_bias_m[layer] : 0.0;
-}
-
 static fw_status bias_shapes(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
                              fw_diags *diags) {
     enum { TOLD = 3 }; /* one bias that is too large has as many as there are parts */
     size_t errors = diags->errors;
     int refused = 0;
+    const fw_layout_cell *seen = NULL;
+    bool cut = false;
     fw_mask_shape *shape = mask->shape;
     for (int k = 0; k < mask->nshape; k++) {
         double bias_m = fw_mask_layer_bias_m(mask, shape[k].layer);
         const fw_layout_cell *cell = fw_layout_cell_of(layout, shape[k].piece);
         if (bias_m == 0 || (cell && !cell->biased)) continue;
+        if (cell && cell != seen) cut = fw_mask_cell_is_cut(mask, k);
+        if (cell) seen = cell;
+        if (cell && cut) continue; /* fw_mask_cells_bias */
         int i = -1, j = -1;
         fw_status status = fw_geometry_contour_offset(arena, &shape[k].piece->contour, bias_m,
                                                       &shape[k].contour, &i, &j);
@@ -328,6 +328,7 @@ fw_status fw_mask_examine(fw_arena *arena, const fw_layout *layout, const fw_mas
     m->layer_bias_m = options->layer_bias_m;
     FW_TRY(bias_shapes(arena, layout, m, diags));
     FW_TRY(fw_mask_join(arena, m->shape, m->nshape, diags));
+    FW_TRY(fw_mask_cells_bias(arena, layout, m, diags));
     FW_TRY(fw_mask_cells_unite(arena, layout, m, diags));
     for (int k = 0; k < m->nshape; k++)
         m->shape[k].box = fw_geometry_contour_box(&m->shape[k].contour);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Layers that the cells of a description go to, in the layer tables of the flows; and cells upon the frame. */
 #include "base/text.h"
+#include "drawing/drawing.h"
 #include "geometry/segment.h"
 #include "mask/mask.h"
 #include "mask/mask_polygons.h"
@@ -173,6 +174,121 @@ void fw_mask_cells_order_text(const fw_mask *mask, fw_text *out) {
         char gds[FW_MASK_GDS_TEXT];
         fw_text_printf(out, "%s  %s  %s\n", c->of->name, c->of->file, gds_of(mask, c, gds));
     }
+}
+
+/* ---- the bias of cells with holes ----
+   A hole is cut open, and the cuts are no edges: their ends do not lie where a moved edge ends. So outlines and holes are put
+   together again, each is moved by the bias, and what they then enclose is cut anew. Where their number changes, two of them
+   have met: what was apart would be one, or a wall would vanish. Test: tests/klayout/cells.py, against KLayout's sized(). */
+
+/* behind the last shape of a cell, whose shapes follow each other */
+static int end_of(const fw_mask *mask, int first) {
+    int end = first;
+    while (end < mask->nshape && mask->shape[end].piece->label == mask->shape[first].piece->label)
+        end++;
+    return end;
+}
+
+bool fw_mask_cell_is_cut(const fw_mask *mask, int first) {
+    const int end = end_of(mask, first);
+    for (int s = first; s < end; s++)
+        for (int i = 0; i < mask->shape[s].contour.count; i++)
+            if (mask->shape[s].contour.segment[i].flags & FW_SEGMENT_JOINT) return true;
+    return false;
+}
+
+/* what the shapes of a cell cover as it was drawn, as outlines and holes */
+static fw_status loops_of(fw_arena *arena, const fw_mask *mask, int first, int end,
+                          fw_geometry_polygon **loop, int **depth, int *n) {
+    static const fw_geometry_merge_term all = {0, FW_SET_OR};
+    const size_t count = (size_t)(end - first);
+    fw_geometry_merge_input *input = fw_arena_array(arena, fw_geometry_merge_input, count);
+    fw_geometry_polygon *polygon = fw_arena_array(arena, fw_geometry_polygon, count);
+    FW_NEED(input && polygon ? input : NULL);
+    for (size_t i = 0; i < count; i++) {
+        FW_TRY(fw_geometry_flatten(arena, &mask->shape[(size_t)first + i].piece->contour,
+                                   mask->tolerance_m, FW_FLATTEN_INSIDE, &polygon[i], NULL));
+        input[i].polygon = &polygon[i];
+    }
+    return fw_geometry_merge_loops(arena, input, (int)count, &all, 1, loop, depth, n);
+}
+
+/* each outline moved out and each hole moved in, and what lies between them cut again. FW_GEOMETRY: they meet */
+static fw_status moved_loops(fw_arena *arena, const fw_mask *mask, double bias_m,
+                             fw_geometry_polygon *loop, const int *depth, int n,
+                             fw_geometry_contour **out, int *nout) {
+    fw_geometry_merge_input *input = fw_arena_array(arena, fw_geometry_merge_input, (size_t)n);
+    fw_geometry_merge_term term[FW_MERGE_SETS];
+    fw_geometry_merged merged;
+    int deepest = 0;
+    FW_NEED(input);
+    for (int i = 0; i < n; i++) {
+        fw_geometry_contour drawn, moved;
+        FW_TRY(fw_drawing_outline_of(arena, &loop[i], &drawn));
+        FW_TRY(fw_geometry_contour_offset(arena, &drawn, depth[i] % 2 ? -bias_m : bias_m, &moved,
+                                          NULL, NULL));
+        FW_TRY(fw_geometry_flatten(arena, &moved, mask->tolerance_m, mask->flattening, &loop[i],
+                                   NULL));
+        input[i] = (fw_geometry_merge_input){&loop[i], depth[i]};
+        deepest = depth[i] > deepest ? depth[i] : deepest;
+    }
+    for (int k = 0; k <= deepest; k++)
+        term[k] = (fw_geometry_merge_term){k, k % 2 ? FW_SET_NOT : FW_SET_OR};
+    FW_TRY(fw_geometry_merge(arena, input, n, term, deepest + 1, FW_DRAWING_CORNERS_MOST, &merged));
+    if (merged.outlines + merged.holes != n) return FW_GEOMETRY;
+    *nout = merged.n;
+    return fw_drawing_outlines_of(arena, &merged, out);
+}
+
+/* puts the outlines in the place of the shapes from `first` on to `end` */
+static fw_status put_shapes(fw_arena *arena, fw_mask *mask, int first, int end,
+                            const fw_geometry_contour *outline, int n) {
+    const int behind = mask->nshape - end;
+    fw_mask_shape *list =
+        fw_arena_array(arena, fw_mask_shape, (size_t)first + (size_t)n + (size_t)behind);
+    FW_NEED(list);
+    for (int i = 0; i < first; i++)
+        list[i] = mask->shape[i];
+    for (int i = 0; i < n; i++) {
+        list[first + i] = mask->shape[first + i < end ? first + i : first];
+        list[first + i].contour = outline[i];
+    }
+    for (int i = 0; i < behind; i++)
+        list[first + n + i] = mask->shape[end + i];
+    mask->shape = list;
+    mask->nshape = first + n + behind;
+    return FW_OK;
+}
+
+fw_status fw_mask_cells_bias(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
+                             fw_diags *diags) {
+    fw_status worst = FW_OK;
+    for (int first = 0, end; first < mask->nshape; first = end) {
+        const fw_layout_cell *cell = fw_layout_cell_of(layout, mask->shape[first].piece);
+        const double bias_m = fw_mask_layer_bias_m(mask, mask->shape[first].layer);
+        fw_geometry_polygon *loop;
+        fw_geometry_contour *outline = NULL;
+        int *depth, n, nout = 0;
+        char bias[32], apart[32];
+        end = end_of(mask, first);
+        if (!cell || !cell->biased || bias_m == 0 || !fw_mask_cell_is_cut(mask, first)) continue;
+        FW_TRY(loops_of(arena, mask, first, end, &loop, &depth, &n));
+        fw_status status = moved_loops(arena, mask, bias_m, loop, depth, n, &outline, &nout);
+        if (status == FW_GEOMETRY) {
+            fw_diag_error(diags, 143, cell->of->place,
+                          "%s cannot take the bias of %s um per edge: an outline of it, or a hole, "
+                          "would meet another or itself, or vanish; draw nothing of it nearer to "
+                          "anything else of it than %s um",
+                          cell->label, fw_number_text(bias, sizeof bias, bias_m * 1e6, 6),
+                          fw_number_text(apart, sizeof apart, fabs(2 * bias_m) * 1e6, 6));
+            worst = FW_INPUT;
+            continue;
+        }
+        FW_TRY(status);
+        FW_TRY(put_shapes(arena, mask, first, end, outline, nout));
+        end = first + nout;
+    }
+    return diags->failed ? FW_NOMEM : worst;
 }
 
 /* ---- cells upon the frame ----

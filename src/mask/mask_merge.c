@@ -125,8 +125,8 @@ static fw_status collect(fw_arena *arena, const fw_mask *mask, const fw_mask_mer
     FW_TRY(terms_of(arena, mask, o, j, set_of));
     FW_NEED(j->input = fw_arena_array(arena, fw_geometry_merge_input, most));
     for (int i = 0; i < mask->nshape; i++)
-        FW_TRY(
-            add_scaled(arena, j, &mask->shape[i].polygon, set_of[mask->shape[i].layer], o->scale));
+        FW_TRY(add_scaled(arena, j, &mask->shape[i].polygon, set_of[mask->shape[i].layer],
+                          o->scales ? o->scales[i] : o->scale));
     for (int i = 0; i < o->nwindow; i++) {
         FW_TRY(rectangle(arena, o->window[i], &r));
         add(j, r, WINDOWS);

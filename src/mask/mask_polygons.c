@@ -20,6 +20,11 @@ const char *fw_mask_place_text(char *text, size_t n, fw_geometry_vec2 at) {
     return text;
 }
 
+double fw_mask_layer_bias_m(const fw_mask *mask, int layer) {
+    if (mask->table->layer[layer].biased) return mask->bias_m;
+    return mask->layer_bias_m ? mask->layer_bias_m[layer] : 0.0;
+}
+
 typedef struct joint {     /* one JOINT segment of one shape */
     int shape, segment;    /* segment of the biased contour */
     fw_geometry_vec2 a, b; /* drawn ends */

@@ -11,6 +11,11 @@
    bit), makes the biased end points of both the same bits, and marks the joint as inner. Distances
    above 1e-12 m and missing partners are FW-D146. */
 fw_status fw_mask_join(fw_arena *arena, fw_mask_shape *shape, int nshape, fw_diags *diags);
+/* mask_cells.c: the bias of cells that have holes, of which the outlines of all their parts are moved as they were drawn,
+   and cut anew; after fw_mask_join. FW-D143 where outlines meet. Is a shape of such a cell? */
+fw_status fw_mask_cells_bias(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
+                             fw_diags *diags);
+bool fw_mask_cell_is_cut(const fw_mask *mask, int shape);
 /* mask_cells.c: cells that lie on the frame become one with it, as they are on the mask; after fw_mask_join */
 fw_status fw_mask_cells_unite(fw_arena *arena, const fw_layout *layout, fw_mask *mask,
                               fw_diags *diags);

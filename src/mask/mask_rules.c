@@ -230,8 +230,10 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
         fw_number_text(value, sizeof value, fw_mask_rule_row_shown(kind, f->value), 12);
     fw_number_text(limit, sizeof limit, fw_mask_rule_row_shown(kind, f->limit), 6);
     if (!who) return NULL;
+    /* on a layer of a cell's own nothing is of a hinge */
+    const bool own = layer->roles == 1u << FW_ROLE_CELL || !layout;
     const char *cause =
-        layout ? fw_mask_cause(arena, layout, vec_scale(0.5, vec_add(f->at[0], f->at[1]))) : "";
+        own ? "" : fw_mask_cause(arena, layout, vec_scale(0.5, vec_add(f->at[0], f->at[1])));
     const char *advice = advice_of(arena, f);
     if (!cause || !advice) return NULL;
     if (meet(f))

@@ -396,22 +396,23 @@ fw_status fw_plan_layer_bias(fw_plan *plan, const fw_plan_flow *pf, const double
     return FW_OK;
 }
 
-/* what a cell draws of the device's layer hangs together with nothing */
-static void warn_of_loose_cells(fw_plan *plan, const fw_plan_flow *pf) {
+/* what a cell draws of the device's layer, or parts of it, hangs together with nothing */
+static fw_status warn_of_loose_cells(fw_plan *plan, const fw_plan_flow *pf) {
     const fw_layout *l = plan->layout;
-    if (fw_plan_insulated(pf)) return;
-    for (int i = 0; i < l->ncell; i++)
-        for (int k = 0; k < l->npiece; k++) {
-            if (l->piece[k].label != l->cell[i].label || !fw_layout_is_wall(&l->piece[k])) continue;
-            if (fw_layout_cell_is_held(l, &l->cell[i])) break;
-            fw_diag_warning(
-                &plan->diags, 574, l->cell[i].of->layers_place,
-                "%s hangs together with nothing in flow %s, which has no insulating carrier: it "
-                "falls out when "
-                "the device is cut free; put it on text, or plan for a flow that insulates",
-                l->cell[i].label, pf->flow->id);
-            break;
-        }
+    fw_layout_hold *hold;
+    if (fw_plan_insulated(pf)) return FW_OK;
+    FW_TRY(fw_layout_cells_hold(plan->arena, l, &hold));
+    for (int i = 0; i < l->ncell; i++) {
+        if (hold[i].loose == 0) continue;
+        const bool one = hold[i].parts == 1 || hold[i].loose == 1;
+        fw_diag_warning(
+            &plan->diags, 574, l->cell[i].of->layers_place,
+            "%s%s %s together with nothing in flow %s, which has no insulating carrier: %s "
+            "out when the device is cut free; put %s on text, or plan for a flow that insulates",
+            l->cell[i].label, hold[i].of, one ? "hangs" : "hang", pf->flow->id,
+            one ? "it falls" : "they fall", one ? "it" : "them");
+    }
+    return FW_OK;
 }
 
 /* what the first of the errors says that came since there were so many diagnostics, and how many came */
@@ -460,7 +461,7 @@ fw_status fw_plan_mask_examine(fw_plan *plan, fw_plan_flow *pf, bool rejected) {
     FW_TRY(fw_plan_layer_bias(plan, pf, &options.layer_bias_m));
     const fw_layout *layout;
     fw_layout_no_room no_room;
-    warn_of_loose_cells(plan, pf);
+    FW_TRY(warn_of_loose_cells(plan, pf));
     FW_TRY(fw_plan_marked(plan, pf, &layout, &no_room));
     FW_TRY(fw_plan_say_no_room(plan, pf, &no_room));
     const fw_mask *mask = NULL;

@@ -249,6 +249,8 @@ fw_status fw_wafer_add_rows(fw_wafer_maker *m, const int *cell_of);
 
 /* wafer_marks.c, wafer_cells.c */
 fw_status fw_wafer_plate(fw_wafer_maker *m);
+/* (plate->nshape) which shapes beside the dies are of cells of the description that lie on the wafer, if only in part */
+fw_status fw_wafer_cells_on(fw_arena *arena, const fw_wafer *wafer, const bool **on);
 fw_status fw_wafer_alignment_mask(fw_wafer_maker *m, const fw_mask **mask);
 fw_status fw_wafer_ids(fw_wafer_maker *m);
 

@@ -304,6 +304,70 @@ static fw_status add_cells(fw_wafer_sheet *s) {
     return status;
 }
 
+static const double LEAST_M2 = 1e-15; /* rounding of areas over a wafer is less by far */
+
+static const fw_layout_cell *cell_of(const fw_wafer *w, const fw_mask_shape *shape) {
+    for (int i = 0; i < w->plate->nplaced; i++)
+        if (w->plate->placed[i].label == shape->piece->label) return &w->plate->placed[i];
+    return NULL;
+}
+
+fw_status fw_wafer_cells_on(fw_arena *arena, const fw_wafer *w, const bool **on) {
+    const fw_mask *plate = w->plate;
+    bool *list = fw_arena_array(arena, bool, (size_t)plate->nshape + 1);
+    const fw_device_cell **cell =
+        fw_arena_array(arena, const fw_device_cell *, (size_t)plate->nplaced + 1);
+    int n = 0;
+    FW_NEED(list && cell ? list : NULL);
+    *on = list;
+    for (int pass = 0; pass < 2 && plate->nplaced > 0; pass++)
+        for (int i = 0; i < plate->nshape; i++) {
+            const fw_layout_cell *own = cell_of(w, &plate->shape[i]);
+            bool known = false;
+            for (int k = 0; k < n && own; k++)
+                known = known || cell[k] == own->of;
+            list[i] = known;
+            if (own && !known && n < plate->nplaced &&
+                fw_wafer_area_over(&w->form, &plate->shape[i].polygon) > LEAST_M2)
+                cell[n++] = own->of;
+        }
+    return FW_OK;
+}
+
+static double reach_of(fw_geometry_box b) {
+    return hypot(fmax(fabs(b.x0), fabs(b.x1)), fmax(fabs(b.y0), fabs(b.y1)));
+}
+
+/* Cells on the wafer are scaled with it, and then stay clear of the title, as dies do; those beyond it belong to the plate. */
+static fw_status check_cells_scaled(fw_wafer_maker *m, const fw_device_order_asked *order) {
+    const fw_wafer *w = m->wafer;
+    const double free_m = 0.5 * w->form.diameter_m + BESIDE_M;
+    const bool *on;
+    char times[32], to[32], from[32];
+    fw_number_text(times, sizeof times, order->scale, 6);
+    FW_TRY(fw_wafer_cells_on(m->arena, w, &on));
+    for (int i = 0; i < w->plate->nshape && order->scale != 1; i++) {
+        const fw_mask_shape *s = &w->plate->shape[i];
+        const fw_layout_cell *cell = cell_of(w, s);
+        if (!cell) continue;
+        const double reach_m = order->scale * reach_of(s->box);
+        if (!on[i]) {
+            if (!fw_diag_said(m->diags, 704, cell->of->place))
+                fw_diag_warning(m->diags, 704, cell->of->place,
+                                "<wafer>: %s lies beyond the wafer, as title and crosses do: where "
+                                "<order> scales by %s what lies on the wafer, it stays as it is",
+                                cell->label, times);
+        } else if (order->scale > 1 && reach_m > free_m)
+            return fw_diag_error(
+                m->diags, 551, order->place,
+                "<order>: scaled by %s, %s of <wafer> reaches %s mm from the plate's middle, and "
+                "its title begins at %s mm; a smaller scale, or the cell nearer to the middle",
+                times, cell->label, fw_number_text(to, sizeof to, reach_m * 1e3, 4),
+                fw_number_text(from, sizeof from, free_m * 1e3, 4));
+    }
+    return FW_OK;
+}
+
 fw_status fw_wafer_plate(fw_wafer_maker *m) {
     fw_wafer *w = m->wafer;
     if (!fw_wafer_draws(m->input->table, FW_ROLE_FRAME)) return FW_OK;
@@ -323,7 +387,11 @@ fw_status fw_wafer_plate(fw_wafer_maker *m) {
             m->diags, 195, w->device->wafer.place,
             "<wafer>: the title of the plate does not fit whole beside the wafer, where "
             "it is cut or left out; shorten it");
-    return fw_wafer_sheet_mask(&s, "PLATE", true, &w->plate);
+    FW_TRY(fw_wafer_sheet_mask(&s, "PLATE", true, &w->plate));
+    for (int p = 0; p < fw_mask_plates(w->table); p++)
+        FW_TRY(check_cells_scaled(
+            m, fw_device_order_of(&w->device->wafer, fw_mask_plate_at(w->table, p).id)));
+    return FW_OK;
 }
 
 /* a block of 0.6 of the die, 2 mm at most, with a cross of five fine arms' lengths: coarse near the

@@ -319,7 +319,19 @@ static double beyond_wafer(const pen *p, const fw_mask *drawn) {
     return area_m2;
 }
 
-/* what lies beside the dies: title, crosses; they belong to the plate and have its scale */
+/* What lies beside the dies. Title and crosses belong to the plate and stay as they are; cells of the description that
+   lie on the wafer are scaled as its dies are. */
+static fw_status scales_beside(const pen *p, const fw_mask *plate, const double **out) {
+    const bool *on;
+    double *scale = fw_arena_array(p->arena, double, (size_t)plate->nshape + 1);
+    FW_NEED(scale);
+    FW_TRY(fw_wafer_cells_on(p->arena, p->wafer, &on));
+    for (int i = 0; i < plate->nshape; i++)
+        scale[i] = on[i] ? p->scale : 1;
+    *out = scale;
+    return FW_OK;
+}
+
 static fw_status write_top(pen *p, fw_wafer_written *out, const fw_mask **drawn) {
     const fw_wafer *w = p->wafer;
     fw_mask_merge_options o = p->base;
@@ -329,6 +341,7 @@ static fw_status write_top(pen *p, fw_wafer_written *out, const fw_mask **drawn)
     if (!w->plate && !o.inverted) return FW_OK;
     fw_mask nothing = *(w->plate ? w->plate : w->cell[0].mask);
     if (!w->plate) nothing.nshape = 0;
+    if (w->plate) FW_TRY(scales_beside(p, w->plate, &o.scales));
     if (o.inverted) {
         out->field_m = w->form.plate_m - 2 * FREE_RIM_M;
         int32_t half = (int32_t)lround(0.5e9 * out->field_m);

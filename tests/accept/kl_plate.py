@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # kl_plate.py: klayout -b -r kl_plate.py -rd a=FLOW-wafer.gds -rd b=FLOW-plate.gds -rd expression="1/0 NOT 2/0" -rd layer=1/0 -rd mirror=1
-#   [-rd scale=1.0002] [-rd field=119] [-rd tol=4] [-rd die=1] [-rd rule=4.0]
-# The layered plate, joined by KLayout's booleans, its dies scaled, mirrored, or what it leaves free within a square of `field` mm, against the
+#   [-rd scale=1.0002] [-rd field=119] [-rd tol=4] [-rd die=1] [-rd rule=4.0] [-rd wafer=25.4]
+# The layered plate, joined by KLayout's booleans, its dies and what else lies within a circle of `wafer` mm scaled, mirrored, or what it leaves free within a square of `field` mm, against the
 # written one: no difference wider than tol nm. die=1: a is one die, and b has it in its middle. Of the written one: one layer,
 # no overlap between polygons, no width or space below `rule` um, 4094 vertices at most. Exit 1 if not.
 import pya, sys
@@ -13,8 +13,11 @@ def own(l, key, children):
     n, d = (int(v) for v in key.split("/"))
     i, top = l.find_layer(n, d), l.top_cell()
     if i is None: return pya.Region()
-    if not children: return pya.Region(top.shapes(i))
-    return pya.Region(top.begin_shapes_rec(i)) - pya.Region(top.shapes(i))
+    beside = pya.Region(top.shapes(i))
+    reach = int(1e6 * float(given.get("wafer", 0)))
+    on = beside.merged() & pya.Region(pya.Polygon.ellipse(pya.Box(-reach, -reach, reach, reach), 512)) if reach else pya.Region()
+    if not children: return beside - on
+    return (pya.Region(top.begin_shapes_rec(i)) - beside) + on
 
 def say(text, wrong):
     global bad

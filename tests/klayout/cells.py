@@ -53,7 +53,7 @@ def layer(file, number, at=None):
     l = known[file]; i = l.find_layer(*number)
     r = pya.Region() if i is None else pya.Region(l.top_cell().begin_shapes_rec(i))
     r.merged_semantics = True
-    if at: r = r.transformed(pya.ICplxTrans(1, at[2], at[3], at[0], at[1]))
+    if at: r = r.transformed(pya.ICplxTrans(at[4] if len(at) > 4 else 1, at[2], at[3], at[0], at[1]))
     return r.merged()
 out = []
 for file, number, parts in json.loads(open(jobs).read()):
@@ -87,10 +87,10 @@ class Cells(unittest.TestCase):
         shutil.rmtree(cls.where)
 
     @classmethod
-    def make(cls, name, cells, wafer="", options=(), source=SIX, formats="all"):
+    def make(cls, name, cells, wafer="", options=(), source=SIX, formats="all", fast=FAST):
         text = source.read_text().replace("<die ", cells + "\n" + wafer + "<die ")
         (cls.where / (name + ".xml")).write_text(text)
-        return subprocess.run([PROGRAM, "mask", name + ".xml", "-o", name, "--mask-format", formats, *FAST, *options], cwd=cls.where, capture_output=True,
+        return subprocess.run([PROGRAM, "mask", name + ".xml", "-o", name, "--mask-format", formats, *fast, *options], cwd=cls.where, capture_output=True,
                               text=True, check=False, timeout=240)
 
     @classmethod
@@ -182,6 +182,15 @@ class Cells(unittest.TestCase):
         self.assertLess(off, 2e-3 * area)
         self.assertEqual(wide, 0)
 
+    def test_what_is_passed_over_is_told(self):
+        """of a cell as of an outline: fillings, remarks and what the drawing does not show are told with their lines"""
+        square = "0\nLWPOLYLINE\n8\nA\n90\n4\n70\n1\n%s" + "".join("10\n%d\n20\n%d\n" % p for p in ((0, 0), (50, 0), (50, 50), (0, 50)))
+        (self.where / "told.dxf").write_text("0\nSECTION\n2\nENTITIES\n" + square % "" + square.replace("10\n", "10\n1") % "60\n1\n"
+                                             + "0\nHATCH\n8\nA\n0\nXLINE\n8\nA\n0\nENDSEC\n0\nEOF\n")
+        done = self.make("told", '<cell file="told.dxf" unit="um" layers="A>77/0"/>', formats="gds", fast=[o for o in FAST if o != "-q"])
+        for says in ("told.dxf, line 29: LWPOLYLINE on layer 'A' is invisible", "HATCH on layer 'A' is not taken", "XLINE on layer 'A' is not taken"):
+            self.assertIn(says, done.stderr)
+
     def test_wafer(self):
         wafer = '<wafer diameter="50.8 mm"><cell file="logo.gds" x="%s mm" y="-32 mm" layers="1/0>mask"/></wafer>'
         self.own("wafer", "", wafer % "5", "gds")
@@ -193,6 +202,31 @@ class Cells(unittest.TestCase):
         done = self.make("over", "", (wafer % "0").replace("-32", "0"))
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("FW-D571", done.stderr)
+
+    def test_scaled_wafer(self):
+        """a cell on the wafer is as large on the written plate as the order's scale has it, mirrored as it is; one beyond the wafer stays, and that is told"""
+        wafer = '<wafer diameter="50.8 mm">%s</wafer><order scale="1.0008" mirror="yes"/>'
+        self.own("bare", "", wafer % "", "gds")
+        rows = [row.split(",") for row in (self.where / "bare/masks" / (FLOW + "-wafer.csv")).read_text().splitlines()[1:]]
+        grid = json.loads((self.where / "bare/masks" / (FLOW + "-wafer.json")).read_text())["grid"]
+        w, h = 0.5 * grid["die_x_mm"] + 0.1, 0.5 * grid["die_y_mm"] + 0.1
+        middles = [(float(row[3]), float(row[4])) for row in rows]
+        x, y = max(((x, y) for x in range(-20, 20) for y in range(10, 24) if math.hypot(max(abs(x), abs(x + 0.9)), y + 0.4) < 25  # of the logo's box
+                    and not any(x < a + w and x + 0.9 > a - w and y - 0.2 < b + h and y + 0.4 > b - h for a, b in middles)),
+                   key=lambda p: math.hypot(*p))
+        cell = '<cell id="%s" file="logo.gds" x="%g mm" y="%g mm" layers="1/0>mask"/>'
+        done = self.make("scaled", "", wafer % (cell % ("on", x, y) + cell % ("beyond", 5, -32)), formats="gds,oasis", fast=[o for o in FAST if o != "-q"])
+        told = [line for line in done.stderr.splitlines() if "FW-D704" in line]
+        self.assertEqual((len(told), "cell beyond" in "".join(told)), (1, True), done.stderr)
+        bare, k = ["bare/masks/%s-plate.gds" % FLOW, [1, 0]], 1.0008
+        parts = [bare, ["logo.gds", [1, 0], [round(-1e6 * k * x), round(1e6 * k * y), 180, True, k]], ["logo.gds", [1, 0], [-5000000, -32000000, 180, True]]]
+        for ending in ("gds", "oas"):
+            (area, off, thick), (before, _, _) = self.compare([["scaled/masks/%s-plate.%s" % (FLOW, ending), [1, 0], parts], [*bare, []]])
+            self.assertGreater(area, before)
+            self.assertEqual(thick, 0)
+            self.assertLess(off, 1e7)  # the grid along the logo's edges: it is 1.6 um larger, as they are long 5e9 nm2
+        far = self.make("far", "", wafer.replace("1.0008", "1.1") % (cell % ("on", x, y)), formats="gds")
+        self.assertIn("cell on of <wafer> reaches", far.stderr)
 
     def test_bad_ones_are_refused(self):
         good = (self.where / "logo.gds").read_bytes()
@@ -280,6 +314,36 @@ pya.Application.instance().exit(0)
         layers = {y["gds"]: y for y in json.loads((self.where / "united/masks" / (FLOW + ".json")).read_text())["layers"]}
         self.assertAlmostEqual(layers["1/0"]["polygon_area_um2"], 1e-6 * area, delta=1e-3)  # counted once
 
+    def test_bias_of_holes(self):
+        """rings, plates with several holes and islands in holes, turned: biased as KLayout sizes them, though holes are cut open; what would vanish is refused"""
+        rng, cells, parts = random.Random(31), "", [["plain/masks/%s.gds" % FLOW, [1, 0]]]
+        script = ("import pya\nl = pya.Layout(); l.dbu = 0.001\ndef ring(x, y, r, n, turn):\n  import math\n"
+                  "  return pya.Polygon([pya.Point(round(x + r * math.cos(turn + 6.283185307 * k / n)), round(y + r * math.sin(turn + 6.283185307 * k / n))) for k in range(n)])\n")
+        bias = json.loads((self.where / "plain/masks" / (FLOW + ".json")).read_text())["bias_um_per_edge"]
+        for k in range(5):
+            rings = [(0, 0, 70000, rng.randint(6, 24)), (-25000, 5000, rng.randint(15000, 24000), rng.randint(5, 20)), (30000, -4000, 20000, rng.randint(5, 20))]
+            rings.append((30000, -4000, 9000, rng.randint(5, 9)))
+            at = (round(1e3 * (-820 + 160 * k)), 3450000)
+            turn = rng.choice((0, 17, 90, 211.5))
+            script += "c = l.create_cell('T%d'); r = pya.Region(); put = pya.ICplxTrans(1, %g, False, %d, %d)\n" % (k, turn, *at)
+            for i, (x, y, radius, n) in enumerate(rings):
+                script += "r %s= pya.Region(ring(%d, %d, %d, %d, %g))\n" % ("+--+"[i], x, y, radius, n, rng.uniform(0, 1))
+            script += ("c.shapes(l.layer(1, 0)).insert(r); w = pya.Layout(); w.dbu = 0.001\n"
+                       "w.create_cell('T').shapes(w.layer(1, 0)).insert(r.transformed(put).sized(%d, 2)); w.write('sized%d.gds')\n" % (round(1e3 * bias), k))
+            cells += '<cell file="holes.gds" cell="T%d" x="%d nm" y="%d nm" angle="%g deg" bias="yes" layers="1/0>mask"/>' % (k, *at, turn)
+            parts.append(["sized%d.gds" % k, [1, 0]])
+        script += "c = l.create_cell('FINE'); c.shapes(l.layer(1, 0)).insert(pya.Region(pya.Box(0, 0, 60000, 60000)) - pya.Region(pya.Box(20000, 20000, 22000, 40000)))\n"
+        klayout(script + "l.write('holes.gds')\npya.Application.instance().exit(0)\n", self.where)
+        done = self.make("holes", cells, formats="gds")
+        for number in (143, 144, 145, 146, 152):
+            self.assertNotIn("FW-D%d" % number, done.stderr)
+        (area, off, thick), (whole, _, _) = self.compare([["holes/masks/%s.gds" % FLOW, [1, 0], parts], ["plain/masks/%s.gds" % FLOW, [1, 0], []]])
+        self.assertGreater(area, whole + 5 * 8e9)
+        self.assertEqual(thick, 0)
+        self.assertLess(off, 1e7)  # nm2: turned points are rounded here before they are moved, there behind it
+        done = self.make("fine", '<cell file="holes.gds" cell="FINE" x="-0.8 mm" y="3.4 mm" bias="yes" layers="1/0>mask"/>', formats="gds", options=())
+        self.assertIn("cell FINE cannot take the bias of 1.1 um", done.stderr)
+
     def test_rules_hold_for_it(self):
         """two micrometres beside the frame: refused; a strip of the frame of two micrometres that sticks out of it, too"""
         for k, at in enumerate(("-0.8952 mm", "-0.9 mm")):
@@ -302,6 +366,21 @@ pya.Application.instance().exit(0)
                                   capture_output=True, text=True, check=False, timeout=240)  # -q leaves warnings out
             for code in ("FW-D722", "FW-D724"):
                 self.assertEqual(code in done.stderr, code == told, (to, x, done.stderr))
+
+    def test_parts_that_nothing_holds_are_told(self):
+        """each part of a cell is looked at by itself: one beside what lies on the frame falls out, one that another cell holds does not"""
+        boxes = {"half": [(-60, -20, 60, 20), (80, -20, 120, 20)], "bridge": [(50, -10, 90, 10)], "island": [(0, 0, 40, 40)]}
+        klayout("import pya\nfor n, boxes in %r.items():\n"
+                "  l = pya.Layout(); l.dbu = 0.001; c = l.create_cell('C')\n"
+                "  c.shapes(l.layer(1, 0)).insert(pya.Region([pya.Box(*[1000 * v for v in b]) for b in boxes])); l.write(n + '.gds')\n"
+                "pya.Application.instance().exit(0)\n" % boxes, self.where)
+        for cells, told in ((("half",), "cell half: 1 of its 2 parts, from (-820, 3580) to (-780, 3620) um, hangs together with nothing"),
+                            (("half", "bridge"), None), (("island",), None), (("half", "bridge", "island"), None)):
+            text = "".join('<cell id="%s" file="%s.gds" x="-0.9 mm" y="3.6 mm" layers="1/0>mask"/>' % (n, n) for n in cells)
+            done = self.make("parts", text, formats="gds", fast=[o for o in FAST if o != "-q"])
+            said = [line for line in done.stderr.splitlines() if "FW-D574" in line]
+            self.assertEqual(len(said), int(told is not None), (cells, done.stderr))
+            self.assertTrue(told is None or told in said[0], said)
 
     def test_cells_around_what_is_there(self):
         """cells around others, one of them with an arm over the frame and two cells in it: one region with them, whatever their order"""

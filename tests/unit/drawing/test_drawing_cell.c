@@ -257,6 +257,12 @@ static void paths_are_strokes(void **state) {
     assert_relative(stroke_area(0, -4000, bend, 4, 1e-9, 0), 70 * 4, 1e-12);
     /* two units of 0.5 nm: half as long, half as wide */
     assert_relative(stroke_area(0, 4000, bend, 4, 0.5e-9, 0), 70, 1e-12);
+    /* turned by 135 degrees, it is cut off half a width behind its point, as KLayout has it: 4 (40 + 30 sqrt 2) um2
+       less 4 tan 67.5 deg inside, and 4 + 2 sqrt 2 um2 outside */
+    static const long sharp[][2] = {{0, 0}, {40000, 0}, {10000, 30000}};
+    assert_relative(stroke_area(0, 4000, sharp, 3, 1e-9, 1),
+                    4 * (40 + 30 * sqrt(2.0)) - 4 * tan(67.5 * FW_PI / 180) + 4 + 2 * sqrt(2.0),
+                    1e-4);
     double a = stroke_area(0, 4000, hook, 3, 1e-9, 1), b = stroke_area(0, 4000, tight, 4, 1e-9, 0);
     /* at least one of its two arms and less than both; no mitre runs away */
     assert_true(a > 40 * 4 && a < 2 * 41 * 4);
@@ -268,7 +274,9 @@ static bool shared(const fw_drawing_cell_layer *layer, int of, const fw_geometry
     for (int i = 0; i < layer->n; i++)
         for (int k = 0; i != of && k < layer->outline[i].count; k++) {
             const fw_geometry_segment *t = &layer->outline[i].segment[k];
-            if (hypot(s->a.x - t->b.x, s->a.y - t->b.y) + hypot(s->b.x - t->a.x, s->b.y - t->a.y) < 1e-12) return true;
+            if (hypot(s->a.x - t->b.x, s->a.y - t->b.y) + hypot(s->b.x - t->a.x, s->b.y - t->a.y) <
+                1e-12)
+                return true;
         }
     return false;
 }
@@ -291,12 +299,11 @@ static void rings_are_cut(void **state) {
     assert_relative(area(&c.layer[0]), 800 * UM * UM, 1e-12);
     assert_true(c.layer[0].n >= 2);
     for (int i = 0; i < c.layer[0].n; i++)
-        for (int k = 0; k < c.layer[0].outline[i].count; k++)
-            {
-                const fw_geometry_segment *one = &c.layer[0].outline[i].segment[k];
-                assert_int_equal((one->flags & FW_SEGMENT_JOINT) != 0, shared(&c.layer[0], i, one));
-                joints += (one->flags & FW_SEGMENT_JOINT) != 0;
-            }
+        for (int k = 0; k < c.layer[0].outline[i].count; k++) {
+            const fw_geometry_segment *one = &c.layer[0].outline[i].segment[k];
+            assert_int_equal((one->flags & FW_SEGMENT_JOINT) != 0, shared(&c.layer[0], i, one));
+            joints += (one->flags & FW_SEGMENT_JOINT) != 0;
+        }
     assert_true(joints >= 4 && joints % 2 == 0);
     fw_arena_free(arena);
 }
@@ -482,10 +489,15 @@ static void damage_is_survived(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(references_are_followed), cmocka_unit_test(layers_are_merged),
-        cmocka_unit_test(paths_are_strokes),       cmocka_unit_test(rings_are_cut),
-        cmocka_unit_test(off_grid_is_noted),       cmocka_unit_test(bad_files_are_refused),
-        cmocka_unit_test(empty_arrays_end), cmocka_unit_test(what_lies_upon_itself_is_refused),        cmocka_unit_test(damage_is_survived),
+        cmocka_unit_test(references_are_followed),
+        cmocka_unit_test(layers_are_merged),
+        cmocka_unit_test(paths_are_strokes),
+        cmocka_unit_test(rings_are_cut),
+        cmocka_unit_test(off_grid_is_noted),
+        cmocka_unit_test(bad_files_are_refused),
+        cmocka_unit_test(empty_arrays_end),
+        cmocka_unit_test(what_lies_upon_itself_is_refused),
+        cmocka_unit_test(damage_is_survived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -96,11 +96,31 @@ static void what_is_passed_over(void **state) {
     fw_drawing d;
     assert_int_equal(fw_drawing_read(arena, text, strlen(text), &asked, &diags, &d), FW_OK);
     assert_int_equal(d.count, 1);
-    assert_int_equal(diags.count, 2);
-    for (size_t i = 0; i < 2; i++) {
+    static const char *const told[] = {"DIMENSION on layer 'jaw'", "HATCH on layer 'jaw'", "MTEXT on layer 'jaw'"};
+    assert_int_equal(diags.count, 3);
+    for (size_t i = 0; i < 3; i++) {
         assert_int_equal(diags.item[i].number, 723);
-        assert_non_null(strstr(diags.item[i].message, i ? "MTEXT on layer 'jaw'" : "HATCH on layer 'jaw'"));
+        assert_non_null(strstr(diags.item[i].message, told[i]));
     }
+    fw_arena_free(arena);
+}
+
+/* what the drawing does not show is not taken, which is told once; an arc of a full turn is a circle */
+static void invisible_and_full_arcs(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+#define HIDDEN(layer) "0\nCIRCLE\n8\n" layer "\n60\n1\n10\n500\n20\n0\n40\n9\n"
+    static const char text[] =
+        HEAD("13") ENTITIES(HIDDEN("other") ARC("jaw", "0", "0", "20", "0", "360") HIDDEN("jaw") HIDDEN("jaw"));
+    fw_drawing_asked asked = asked_for("jaw", NULL, NONE);
+    fw_diags diags = fw_diags_new(arena);
+    fw_drawing d;
+    assert_int_equal(fw_drawing_read(arena, text, strlen(text), &asked, &diags, &d), FW_OK);
+    assert_int_equal(d.count, 1);
+    assert_relative(area(&d), M_PI * 400 * UM * UM, 1e-12);
+    assert_int_equal(diags.count, 1);
+    assert_int_equal(diags.item[0].number, 705);
+    assert_non_null(strstr(diags.item[0].message, "CIRCLE on layer 'jaw' is invisible"));
     fw_arena_free(arena);
 }
 
@@ -428,6 +448,7 @@ static void damaged_files(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polylines_and_circles), cmocka_unit_test(what_is_passed_over),
+        cmocka_unit_test(invisible_and_full_arcs),
         cmocka_unit_test(chains),
         cmocka_unit_test(heavy_polyline),        cmocka_unit_test(blocks),
         cmocka_unit_test(dxf_is_refused),

@@ -248,6 +248,18 @@ static void random_sets(void **state) {
         if (status) fail_msg("round %u, size %d: %s", round, (int)size, fw_status_text(status));
         crossed += m.rounded;
         if (size > 100) check_parts(&m);
+        /* as it is bounded: as many lines, which enclose the same area by their depths */
+        fw_geometry_polygon *loop;
+        int *depth, n;
+        int64_t area2 = 0;
+        assert_int_equal(fw_geometry_merge_loops(arena, in, POLYGONS, term, 4, &loop, &depth, &n),
+                         FW_OK);
+        assert_int_equal(n, m.outlines + m.holes);
+        for (int i = 0; i < n; i++) {
+            assert_true(fw_geometry_polygon_area2(&loop[i]) > 0);
+            area2 += (depth[i] % 2 ? -1 : 1) * fw_geometry_polygon_area2(&loop[i]);
+        }
+        assert_true(area2 == m.area2_dbu);
         for (int k = 0; k < 300; k++) {
             double x = roll(size) + 0.5, y = roll(size) + 0.5;
             bool near = false, want = wanted(in, term, 4, x, y, &near);
