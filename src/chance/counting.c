@@ -66,7 +66,7 @@ static double lower(size_t failed, size_t points, double tail) {
    at all included, where Wilson's falls short for rare failures; the cost is some width. What was not evaluated counts as
    safe for the lower end and as failed for the upper. Source: C. J. Clopper, E. S. Pearson, Biometrika 26 (1934) 404. Test:
    test_estimate.c */
-static void count_interval(const fw_chance_count *count, double level, fw_chance_estimate *out) {
+void fw_chance_counted(const fw_chance_count *count, double level, fw_chance_estimate *out) {
     size_t n = count->points, most = count->failed + count->unevaluated;
     double p = (double)count->failed / (double)n, q = (double)most / (double)n,
            tail = (1 - level) / 2;
@@ -108,7 +108,7 @@ fw_status fw_chance_monte_carlo(fw_chance_run *run, fw_chance_estimate *out) {
         FW_TRY(fw_chance_evaluate_apart(run, now, u, value));
         for (size_t i = 0; i < now; i++)
             fw_chance_count_add(&count, value[i]);
-        count_interval(&count, run->level, out);
+        fw_chance_counted(&count, run->level, out);
         fw_chance_trace(run, out, out);
     }
     return FW_OK;
@@ -139,7 +139,7 @@ static fw_status replicate(fw_chance_run *run, size_t number, size_t points, dou
 
 static void quasi_result(const fw_chance_count *all, size_t replicates, const double *low,
                          const double *high, double level, fw_chance_estimate *out) {
-    count_interval(all, level, out);
+    fw_chance_counted(all, level, out);
     if (replicates < 2) return; /* one mean has no interval, its count has */
     fw_chance_mean least = fw_chance_mean_of(replicates, low, level);
     fw_chance_mean most = fw_chance_mean_of(replicates, high, level);
@@ -288,9 +288,18 @@ static fw_status next_level(fw_chance_run *run, stage *l, size_t kept, double st
     return FW_OK;
 }
 
-/* some of the failing points of the last level, from the highest value down: what lies deepest is in one place, what is
-   near the limit shows all of it. Room is left for four repetitions. */
-static void keep_failing(const stage *l, size_t within, fw_chance_subset *s) {
+/* Some of the failing points of the last level, from the highest value down: what lies deepest is in one place, what is
+   near the limit shows all of it. Room is left for four repetitions. Where none fails the nearest to it stand for them:
+   `reach` is how far out they lie, as if behind a plane. */
+static void keep_failing(const stage *l, size_t within, double product, fw_chance_subset *s) {
+    const bool met = within > 0;
+    if (!met) {
+        within = l->points / CHAIN;
+        product *= (double)within / (double)l->points;
+    }
+    if (!met && s->failing > 0 && s->reach <= 0) return; /* others do fail */
+    if (met && s->reach > 0) s->failing = 0;
+    s->reach = met ? 0 : -fw_maths_normal_quantile(product);
     size_t most = s->failing + KEPT_POINTS / 4;
     if (most > KEPT_POINTS) most = KEPT_POINTS;
     for (size_t i = within; i-- > 0 && s->failing < most;)
@@ -315,8 +324,8 @@ static size_t kept_of(const stage *l) {
     return kept;
 }
 
-/* one repetition, in `left` evaluations at most; where they or the levels do not reach, the last level reached is the upper
-   estimate */
+/* one repetition, in `left` evaluations at most; where they or the levels do not reach a failure, the last level reached is
+   what a failure is at most as likely as, and no estimate of it */
 static fw_status repetition(fw_chance_run *run, size_t left, uint64_t seed, fw_chance_subset *s) {
     stage l;
     FW_TRY(level_new(run, s->points, seed, &l));
@@ -337,9 +346,11 @@ static fw_status repetition(fw_chance_run *run, size_t left, uint64_t seed, fw_c
         learn(s, k, accepted);
     }
     s->stuck += !down && kept == l.points;
-    s->high[s->repetitions] = product * (within ? (double)within / (double)l.points : 1);
+    s->unmet += within == 0;
+    s->high[s->repetitions] = product * (double)within / (double)l.points;
+    s->most[s->repetitions] = within ? s->high[s->repetitions] : product;
     s->low[s->repetitions++] = product * (double)failed / (double)l.points;
-    keep_failing(&l, within, s);
+    keep_failing(&l, within, product, s);
     return FW_OK;
 }
 
@@ -359,12 +370,13 @@ fw_status fw_chance_subset_start(fw_chance_run *run, size_t budget, size_t wante
     *s = (fw_chance_subset){.points = LEAST_POINTS, .capacity = capacity, .reached = -1};
     FW_NEED(s->low = fw_arena_array(run->arena, double, capacity));
     FW_NEED(s->high = fw_arena_array(run->arena, double, capacity));
+    FW_NEED(s->most = fw_arena_array(run->arena, double, capacity));
     FW_NEED(s->failed = fw_arena_array(run->arena, double, KEPT_POINTS * run->limit->dimensions));
     s->step[0] = 0.7;
     size_t start = run->used, share = budget < 2 * LEAST_POINTS ? budget : budget / 2;
     if (share < LEAST_POINTS) return FW_OK;
     FW_TRY(repeat_once(run, share, UINT64_MAX, s));
-    s->repetitions = s->stuck = 0; /* it is not counted */
+    s->repetitions = s->stuck = s->unmet = 0; /* it is not counted */
     double levels = 1 + (double)(run->used - start - LEAST_POINTS) / LEAST_POINTS + 0.9;
     double points = (double)(budget - (run->used - start)) / ((double)wanted * levels);
     s->points = (size_t)fmin(MOST_POINTS, fmax(LEAST_POINTS, points)) / CHAIN * CHAIN;
@@ -414,10 +426,33 @@ static fw_chance_mean result_of(size_t count, const double *estimate, double lev
                             fmin(1, exp(mean + variance / 2 + half))};
 }
 
+/* What a failure is at most as likely as, where no repetition met one: the mean of the shares below their last levels,
+   times what these may be off by. Each of k levels scatters by sqrt(9 (1 + c)/N) of itself with N points of which a tenth
+   is kept, where c is what points of one chain have in common: 2.6 were measured for planes, shells and branches, and 3
+   are taken (S.-K. Au, J. L. Beck, Prob. Eng. Mech. 16 (2001) 263). Repetitions have one and the same share below levels of
+   their own, so that their own scatter says nothing. Test: test_automatic.c, unmet */
+static double unmet(const fw_chance_subset *s, double level) {
+    const double rest = 1 - 1.0 / CHAIN, common = 3;
+    double mean = 0, levels = 0, n = (double)s->repetitions;
+    for (size_t i = 0; i < s->repetitions; i++) {
+        mean += s->most[i] / n;
+        levels += -log(s->most[i]) / log(CHAIN) / n;
+    }
+    double scatter = sqrt(levels * rest * CHAIN * (1 + common) / (double)s->points / n);
+    return fmin(1, mean * exp(fw_maths_normal_quantile((1 + level) / 2) * scatter));
+}
+
+bool fw_chance_subset_unmet(const fw_chance_subset *s) {
+    return s->repetitions > 0 && s->unmet == s->repetitions;
+}
+
 void fw_chance_subset_result(const fw_chance_subset *s, double level, fw_chance_estimate *out) {
     fw_chance_mean least = result_of(s->repetitions, s->low, level),
                    most = result_of(s->repetitions, s->high, level);
     out->probability_low = least.mean, out->probability_high = most.mean;
     out->low = least.low, out->high = most.high;
+    if (s->unmet > 0 && s->repetitions > 1) /* some of them: 0 is no upper end */
+        out->high = fmax(most.high, fw_chance_mean_of(s->repetitions, s->most, level).high);
     out->standard_error = fmax(least.standard_error, most.standard_error);
+    if (fw_chance_subset_unmet(s)) out->high = unmet(s, level), out->standard_error = (double)NAN;
 }

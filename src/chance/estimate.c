@@ -83,26 +83,43 @@ static fw_status weighted_to_the_end(fw_chance_run *run, fw_chance_weighted *w,
     return FW_OK;
 }
 
-static const char *caution_of(fw_arena *arena, const fw_chance_weighted *w, double level) {
+/* first: points of the inputs' own distribution before, none of which failed */
+static const char *caution_of(fw_arena *arena, const fw_chance_weighted *w, size_t first,
+                              double level) {
     char text[32];
-    double unseen = -expm1(log(1 - level) / fmax(1, (double)w->own));
+    const size_t own = w->own + first;
+    double unseen = -expm1(log(1 - level) / fmax(1, (double)own));
     return fw_arena_printf(arena,
                            "a failure, or a point without a value, that is far from all design "
                            "points and that none of %zu points of the inputs' own distribution "
                            "met, is not in the interval; it would be rarer than %s",
-                           w->own, fw_number_text(text, sizeof text, unseen, 2));
+                           own, fw_number_text(text, sizeof text, unseen, 2));
 }
 
 static const char *const no_repetition =
     "there was one repetition of subset simulation only: a greater budget gives an interval";
+
+static fw_status caution_of_subsets(fw_arena *arena, const fw_chance_subset *s,
+                                    fw_chance_estimate *out) {
+    char text[32];
+    if (fw_chance_subset_unmet(s))
+        FW_NEED(out->caution = fw_arena_printf(
+                    arena,
+                    "no failure was met, and whether there is one is not known: subset simulation "
+                    "ended at a limit that is not the device's but nearer, below which %s of all "
+                    "points lie, by several times more or less",
+                    fw_number_text(text, sizeof text, s->most[0], 2)));
+    else if (s->repetitions < 2)
+        out->caution = no_repetition;
+    return FW_OK;
+}
 
 static fw_status by_subsets(fw_chance_run *run, fw_chance_estimate *out) {
     fw_chance_subset s;
     if (run->limit->apart) return FW_LIMIT;
     FW_TRY(subsets_start(run, fw_chance_left(run), REPEATED, &s));
     FW_TRY(subsets_to_the_end(run, &s, out));
-    if (s.repetitions < 2) out->caution = no_repetition;
-    return FW_OK;
+    return caution_of_subsets(run->arena, &s, out);
 }
 
 static fw_status by_design_points(fw_chance_run *run, fw_chance_estimate *out) {
@@ -112,12 +129,12 @@ static fw_status by_design_points(fw_chance_run *run, fw_chance_estimate *out) {
     size_t start = run->used, budget = part(run, OF_EXPLORED);
     FW_TRY(subsets_start(run, budget, EXPLORED, &s));
     FW_TRY(subsets(run, budget - (run->used - start), EXPLORED, &s));
-    FW_TRY(fw_chance_points_find(run, part(run, 2 * OF_POINTS), s.failing, s.failed, &points));
+    FW_TRY(fw_chance_points_find(run, part(run, 2 * OF_POINTS), &s, &points));
     if (!points.count) return FW_SOLVER;
     fw_chance_weighted_start(&points, &w);
     FW_TRY(weighted_to_the_end(run, &w, out));
     out->points = points.count, out->point = points.point;
-    FW_NEED(out->caution = caution_of(run->arena, &w, run->level));
+    FW_NEED(out->caution = caution_of(run->arena, &w, 0, run->level));
     return FW_OK;
 }
 
@@ -174,7 +191,8 @@ static fw_status why_counted(fw_chance_run *run, const fw_chance_count *c, const
 static const char *why_not_points(const fw_chance_points *points, const fw_chance_weighted *w,
                                   const fw_chance_subset *s) {
     if (!points->count) return "no design point was found";
-    if (fw_chance_weighted_effective(w) < EFFECTIVE)
+    const double even = fw_chance_weighted_of_plane(w) / 2; /* of few points even a plane has few */
+    if (fw_chance_weighted_effective(w) < fmin(EFFECTIVE, even))
         return "the failures met around the design points have uneven weights";
     fw_chance_estimate here, there;
     fw_chance_weighted_result(w, SURE, &here);
@@ -189,7 +207,8 @@ typedef struct rare {
     fw_chance_subset subset;
     fw_chance_points points;
     fw_chance_weighted weighted;
-    bool flat; /* nothing leads towards a failure */
+    size_t first; /* points before, where all of them are safe */
+    bool flat;    /* nothing leads towards a failure */
 } rare;
 
 static fw_status explore(fw_chance_run *run, rare *r) {
@@ -200,8 +219,7 @@ static fw_status explore(fw_chance_run *run, rare *r) {
     r->flat = s->stuck > 0;
     if (r->flat) return FW_OK;
     FW_TRY(subsets(run, stop - run->used, EXPLORED - 1, s));
-    FW_TRY(fw_chance_points_find(run, part(run, OF_POINTS), r->subset.failing, r->subset.failed,
-                                 &r->points));
+    FW_TRY(fw_chance_points_find(run, part(run, OF_POINTS), s, &r->points));
     fw_chance_weighted_start(&r->points, &r->weighted);
     size_t tried = TRIED < part(run, OF_PILOT) ? TRIED : part(run, OF_PILOT);
     return r->points.count ? weighted(run, tried, true, &r->weighted) : FW_OK;
@@ -213,25 +231,49 @@ static fw_status go_on(fw_chance_run *run, rare *r, bool around_points, fw_chanc
     if (around_points) {
         out->method = FW_CHANCE_IMPORTANCE;
         FW_TRY(weighted_to_the_end(run, &r->weighted, out));
-        FW_NEED(out->caution = caution_of(run->arena, &r->weighted, run->level));
+        FW_NEED(out->caution = caution_of(run->arena, &r->weighted, r->first, run->level));
         return FW_OK;
     }
     out->method = FW_CHANCE_SUBSET;
     if (run->limit->apart) return FW_LIMIT; /* one machine has to do it */
     FW_TRY(subsets_to_the_end(run, &r->subset, out));
-    if (r->subset.repetitions < 2) out->caution = no_repetition;
-    return FW_OK;
+    return caution_of_subsets(run->arena, &r->subset, out);
+}
+
+/* Distributions' tails are not known so far out that less than this could be said of anything. */
+static const double tails_known = 1e-12;
+
+/* Ends that the first points alone say are never given up, unless the estimate lies beyond them, and what tails are not
+   known for is not told. */
+static void no_less_than_counted(const fw_chance_count *first, fw_chance_estimate *out) {
+    fw_chance_estimate c;
+    fw_chance_counted(first, out->level, &c);
+    if (out->probability_high < c.low || out->probability_low > c.high) return;
+    out->low = fmax(out->low, c.low), out->high = fmin(out->high, c.high);
+    if (out->low < tails_known) out->low = 0;
+    out->high = fmax(out->high, tails_known);
+    for (size_t k = 0; k < out->steps; k++) {
+        fw_chance_step *s = &out->step[k];
+        if (s->probability < c.low || s->probability > c.high) continue;
+        s->low = fmax(s->low, c.low), s->high = fmin(s->high, c.high);
+        if (s->low < tails_known) s->low = 0;
+        s->high = fmax(s->high, tails_known);
+    }
 }
 
 /* Decides by points of its own whether failures are common; if not, explores with subset simulation, looks for design
    points from the origin and from the failing points that it found, samples around these, and takes that unless it
    contradicts subset simulation or a few heavy weights decide. Nothing that decided is in the numbers that are reported,
-   but the first 1500 points around the design points and the first repetitions of subset simulation: these are part of
-   what is taken whether or not it is taken. Test: test_automatic.c */
+   but the first 1500 points around the design points and the first repetitions of subset simulation, which are part of
+   what is taken whether or not it is taken, and the count of the first points, beyond whose ends no interval goes. Test: test_automatic.c */
 static fw_status automatic(fw_chance_run *run, fw_chance_estimate *out) {
     enum { SMALL_BUDGET = 3000 };
     if (run->budget < SMALL_BUDGET)
-        return counted(run, "the budget is too small for anything but counting", out);
+        return counted(
+            run,
+            "the budget is too small for anything but counting: where failures are rare, "
+            "3000 points and more go to where they are",
+            out);
     fw_chance_count count = {0};
     const char *because;
     rare r;
@@ -239,6 +281,7 @@ static fw_status automatic(fw_chance_run *run, fw_chance_estimate *out) {
     FW_TRY(why_counted(run, &count, &because));
     if (because) return counted(run, because, out);
     FW_TRY(explore(run, &r));
+    r.first = count.failed + count.unevaluated > 0 ? 0 : count.points;
     if (r.flat)
         return counted(run, "the limit state shows no way towards a failure: there is but counting",
                        out);
@@ -247,7 +290,9 @@ static fw_status automatic(fw_chance_run *run, fw_chance_estimate *out) {
     FW_NEED(out->reason = fw_arena_printf(
                 run->arena, "%zu of the first %zu points fail, which is too rare to count, and %s",
                 count.failed, count.points, why_not ? why_not : because));
-    return go_on(run, &r, !why_not, out);
+    FW_TRY(go_on(run, &r, !why_not, out));
+    no_less_than_counted(&count, out);
+    return FW_OK;
 }
 
 /* ---- one estimate by the method asked for ---- */

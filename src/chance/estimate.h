@@ -167,6 +167,8 @@ typedef struct fw_chance_count {
     size_t points, failed, unevaluated;
 } fw_chance_count;
 void fw_chance_count_add(fw_chance_count *count, double value);
+/* probabilities, interval and error of a count of at least one point */
+void fw_chance_counted(const fw_chance_count *count, double level, fw_chance_estimate *out);
 
 /* what `now` says becomes a step of *out; of more than there is room for every second one stays */
 void fw_chance_trace(const fw_chance_run *run, const fw_chance_estimate *now,
@@ -193,9 +195,13 @@ typedef struct fw_chance_subset {
     size_t stuck;
     double *low,
         *high; /* (repetitions) estimates, what was not evaluated counted as safe and as failed */
+    size_t unmet;   /* repetitions that ended before any point failed */
+    double *most;   /* (repetitions) high, or where none failed what is below the last level */
     size_t planned; /* evaluations of a repetition, with a level to spare */
     size_t failing;
-    double *failed; /* (failing x dimensions) failing points of the last levels */
+    double *
+        failed; /* (failing x dimensions) failing points of the last levels, or the nearest to it */
+    double reach; /* 0: they fail; else how many standard deviations out they lie, about */
     double step[FW_CHANCE_LEVELS + 1]; /* length of the chains' steps at each level */
     int reached;                       /* the last level that has taught its own */
 } fw_chance_subset;
@@ -206,7 +212,10 @@ fw_status fw_chance_subset_start(fw_chance_run *run, size_t budget, size_t wante
 /* repetitions while what is planned for one fits into `budget`, `most` at most */
 fw_status fw_chance_subset_repeat(fw_chance_run *run, size_t budget, size_t most,
                                   fw_chance_subset *subset);
-/* with fewer than two repetitions the interval is [0, 1] */
+/* did none of the repetitions that there are meet a failure? Then the estimate is 0, and its upper end what is below the
+   last levels */
+bool fw_chance_subset_unmet(const fw_chance_subset *subset);
+/* with fewer than two repetitions, of which one met a failure, the interval is [0, 1] */
 void fw_chance_subset_result(const fw_chance_subset *subset, double level, fw_chance_estimate *out);
 
 /* ---- design points ---- */
@@ -219,10 +228,10 @@ typedef struct fw_chance_points {
     fw_chance_design_point *point; /* (FW_CHANCE_POINTS_MOST), nearest first */
 } fw_chance_points;
 
-/* from the origin and from those of the `starts` points (starts x dimensions) that lie beyond none of the points found
-   before, in at most `budget` evaluations */
-fw_status fw_chance_points_find(fw_chance_run *run, size_t budget, size_t starts,
-                                const double *start, fw_chance_points *out);
+/* from the origin and from those of the points that subset simulation kept which lie beyond none of the points found before,
+   in at most `budget` evaluations */
+fw_status fw_chance_points_find(fw_chance_run *run, size_t budget, const fw_chance_subset *from,
+                                fw_chance_points *out);
 
 /* ---- importance sampling around them ---- */
 
@@ -240,8 +249,10 @@ void fw_chance_weighted_start(const fw_chance_points *points, fw_chance_weighted
 /* chooses: the method is chosen by these */
 fw_status fw_chance_weighted_draw(fw_chance_run *run, size_t samples, bool chooses,
                                   fw_chance_weighted *weighted);
-/* how many failures of equal weight would be as good: sum^2/(sum of squares) */
+/* how many failures of equal weight would be as good: sum^2/(sum of squares); and how many they would be of a plane at the
+   nearest design point */
 double fw_chance_weighted_effective(const fw_chance_weighted *weighted);
+double fw_chance_weighted_of_plane(const fw_chance_weighted *weighted);
 void fw_chance_weighted_result(const fw_chance_weighted *weighted, double level,
                                fw_chance_estimate *out);
 

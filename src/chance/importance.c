@@ -141,10 +141,13 @@ static fw_status keep(const search *s, fw_chance_points *out) {
     return FW_OK;
 }
 
-/* Is a failing point where a design point leads to expect it: beyond nine tenths of its tangent plane's distance? */
-static bool explained(const fw_chance_points *points, size_t n, const double *u) {
-    for (size_t k = 0; k < points->count; k++)
-        if (-dot(n, points->point[k].alpha, u) >= 0.9 * fabs(points->point[k].beta)) return true;
+/* Is a point where a design point leads to expect it: beyond nine tenths of its tangent plane's distance, or of how far out
+   those lie that do not fail yet (reach, 0: they fail)? */
+static bool explained(const fw_chance_points *points, size_t n, const double *u, double reach) {
+    for (size_t k = 0; k < points->count; k++) {
+        const double beta = fabs(points->point[k].beta), far = reach > 0 ? fmin(beta, reach) : beta;
+        if (-dot(n, points->point[k].alpha, u) >= 0.9 * far) return true;
+    }
     return false;
 }
 
@@ -154,8 +157,8 @@ static int nearer(const void *a, const void *b) {
     return (one > other) - (one < other);
 }
 
-fw_status fw_chance_points_find(fw_chance_run *run, size_t budget, size_t starts,
-                                const double *start, fw_chance_points *out) {
+fw_status fw_chance_points_find(fw_chance_run *run, size_t budget, const fw_chance_subset *from,
+                                fw_chance_points *out) {
     size_t n = run->limit->dimensions, rows = n > STEPS ? n : STEPS;
     search s = {.run = run, .n = n, .stop = run->used + budget};
     *out = (fw_chance_points){.count = 0};
@@ -168,11 +171,11 @@ fw_status fw_chance_points_find(fw_chance_run *run, size_t budget, size_t starts
     FW_TRY(fw_chance_evaluate(run, 1, s.u, &s.g));
     out->origin_fails = s.g <= 0;
     s.scale = fmax(fabs(s.g), DBL_MIN);
-    for (size_t i = 0; i <= starts && affordable(&s, n + STEPS + 1); i++) {
-        const double *from = i ? start + (i - 1) * n : NULL;
-        if (from && explained(out, n, from)) continue;
+    for (size_t i = 0; i <= from->failing && affordable(&s, n + STEPS + 1); i++) {
+        const double *start = i ? from->failed + (i - 1) * n : NULL;
+        if (start && explained(out, n, start, from->reach)) continue;
         memset(s.u, 0, n * sizeof *s.u);
-        if (from) memcpy(s.u, from, n * sizeof *from);
+        if (start) memcpy(s.u, start, n * sizeof *start);
         bool found;
         FW_TRY(iterate(&s, &found));
         if (found) FW_TRY(keep(&s, out));
@@ -273,6 +276,12 @@ fw_status fw_chance_weighted_draw(fw_chance_run *run, size_t samples, bool choos
 
 double fw_chance_weighted_effective(const fw_chance_weighted *w) {
     return w->square[0] > 0 ? w->sum[0] * w->sum[0] / w->square[0] : 0;
+}
+
+/* by (4) of docs/theory/chance.md, whose right side is beta sqrt(pi/2) far out */
+double fw_chance_weighted_of_plane(const fw_chance_weighted *w) {
+    const double beta = w->points->count ? fabs(w->points->point[0].beta) : 0;
+    return (1 - OWN) * (double)w->samples / (1 + 1.2533141373155 * beta);
 }
 
 typedef struct part {

@@ -43,7 +43,8 @@ bool fw_plan_is_final(fw_status status) {
 
 /* a plan of its own for messages and memory, over the packs of this one */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
-                           const fw_device **device, fw_verdict_variant_verdict *variant) {
+                           fw_diags *said, const fw_device **device,
+                           fw_verdict_variant_verdict *variant) {
     size_t n = (size_t)plan->options.nset, more = (size_t)nset;
     fw_device_set *sets = fw_arena_array(arena, fw_device_set, n + more);
     fw_plan_flow *flow = fw_arena_array(arena, fw_plan_flow, (size_t)plan->nflow);
@@ -52,15 +53,17 @@ fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device
     if (nset > 0) memcpy(sets + n, set, more * sizeof *sets); /* of two for one the last holds */
     memcpy(flow, plan->flow, (size_t)plan->nflow * sizeof *flow);
     fw_plan other = *plan;
+    fw_diags none = fw_diags_new(arena);
+    if (!said) said = &none;
     other.arena = arena;
-    other.diags = fw_diags_new(arena);
     other.flow = flow;
-    FW_TRY(
-        fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, &other.diags, device));
-    FW_TRY(fw_plan_take_device(&other, *device));
-    for (int i = 0; i < plan->nflow; i++)
-        FW_TRY(fw_plan_fabricated_of(arena, &flow[i], &variant[i]));
-    return FW_OK;
+    FW_TRY(fw_plan_device_again(&other, arena, sets, plan->options.nset + nset, said, device));
+    other.diags = *said;
+    fw_status status = fw_plan_take_device(&other, *device);
+    *said = other.diags;
+    for (int i = 0; i < plan->nflow && status == FW_OK; i++)
+        status = fw_plan_fabricated_of(arena, &flow[i], &variant[i]);
+    return status;
 }
 
 /* of the same packs and materials, in the same order? */
@@ -300,7 +303,7 @@ static fw_status add_step(fw_plan *plan, fw_arena *scratch, int v, of_flow *of,
     FW_TRY(fw_plan_step_name(plan, v, &name));
     FW_TRY(fw_plan_sweep_settings(plan, v, &set, value));
     fw_status status = fw_plan_restated(plan, scratch, set + plan->options.nset,
-                                        plan->device->wafer.nsweep, &device, variant);
+                                        plan->device->wafer.nsweep, NULL, &device, variant);
     if (status == FW_OK) status = add_device(plan, scratch, name, device, variant, of, swept);
     return fw_plan_is_final(status) ? status : FW_OK;
 }

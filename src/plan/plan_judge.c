@@ -26,7 +26,7 @@ static fw_status fabricated_of(void *context, fw_arena *arena, const fw_device *
 
 static fw_status restated(void *plan, fw_arena *arena, const fw_device_set *set, int nset,
                           const fw_device **device, fw_verdict_variant_verdict *variant) {
-    return fw_plan_restated((const fw_plan *)plan, arena, set, nset, device, variant);
+    return fw_plan_restated((const fw_plan *)plan, arena, set, nset, NULL, device, variant);
 }
 
 /* how tethers are broken, and which of them stand in the way of their own bodies */

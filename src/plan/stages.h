@@ -13,9 +13,10 @@ enum {
    not */
 fw_status fw_plan_need_material(fw_plan *plan);
 /* the description of a loaded plan read again with nset more settings, and its variants, in `arena`;
-   what was read of packs is shared. FW_INPUT: they are not allowed, and nothing says why */
+   what was read of packs is shared. FW_INPUT: they are not allowed; *said, where there is one, says why */
 fw_status fw_plan_restated(const fw_plan *plan, fw_arena *arena, const fw_device_set *set, int nset,
-                           const fw_device **device, fw_verdict_variant_verdict *variant);
+                           fw_diags *said, const fw_device **device,
+                           fw_verdict_variant_verdict *variant);
 /* A loaded plan with other settings in place of its own, which must live as long as it: the description is
    read again, what was read of packs stays. *same false: it names other packs or materials, or has mistakes;
    the plan is of no further use then. */

@@ -7,7 +7,7 @@
    best of these with its inputs at the ends of their ranges; and one search more, by models of all that was judged, with
    what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
    is sought alone, then the first with the second held at nine levels between (epsilon constraints; Haimes, Lasdon, Wismer
-   1971), and the front is what no other one of all that was judged and accepted beats. Nothing is proved: a better one may
+   1971; at fewer where the budget has not enough for searches at all of them), and the front is what no other one of all that was judged and accepted beats. Nothing is proved: a better one may
    be where nobody looked.
 
    At a wanted yield all of these are only what further searches begin with (study_search.c).
@@ -43,7 +43,10 @@ typedef struct sizing {
     long lists;            /* combinations of listed values */
     fw_study_sample *kept; /* (nkept) all that was judged, of the first look in their order */
     int nkept;
-    long nend; /* devices at ends of ranges */
+    long nend;             /* devices at ends of ranges */
+    int for_ends;          /* devices kept for the ends */
+    bool ranged;           /* an input is of a range */
+    int levels, held_most; /* of two goals: levels of the second, devices of a search at one */
 } sizing;
 
 /* ---- what is small, and what must not be above 0 ---- */
@@ -371,29 +374,74 @@ static fw_status tell_what_limits(sizing *s) {
     return r->nfound == 1 && s->ngoal == 1 ? fw_study_tell_limits(s->study, r->found) : FW_OK;
 }
 
-/* Devices of each search for a goal alone, where two share the budget: at least as many as get somewhere, up to half of
-   what there is, since a front reaches no farther than its ends. *most: of each search with one held, then fewer. */
-static int for_its_ends(const fw_study *study, long budget, int *most) {
-    const int single = (int)fmin(worth_it(study), (double)(budget / 4) / SEARCHES);
-    if (single <= *most) return *most;
-    *most = (int)((budget - 2 * SEARCHES * single) / (LEVELS * SEARCHES));
-    return single;
+/* Devices of each search for a goal alone, where two share the budget: as many as without a budget, up to half of what
+   there is, since a front reaches no farther than its ends. */
+static int for_its_ends(const fw_study *study, long budget, int most) {
+    return (int)fmax(most, fmin(EACH * (study->nvary + 1), (double)(budget / 4) / SEARCHES));
 }
 
-static fw_status two_goals(sizing *s, int most, long *first) {
+/* devices that are left of the budget, but for those that the ends have at last */
+static int left_of(const sizing *s) {
+    return (int)(fw_study_count_size(s->study) - s->nkept - s->for_ends);
+}
+
+/* The ends once more, from all that was judged by now: of a budget that was asked for an eighth is kept for it */
+static fw_status ends_again(sizing *s, long *first) {
+    for (int g = 0; g < 2; g++) {
+        aim *a = fw_arena_one(s->study->arena, aim);
+        FW_NEED(a);
+        *a = (aim){.s = s, .goal = &s->goal[g]};
+        FW_TRY(go_on(s, a, left_of(s) / (2 - g), first));
+    }
+    return FW_OK;
+}
+
+/* the first goal with the second one held at s->levels levels, from `from` to `to`, each with its share of what is left */
+static fw_status hold(sizing *s, double from, double to, double shift, long *first) {
+    for (int k = 1; k <= s->levels; k++) {
+        const int most = left_of(s) / ((s->levels - k + 1) * SEARCHES);
+        aim *held = fw_arena_one(s->study->arena, aim);
+        FW_NEED(held);
+        *held = (aim){.s = s, .goal = &s->goal[0], .held = &s->goal[1], .scale = to - from};
+        held->level = from + (to - from) * (k - shift) / (s->levels + 1.0 - 2 * shift);
+        if (most > s->held_most) s->held_most = most;
+        FW_TRY(seek(s, held, most, first));
+    }
+    return FW_OK;
+}
+
+/* As many levels as searches that come somewhere can be paid for: at more of them none would. What they leave of a budget that
+   was asked for goes to levels between them. Test: tests/cli/test_sizing.py, Lever */
+static fw_status two_goals(sizing *s, long *first) {
+    enum { PASSES = 3 };
     const goal *a = &s->goal[0], *b = &s->goal[1];
     int low = best_of(s, b), high = best_of(s, a);
     if (low == FW_NONE || high == FW_NONE) return FW_OK;
     double from = goal_of(&s->kept[low], b), to = goal_of(&s->kept[high], b);
     if (!(to > from)) return FW_OK; /* one device is best for both */
-    for (int k = 1; k <= LEVELS; k++) {
-        aim *held = fw_arena_one(s->study->arena, aim);
-        FW_NEED(held);
-        *held = (aim){.s = s, .goal = a, .held = b, .scale = to - from};
-        held->level = from + (to - from) * k / (LEVELS + 1.0);
-        FW_TRY(seek(s, held, most, first));
+    const int each = SEARCHES * worth_it(s->study);
+    s->for_ends = s->study->asked->samples > 0 ? left_of(s) / 4 : 0;
+    for (int pass = 0; pass < PASSES; pass++) {
+        const int left = left_of(s);
+        if (left <= 0 || (pass > 0 && (left < each || s->study->asked->samples <= 0))) break;
+        s->levels = (int)fmin(LEVELS, fmax(1, left / each));
+        FW_TRY(hold(s, from, to, pass % 2 > 0 ? 0.5 : 0, first));
     }
-    return FW_OK;
+    const bool kept = s->for_ends > 0;
+    s->for_ends = 0;
+    return kept ? ends_again(s, first) : FW_OK;
+}
+
+/* what a person is told of the searches */
+static const char *said_of(const sizing *s, int single) {
+    const char *few = single < worth_it(s->study) ? " (too few: left out)" : "";
+    if (s->levels == 0) return fw_arena_printf(s->study->arena, "%d devices each%s", single, few);
+    return fw_arena_printf(s->study->arena,
+                           "%d devices each%s for a goal alone and %d%s with the second one held "
+                           "at one of %d levels",
+                           single, few, s->held_most,
+                           s->held_most < worth_it(s->study) ? " (too few: left out)" : "",
+                           s->levels);
 }
 
 /* combinations of listed values; *at: the input by which they are too many, else FW_NONE */
@@ -450,6 +498,7 @@ static fw_status prepare(sizing *s, int *most) {
     long budget = fw_study_count_size(study), searches = searches_of(study, s->ngoal);
     s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
+    s->ranged = n > 0;
     *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
     FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, (size_t)budget + 1));
     for (long i = 0; i < s->first_n; i++)
@@ -483,21 +532,23 @@ static fw_status size(fw_study *study, fw_study_result *result) {
     FW_TRY(fw_study_pool_run(study, &work));
     fw_study_sort_samples(s.kept, s.nkept); /* they came in any order */
     const long left = fw_study_count_size(study) - s.first_n;
-    const int single = s.ngoal == 2 && most > 0 ? for_its_ends(study, left, &most) : most;
+    const int single = s.ngoal == 2 && s.ranged ? for_its_ends(study, left, most) : most;
     for (int g = 0; g < s.ngoal && single > 0; g++) {
         aim *a = fw_arena_one(study->arena, aim);
         FW_NEED(a);
         *a = (aim){.s = &s, .goal = &s.goal[g]};
         FW_TRY(seek(&s, a, single, &first));
     }
-    if (s.ngoal == 2 && most > 0) FW_TRY(two_goals(&s, most, &first));
+    if (s.ngoal == 2 && single > 0) FW_TRY(two_goals(&s, &first));
+    const char *searches = said_of(&s, single);
+    FW_NEED(searches);
     FW_NEED(
         result->how = fw_arena_printf(
             study->arena,
             "%ld devices over the ranges, then local searches (COBYLA) from the best of them, at "
-            "most %d devices each%s, the best at ends of the ranges, and one search from all of "
+            "most %s, the best at ends of the ranges, and one search from all of "
             "them (quadratic models)%s; a better one may be where none was tried",
-            s.first_n, most, most < worth_it(study) ? " (too few: left out)" : "",
+            s.first_n, searches,
             study->asked->yield > 0
                 ? ", the last ones with the dies that are worst for the best device"
                 : ""));

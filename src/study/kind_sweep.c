@@ -162,7 +162,8 @@ static bool is_said(const fw_xml_element *e, const char *name) {
    say the parameter's name? What cannot be told is taken to */
 static fw_status is_used(fw_study *study, fw_arena *scratch, int k, bool *used) {
     const fw_device *d = study->plan->device;
-    const int most = study->nvary + study->options.nset + d->nstudy + 1;
+    const int inputs = study->nvary + study->nsetting;
+    const int most = inputs + study->options.nset + d->nstudy + 1;
     fw_device_text_change *change = fw_arena_array(scratch, fw_device_text_change, (size_t)most);
     fw_diags quiet = fw_diags_new(scratch);
     fw_text text = fw_text_new(scratch);
@@ -172,7 +173,7 @@ static fw_status is_used(fw_study *study, fw_arena *scratch, int k, bool *used) 
     for (int i = 0; i < study->options.nset; i++)
         if (strchr(study->options.set[i].path, '/'))
             change[n++] = (fw_device_text_change){.path = study->options.set[i].path, .value = "0"};
-    for (int i = 0; i < study->nvary; i++)
+    for (int i = 0; i < inputs; i++)
         if (strchr(study->input[i].what, '/'))
             change[n++] = (fw_device_text_change){.path = study->input[i].what, .value = "0"};
     if (n == 0 || !d->source) return FW_OK;
@@ -196,24 +197,28 @@ static fw_status is_used(fw_study *study, fw_arena *scratch, int k, bool *used) 
     return status == FW_NOMEM ? FW_NOMEM : FW_OK;
 }
 
-static fw_status say_input(fw_study *study, int k) {
-    const fw_device_vary *v = &study->asked->vary[k];
+static fw_status say_steps(fw_study *study, const fw_device_vary *v) {
     const bool stepped =
         study->asked->kind == FW_STUDY_IS_sweep && study->asked->points != FW_POINTS_SOBOL;
-    if (v->stepped && !stepped)
-        FW_TRY(idle(study, v->place, "steps=\"...\"",
-                    "they are of a grid or a list, and values come from all of the range"));
-    if (isnan(study->input[k].now)) return FW_OK; /* no parameter */
-    const char *what = fw_arena_printf(study->arena, "<vary what=\"%s\">", v->what);
+    if (!v->stepped || stepped) return FW_OK;
+    return idle(study, v->place, "steps=\"...\"",
+                "they are of a grid or a list, and values come from all of the range");
+}
+
+static fw_status say_input(fw_study *study, int k) {
+    const fw_study_input *in = &study->input[k];
+    if (isnan(in->now)) return FW_OK; /* no parameter */
+    const char *what = fw_arena_printf(study->arena, "<%s what=\"%s\">",
+                                       k < study->nvary ? "vary" : "uncertain", in->what);
     fw_arena *scratch = what ? fw_arena_part(study->arena, 0) : NULL;
     FW_NEED(scratch);
     bool used;
     fw_status status = is_used(study, scratch, k, &used);
     fw_arena_free(scratch);
     if (status == FW_OK && !used)
-        status = idle(study, v->place, what,
+        status = idle(study, in->place, what,
                       "nothing of the description uses it but what is set by itself, by another "
-                      "<vary> or by --set");
+                      "<vary> or <uncertain> or by --set");
     return status;
 }
 
@@ -230,6 +235,8 @@ fw_status fw_study_say_idle(fw_study *study) {
         FW_TRY(idle(study, a->place, "confidence=\"...\"",
                     "there are no intervals that it would be of"));
     for (int k = 0; k < study->nvary; k++)
+        FW_TRY(say_steps(study, &a->vary[k]));
+    for (int k = 0; k < study->nvary + study->nsetting; k++)
         FW_TRY(say_input(study, k));
     return FW_OK;
 }

@@ -496,7 +496,7 @@ static fw_status die_at(const fw_study *dies, const fw_study *of, const fw_study
     for (int k = 0; k < of->nvary; k++)
         set[k] = (fw_device_set){of->input[k].what, chosen->text[k]};
     FW_TRY(fw_study_dies_asked(arena, of, chosen, &at.asked));
-    FW_TRY(fw_plan_restated(dies->plan, arena, set, of->nvary, &device, variant));
+    FW_TRY(fw_plan_restated(dies->plan, arena, set, of->nvary, NULL, &device, variant));
     fw_study_yielding y = {.study = &at, .flow = die->flow, .base = set, .nbase = of->nvary};
     y.ninput = variant[die->flow].ninput;
     FW_TRY(fw_study_scatter_of(&at, &variant[die->flow], &y.scatter));

@@ -45,7 +45,7 @@ static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, con
         set[before + k] = (fw_device_set){study->input[study->nvary + k].what, text};
     }
     *made = (fw_verdict_made){.ln = (double)NAN, .hinge = FW_NONE};
-    fw_status status = fw_plan_restated(plan, arena, set, before + n, &device, variant);
+    fw_status status = fw_plan_restated(plan, arena, set, before + n, &diags, &device, variant);
     fw_verdict verdict = {.nvariant = plan->nflow, .variant = variant};
     fw_verdict_options options = plan->options.verdict;
     options.corners = FW_CORNERS_NONE;

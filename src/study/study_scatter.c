@@ -277,6 +277,35 @@ static fw_status check_correlated(fw_study *study, const fw_device_correlation *
     return FW_OK; /* of a flow that is not judged, or that check_row refuses */
 }
 
+/* Beforehand: the share of an input beyond what its parameter allows. Of several rows the normal ones are one. */
+static fw_status say_beyond(fw_study *study, const fw_study_input *in) {
+    const fw_device *d = study->plan->device;
+    fw_chance_distribution all = of_uncertain(in->uncertain, (double)NAN);
+    for (const fw_device_uncertain *u = in->uncertain + 1;
+         u < study->asked->uncertain + study->asked->nuncertain; u++)
+        if (!u->flow && same(u->what, in->what) && u->spread == FW_SPREAD_NORMAL)
+            all.mean += isnan(u->mean) ? 0 : u->mean, all.sd = hypot(all.sd, u->sd);
+    const char *text = "a part";
+    char share[32];
+    if (fw_chance_distribution_check(study->arena, &all, &text) != FW_OK) return FW_OK;
+    for (int k = 0; k < d->nparameter; k++) {
+        const fw_device_parameter *p = &d->parameter[k];
+        const bool ends = all.kind == FW_CHANCE_INTERVAL; /* of no distribution */
+        if (strcmp(p->name, in->what) != 0) continue;
+        const double beyond = ends ? all.low < p->min || all.high > p->max
+                                   : fw_chance_distribution_cdf(&all, p->min) + 1 -
+                                         fw_chance_distribution_cdf(&all, p->max);
+        if (!(beyond >= 1e-12)) continue; /* no tail is known so far out */
+        text = ends ? "a part" : fw_number_text(share, sizeof share, beyond, 2);
+        fw_diag_warning(&study->diags, 738, in->place,
+                        "study '%s': <uncertain what=\"%s\"> goes beyond min or max of the "
+                        "parameter: %s of all devices lies there, and cannot be judged; declare a "
+                        "wider range, or state spread=\"truncated\" with ends within it",
+                        study->asked->name, in->what, text);
+    }
+    return study->diags.failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_study_scatter_check(fw_study *study) {
     const fw_device_study *a = study->asked;
     size_t before = study->diags.errors;
@@ -285,6 +314,8 @@ fw_status fw_study_scatter_check(fw_study *study) {
         if (a->uncertain[k].flow)
             status = check_row(study, a->uncertain[k].what, a->uncertain[k].flow, 556,
                                a->uncertain[k].dimension, a->uncertain[k].place);
+    for (int k = study->nvary; k < study->nvary + study->nsetting && status != FW_NOMEM; k++)
+        status = say_beyond(study, &study->input[k]);
     for (int k = 0; k < a->ntrend && status != FW_NOMEM; k++)
         status = check_trend(study, &a->trend[k]);
     for (int k = 0; k < a->ncorrelation && status != FW_NOMEM; k++) {

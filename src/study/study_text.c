@@ -500,6 +500,18 @@ static void say_share(fw_text *out, const fw_study_flow_yield *y) {
     fw_text_add(out, y->nassumed > 0 ? "\n" : ")\n");
 }
 
+/* where so few fail that the yield is all nines */
+static void say_failing(fw_text *out, const fw_study_yield_end *end) {
+    if (end->low < 0.9999) return;
+    fw_text_add(out, "  of all devices ");
+    fw_text_number(out, 1 - end->value, 2);
+    fw_text_add(out, " fail (");
+    fw_text_number(out, 1 - end->high, 2);
+    fw_text_add(out, " to ");
+    fw_text_number(out, 1 - end->low, 2);
+    fw_text_add(out, " by sampling)\n");
+}
+
 /* of a number of devices that was asked for and is not the one that was judged */
 static void say_devices(fw_text *out, const fw_study *study, const fw_study_flow_yield *y) {
     fw_text_printf(out, "  %ld devices by %s: %s\n", y->evaluations, y->method, y->reason);
@@ -519,6 +531,7 @@ static void say_yield(fw_text *out, const fw_study *study) {
         const fw_study_flow_yield *y = &study->result->yield[i];
         fw_text_printf(out, "%s: yield ", y->flow ? y->flow : study->device_name);
         say_share(out, y);
+        say_failing(out, &y->least);
         say_devices(out, study, y);
         if (y->sought) fw_text_printf(out, "  %s\n", y->sought);
         if (y->caution) fw_text_printf(out, "  %s\n", y->caution);

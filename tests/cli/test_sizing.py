@@ -294,6 +294,48 @@ LEVER_FILE = """<?xml version="1.0" encoding="UTF-8"?>
 SECOND_GOAL = '<respond name="used" value="governing.utilisation" goal="minimise"/>'
 
 
+PAIR_FILE = """<device xmlns="urn:flexwright:device:1" name="pair">
+  <parameter name="t1" value="8 um" min="2 um" max="40 um"/>
+  <parameter name="t2" value="9 um" min="2 um" max="40 um"/>
+  <material ref="silicon-100" youngs-modulus="160 GPa" strength="1 GPa" thickness="50 um"/>
+  <limits safety-factor="2"/>
+  <flexure id="one" kind="leaf" length="400 um" width="t1"/>
+  <flexure id="two" kind="leaf" length="300 um" width="t2"/>
+  <mechanism>
+    <body id="arm" x="0 mm" y="0.75 mm" mass="0.1 mg" inertia="0.02 mg mm^2"/>
+    <body id="top" x="0 mm" y="2.25 mm" mass="0.05 mg" inertia="0.01 mg mm^2"/>
+    <revolute id="A" a="ground" b="arm" b-y="-0.75 mm" hinge="one" axis="0 deg"/>
+    <revolute id="B" a="arm" a-y="0.75 mm" b="top" b-y="-0.75 mm" hinge="two" axis="0 deg"/>
+  </mechanism>
+  <scene name="push" duration="2 ms"><torque on="top" value="300 uN * 1 mm"/></scene>
+  <study name="front" kind="size" as="drawn" samples="200">
+    <vary what="t1" from="6 um" to="20 um"/><vary what="t2" from="6 um" to="20 um"/>
+    <respond name="f1" value="modes:modes[0].f_Hz" goal="minimise"/><respond name="f2" value="modes:modes[1].f_Hz" goal="maximise"/>
+  </study>
+</device>
+"""
+
+
+class Pair(unittest.TestCase):
+    """two goals share a budget that has not enough for searches at nine levels"""
+
+    def test_a_front_uses_its_budget_and_has_its_ends(self):
+        """75 of 200 were judged, no local search was run, and the front began at 313.7 Hz: with 2000 devices it begins at 307.5"""
+        place = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, place)
+        (place / "pair.xml").write_text(PAIR_FILE)
+        done = run("study", place / "pair.xml", "--study", "front", "--effects", "gravity", "-o", place / "out")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = json.loads((place / "out/study.json").read_text())
+        self.assertIn("11 devices each for a goal alone and ", done.stdout)
+        self.assertNotIn("too few", done.stdout)
+        rows = list(csv.DictReader((place / "out/study.csv").read_text().splitlines()))
+        self.assertTrue(150 < len(rows) <= 200, len(rows))
+        least = min(float(r["f1"]) for r in rows if r["state"] == "accept")
+        self.assertLess(least, 307.5 * 1.006)
+        self.assertGreater(len(result["found"]), 10)
+
+
 class Lever(unittest.TestCase):
     """the softest lever turns most: both of its inputs are then at an end of their ranges"""
 

@@ -490,6 +490,37 @@ class Study(unittest.TestCase):
             self.assertEqual("FW-D737" in done.stderr, says is not None, done.stderr)
             self.assertIn(says or "", done.stderr)
 
+    def test_of_two_uncertain_the_one_without_effect_is_told(self):
+        path = self.write(ONE_LEAF, "one.xml")
+        width = '<uncertain what="width" mean="8 um" sd="0.3 um"/>'
+        direct = '<uncertain what="flexure[leaf]/@{}" mean="{} um" sd="0.3 um"/>'
+        for other, told in (("width", True), ("length", False)):
+            rows = width + direct.format(other, 8 if told else 400)
+            done = run("study", self.write(study("s", "yield", rows, path, samples=200)), "--plan")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual('<uncertain what="width"> has no effect' in done.stderr, told, done.stderr)
+
+    def test_what_differs_beyond_a_parameter_is_told_beforehand_and_of_each_device(self):
+        """devices there were not judged, without a word why or that there would be some"""
+        path = self.write(ONE_LEAF.replace('value="20 uN"', 'value="20 uN" min="16 uN" max="21 uN"'), "one.xml")
+        row = '<uncertain what="push" {}/>'
+        for spread, share in (('mean="20 uN" sd="1 uN"', "0.16"), ('mean="20 uN" sd="0.8 uN"/><uncertain what="push" level="wafer" sd="0.6 uN"', "0.16"),
+                              ('spread="lognormal" mean="20 uN" sd="2 uN"', "0.3"), ('spread="interval" from="17 uN" to="22 uN"', "a part"),
+                              ('mean="20 uN" sd="0.1 uN"', None), ('spread="truncated" mean="20 uN" sd="1 uN" from="17 uN" to="21 uN"', None)):
+            width = '<uncertain what="width" mean="8 um" sd="0.1 um"/>'
+            file = self.write(study("y", "yield", row.format(spread) + width, path, samples=200))
+            done = run("study", file, "--plan")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("FW-D738" in done.stderr, share is not None, done.stderr)
+            if share: self.assertIn(share, done.stderr)
+        file = self.write(study("y", "yield", row.format('mean="20 uN" sd="1 uN"'), path, samples=200))
+        done = run("study", file, "-o", self.place / "beyond")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lost = [r for r in self.rows("beyond") if r["state"] == "failed"]
+        self.assertGreater(len(lost), 10)
+        for r in lost: self.assertRegex(r["why"], "parameter 'push' is .*; its declaration allows at most 21 uN")
+        self.assertRegex(done.stdout, "could not be judged \\(number [0-9]+: parameter 'push' is")
+
     def test_of_a_row_that_is_refused_nothing_else_is_said(self):
         """it may be what the kind needs"""
         rows = '<vary what="arc" from="200 deg" to="260 deg"/><respond name="a b" value="governing.utilisation"{}/>'

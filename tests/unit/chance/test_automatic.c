@@ -127,6 +127,79 @@ static void reasons(void **state) {
     assert_true(e.low == 0 && e.high > 1e-4);
 }
 
+/* one bound for all: nothing fails, and the value goes on falling */
+static double limit_never(const limit_state *l, const double *u) {
+    return l->b - fw_maths_normal_cdf(u[0]) - 1e-3 * fw_maths_normal_cdf(u[1]);
+}
+
+/* A device far from its limit with few evaluations: subset simulation ends before any point fails. Where there is a design
+   point it is taken; the interval holds, is narrow, and is never wider than what the first 400 points alone say. */
+static void far(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        double (*g)(const limit_state *l, const double *u), (*reference)(double b);
+        size_t dimensions, budget;
+        double b;
+    } of[] = {
+        {"plane, 1, 5 sd", limit_linear, reference_linear, 1, 4000, 5},
+        {"plane, 1, 6 sd", limit_linear, reference_linear, 1, 4000, 6},
+        {"plane, 1, 6 sd", limit_linear, reference_linear, 1, 3000, 6},
+        {"plane, 1, 7 sd", limit_linear, reference_linear, 1, 4000, 7},
+        {"plane, 1, 12 sd", limit_linear, reference_linear, 1, 4000, 12},
+        {"plane, 10, 5.5 sd", limit_linear, reference_linear, 10, 4000, 5.5},
+        {"plane, 10, 8 sd", limit_linear, reference_linear, 10, 4000, 8},
+        {"two sides, 6 sd", limit_sides, reference_sides, 2, 4000, 6},
+        {"two sides, 6.8 sd", limit_sides, reference_sides, 2, 4000, 6.8},
+        {"parabola, 13", limit_parabola, reference_parabola, 2, 4000, 13},
+        {"parabola, 20", limit_parabola, reference_parabola, 2, 4000, 20},
+    };
+    const double first = -expm1(log(0.025) / 300);
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        limit_state l = {of[i].name, of[i].dimensions, of[i].g, of[i].b,
+                         0,          of[i].reference,  NULL,    0};
+        double width, truth = of[i].reference(of[i].b);
+        limit_coverage(&l, (fw_chance_options){.budget = of[i].budget},
+                       test_fewest(test_cases(1000, 20), 1), &width);
+        if (truth > 1e-12) assert_true(width < 1);
+        for (uint64_t seed = 1; seed <= 5; seed++) {
+            fw_chance_estimate e =
+                limit_estimate(&l, (fw_chance_options){.seed = seed, .budget = of[i].budget});
+            assert_int_equal(e.method, FW_CHANCE_IMPORTANCE);
+            assert_true(e.high < first && e.high <= fmax(1e-12, 4 * truth));
+            if (truth < 1e-14) assert_true(e.low == 0 && e.high >= 1e-12); /* no tail is known */
+        }
+    }
+}
+
+/* none fails: 0, and what subset simulation reached is an upper end, that of the first points at most */
+static void unmet(void **state) {
+    (void)state;
+    limit_state l = {.name = "never", .dimensions = 2, .g = limit_never, .b = 1.1};
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        fw_chance_estimate e =
+            limit_estimate(&l, (fw_chance_options){.seed = seed, .budget = 4000});
+        assert_int_equal(e.method, FW_CHANCE_SUBSET);
+        assert_true(e.probability_low == 0 && e.probability_high == 0 && e.low == 0);
+        assert_true(e.high > 1e-9 && e.high < 1e-3);
+        assert_non_null(strstr(e.caution, "no failure was met"));
+    }
+    /* by subset simulation alone, with an end that its levels come just not to: the upper end holds */
+    limit_state plane = {.name = "plane, 10, short",
+                         .dimensions = 10,
+                         .g = limit_linear,
+                         .b = 6,
+                         .reference = reference_linear};
+    for (size_t budget = 600; budget <= 2400; budget *= 2)
+        for (double beta = 3.5; beta < 6; beta += 0.5) {
+            double width;
+            plane.b = beta;
+            limit_coverage(&plane,
+                           (fw_chance_options){.method = FW_CHANCE_SUBSET, .budget = budget},
+                           test_fewest(test_cases(1000, 40), 1), &width);
+        }
+}
+
 /* both branches' points are found, and the shares of two inputs that are unequal */
 static void points(void **state) {
     (void)state;
@@ -193,6 +266,7 @@ static void apart(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(closed_forms), cmocka_unit_test(correlated),
                                        cmocka_unit_test(lognormal),    cmocka_unit_test(reasons),
-                                       cmocka_unit_test(points),       cmocka_unit_test(apart)};
+                                       cmocka_unit_test(points),       cmocka_unit_test(far),
+                                       cmocka_unit_test(unmet),        cmocka_unit_test(apart)};
     return cmocka_run_group_tests(tests, open_arena, close_arena);
 }

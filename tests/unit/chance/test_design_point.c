@@ -3,13 +3,14 @@
 #include "chance/estimate.h"
 #include "limits.h"
 
-static fw_chance_points find(limit_state *l, size_t budget, size_t starts, const double *start) {
+static fw_chance_points find(limit_state *l, size_t budget, size_t starts, double *start) {
+    const fw_chance_subset from = {.failing = starts, .failed = start};
     fw_chance_limit limit = {.dimensions = l->dimensions, .g = limit_call, .context = l};
     fw_chance_run run = {
         .arena = arena, .limit = &limit, .batch = 64, .budget = 20000, .level = 0.95};
     fw_chance_points out;
     l->next = 0;
-    assert_int_equal(fw_chance_points_find(&run, budget, starts, start, &out), FW_OK);
+    assert_int_equal(fw_chance_points_find(&run, budget, &from, &out), FW_OK);
     assert_true(run.used <= budget);
     assert_int_equal(run.used, l->next);
     return out;
@@ -52,7 +53,7 @@ static double nearest(double b, double x) {
 static void parabola(void **state) {
     (void)state;
     limit_state l = {.dimensions = 2, .g = limit_parabola, .b = 5};
-    static const double starts[] = {3, 2, -3, 2, 2.9, 2.1, 0, 6};
+    static double starts[] = {3, 2, -3, 2, 2.9, 2.1, 0, 6};
     fw_chance_points p = find(&l, 2000, 4, starts);
     assert_int_equal(p.count, 2);
     double right = nearest(5, 3), left = nearest(5, -3);
@@ -81,7 +82,7 @@ static double limit_unknown(const limit_state *l, const double *u) {
 /* flat, rising everywhere, not to be evaluated on the way, or no budget: no point, and no harm */
 static void none(void **state) {
     (void)state;
-    static const double start[] = {2, 2, 2, 2, 2};
+    static double start[] = {2, 2, 2, 2, 2};
     limit_state flat = {.dimensions = 5, .g = limit_flat, .b = 4};
     assert_int_equal(find(&flat, 500, 1, start).count, 0);
     limit_state nowhere = {.dimensions = 2, .g = limit_nowhere, .b = 3};
