@@ -324,18 +324,30 @@ static fw_status shaking_new(fw_arena *arena, const fw_verdict_variant_verdict *
     return fw_quantity_law_pieces_of(arena, x->load, x->n, s->duration_s, &x->pieces);
 }
 
-/* the share by which the largest grows */
-static double take_more(const fw_mechanism *m, const double *more, fw_verdict_shaken *to) {
+/* Bends that hinge k is strained by in the scene as by a rotation, at least: one that is only pulled bends by round-off, of which
+   nothing is a share */
+static double strained_by(const fw_mechanism *m, const fw_dynamics_motion *motion, int k) {
+    const double by_forces = 0.1; /* of which bends are part, too */
+    const fw_verdict_strain_monitor *saw = motion->observed;
+    const double per_rad = m->hinge[k].closed_form.strain_per_rad;
+    return saw && per_rad > 0 ? by_forces * saw->hinge[k].strain.value / per_rad : 0;
+}
+
+/* the share by which the largest grows; unit_m: lengths that count */
+static double take_more(const fw_mechanism *m, const fw_dynamics_motion *motion, double unit_m,
+                        const double *more, fw_verdict_shaken *to) {
     const int nh = m->nhinge, rows = nh + m->nbody + to->nreach;
-    const double hardly = 1e-3;
+    const double hardly = 1e-3, nothing = 1e-9;
     double bends = 0, goes = 0, most = 0;
     for (int i = 0; i < nh + m->nbody; i++) {
         double *of = i < nh ? &bends : &goes;
         *of = fmax(*of, to->most[i]);
     }
     for (int i = 0; i < rows; i++) {
-        const double of = fmax(to->most[i], hardly * (i < nh ? bends : goes)),
-                     by = of > 0 ? more[i] / of : 0;
+        const double least =
+                         i < nh ? fmax(hardly * bends, strained_by(m, motion, i)) : hardly * goes,
+                     of = fmax(to->most[i], least),
+                     by = of > (i < nh ? 0 : nothing * unit_m) ? more[i] / of : 0;
         to->each[i] += by;
         if (i < nh)
             to->factor[2 * i] += by, to->factor[2 * i + 1] = fmax(0, to->factor[2 * i + 1] - by);
@@ -389,7 +401,7 @@ fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, bool shaken, fw_ve
         add_mode(&x, k, s->far[k], unit_m, to, more, way_m);
         s->fast[k] = high * s->far[k], s->slow_Hz = fmin(s->slow_Hz, low / FW_TURN);
     }
-    s->share = take_more(m, more, to);
+    s->share = take_more(m, v->motion[scene], own->modes->unit_length_m, more, to);
     if (s->share > 0) to->own = s;
     return FW_OK;
 }

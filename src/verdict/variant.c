@@ -424,7 +424,8 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         fw_verdict_keep_worst(&v->hinge[k], &now);
     }
     /* the poses that can be reached; what rides on the six-bar does not bend in them */
-    if (v->workspace.required && v->workspace.reachable && by->hinge->pin < FW_SIX) {
+    if (v->workspace.required && (v->workspace.reachable || v->workspace.in_part) &&
+        by->hinge->pin < FW_SIX) {
         fw_verdict_hinge_verdict now = blank;
         judge_workspace(by, &v->workspace, &now);
         if (now.touches) FW_TRY(fw_verdict_touching(arena, by->drawn, &now, diags, v));

@@ -10,8 +10,10 @@
    in: m, rad, N; out: relative. Error: law 1 % of the strain, poses that were not looked at by what
    the proved bound with pins has over those that were. Cost 40 us a pose and grip. Source:
    docs/theory/workspace.md. Test: test_pose_strain.c. */
+#include "effects/effects.h"
 #include "maths/dense.h"
 #include "workspace/pose_load.h"
+#include "workspace/workspace.h"
 #include <math.h>
 #include <string.h>
 
@@ -518,5 +520,47 @@ fw_status fw_workspace_gives(fw_arena *arena, const fw_workspace_hold *hold, con
         give[i].give = law_error;
         give[i].relief = 1.0 - is * (1.0 - law_error) / most;
     }
+    return FW_OK;
+}
+
+/* ---- what scenes state and required poses do not count ---- */
+
+static fw_status leave_out(fw_arena *arena, const char *what, const char *id, const char *scene,
+                           fw_workspace_result *result) {
+    FW_NEED(result->left_out = fw_arena_printf(
+                arena, "%s%s%s%s%s of scene %s", result->left_out ? result->left_out : "",
+                result->left_out ? ", " : "", what, id ? " " : "", id ? id : "", scene));
+    return FW_OK;
+}
+
+static bool bends(const fw_device_tendon *t) {
+    return t->neyelet > 2;
+}
+
+/* The list of docs/theory/workspace.md, from the other side: what is neither counted nor without force in a pose */
+fw_status fw_workspace_left_out(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                                fw_workspace_result *result) {
+    bool shaken = false, bent = false;
+    for (int i = 0; i < s->nbase; i++)
+        shaken = shaken || s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0;
+    if (shaken) FW_TRY(leave_out(arena, "base-motion", NULL, s->name, result));
+    for (int i = 0; i < s->ncontact; i++) {
+        const fw_device_contact_use *c = &s->contact[i];
+        const bool on_hinge = c->joint >= 0 && c->joint < FW_SIX && c->joint < m->npin;
+        const bool rides = c->joint == FW_NONE && (c->body_a >= 5 || c->body_b >= 5);
+        if (on_hinge)
+            FW_TRY(leave_out(arena, "contact of hinge", m->pin[c->joint].id, s->name, result));
+        if (rides) FW_TRY(leave_out(arena, "contact", c->id, s->name, result));
+    }
+    for (int i = 0; i < s->ntendon; i++)
+        bent = bent || bends(&s->tendon[i]);
+    for (int i = 0; i < s->npart; i++) {
+        const fw_device_scene_part *p = &s->part[i];
+        const bool eyelets = strcmp(p->element, "eyelet-friction") == 0;
+        if (!eyelets || (bent && fw_device_scene_part_number(p, "coefficient") > 0))
+            FW_TRY(leave_out(arena, p->element, NULL, s->name, result));
+    }
+    if (fw_effects_softened(m, s) != 0 && (m->nspring > 0 || fw_workspace_scene_gives(m, s)))
+        FW_TRY(leave_out(arena, "what temperature does to the modulus", NULL, s->name, result));
     return FW_OK;
 }

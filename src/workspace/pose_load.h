@@ -284,6 +284,10 @@ fw_status fw_workspace_hold_given(fw_arena *arena, const fw_mechanism *mechanism
                                   const fw_device_scene *scene, fw_workspace_hold *hold);
 /* a scene of the mechanism that has something to give */
 bool fw_workspace_scene_gives(const fw_mechanism *mechanism, const fw_device_scene *scene);
+struct fw_workspace_result;
+/* what a scene states and required poses neither count nor leave without force there: result->left_out */
+fw_status fw_workspace_left_out(fw_arena *arena, const fw_mechanism *mechanism,
+                                const fw_device_scene *scene, struct fw_workspace_result *result);
 
 /* ---- pose_load.c: statics over a box ---- */
 

@@ -471,46 +471,11 @@ static fw_status all_strains(fw_arena *arena, const required_box *q,
     return FW_OK;
 }
 
-/* ---- what scenes state and required poses do not count ---- */
-
-static fw_status leave_out(fw_arena *arena, const char *what, const char *id, const char *scene,
-                           fw_workspace_result *result) {
-    FW_NEED(result->left_out = fw_arena_printf(
-                arena, "%s%s%s%s%s of scene %s", result->left_out ? result->left_out : "",
-                result->left_out ? ", " : "", what, id ? " " : "", id ? id : "", scene));
-    return FW_OK;
-}
-
-static bool bends(const fw_device_tendon *t) {
-    return t->neyelet > 2;
-}
-
-/* The list of docs/theory/workspace.md, from the other side: what is neither counted nor without force in a pose */
-static fw_status left_out(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                          fw_workspace_result *result) {
-    bool shaken = false, bent = false;
-    for (int i = 0; i < s->nbase; i++)
-        shaken = shaken || s->base[i].ax_m_per_s2 != 0 || s->base[i].ay_m_per_s2 != 0;
-    if (shaken) FW_TRY(leave_out(arena, "base-motion", NULL, s->name, result));
-    for (int i = 0; i < s->ncontact; i++) {
-        const fw_device_contact_use *c = &s->contact[i];
-        const bool on_hinge = c->joint >= 0 && c->joint < FW_SIX && c->joint < m->npin;
-        const bool rides = c->joint == FW_NONE && (c->body_a >= 5 || c->body_b >= 5);
-        if (on_hinge)
-            FW_TRY(leave_out(arena, "contact of hinge", m->pin[c->joint].id, s->name, result));
-        if (rides) FW_TRY(leave_out(arena, "contact", c->id, s->name, result));
+static void take_peaks(const fw_workspace_proof *proof, fw_workspace_result *result) {
+    for (int j = 0; j < FW_SIX; j++) {
+        const fw_workspace_peak now = peak_of(proof, j);
+        if (fabs(now.angle_rad) > fabs(result->peak[j].angle_rad)) result->peak[j] = now;
     }
-    for (int i = 0; i < s->ntendon; i++)
-        bent = bent || bends(&s->tendon[i]);
-    for (int i = 0; i < s->npart; i++) {
-        const fw_device_scene_part *p = &s->part[i];
-        const bool eyelets = strcmp(p->element, "eyelet-friction") == 0;
-        if (!eyelets || (bent && fw_device_scene_part_number(p, "coefficient") > 0))
-            FW_TRY(leave_out(arena, p->element, NULL, s->name, result));
-    }
-    if (fw_effects_softened(m, s) != 0 && (m->nspring > 0 || fw_workspace_scene_gives(m, s)))
-        FW_TRY(leave_out(arena, "what temperature does to the modulus", NULL, s->name, result));
-    return FW_OK;
 }
 
 /* one required box: proved where that can be, else sampled; *whole: it is reached */
@@ -529,9 +494,34 @@ static fw_status one_box(fw_arena *arena, const fw_workspace_six_bar *k, bool pr
         *whole = sampled(k, box, result, at);
     }
     *whole = !is_beyond(q, q->loop, box, *whole ? NULL : at);
-    for (int j = 0; j < FW_SIX && end == FW_PROVED; j++) {
-        fw_workspace_peak now = peak_of(proof, j);
-        if (fabs(now.angle_rad) > fabs(result->peak[j].angle_rad)) result->peak[j] = now;
+    if (end == FW_PROVED) take_peaks(proof, result);
+    return FW_OK;
+}
+
+/* Of a box that pins do not reach whole, and flexures may, a part that they do reach: from the place of it that is nearest to
+   rest outward. Its poses are required, so that what is too much there is too much for the box. Test: test_program.py,
+   test_overstraining_workspace_rejects */
+static fw_status part_of_box(fw_arena *arena, const required_box *q) {
+    static const double shares[] = {0.95, 0.85, 0.7, 0.5, 0.3};
+    for (size_t k = 0; k < sizeof shares / sizeof *shares; k++) {
+        fw_workspace_box3 box;
+        fw_workspace_proof proof;
+        fw_workspace_strain_proof strain = {0};
+        fw_workspace_proof_end end;
+        double at[3];
+        bool whole = true;
+        for (int j = 0; j < 3; j++) {
+            const double rest = fmin(fmax(0, q->box->lo[j]), q->box->hi[j]);
+            box.lo[j] = rest + shares[k] * (q->box->lo[j] - rest);
+            box.hi[j] = rest + shares[k] * (q->box->hi[j] - rest);
+        }
+        FW_TRY(certify(arena, q->loop, q->kept, &box, &proof, at, &end));
+        if (end != FW_PROVED) continue;
+        required_box part = *q;
+        part.box = &box;
+        q->result->in_part = true;
+        take_peaks(&proof, q->result);
+        return all_strains(arena, &part, &strain, &whole);
     }
     return FW_OK;
 }
@@ -584,10 +574,12 @@ fw_status fw_workspace_required(fw_arena *arena, const fw_mechanism *m, fw_works
         FW_TRY(one_box(arena, &k, provable, &q, &proof[i], &whole[i]));
         if (whole[i] && provable && m->nhinge > 0)
             FW_TRY(all_strains(arena, &q, &strain[i], &whole[i]));
+        if (!whole[i] && !result->beyond.certain && provable && m->nhinge > 0)
+            FW_TRY(part_of_box(arena, &q));
     }
     for (int i = 0; i < m->device->nscene && result->required; i++)
         if (fw_device_in_flow(m->device->scene[i].flow, m->variant->flow))
-            FW_TRY(left_out(arena, m, &m->device->scene[i], result));
+            FW_TRY(fw_workspace_left_out(arena, m, &m->device->scene[i], result));
     result->certified = result->certified && result->required && result->reachable;
     return FW_OK;
 }

@@ -100,6 +100,7 @@ typedef struct fw_workspace_beyond {
 typedef struct fw_workspace_result {
     bool required;              /* the device asks for one in this flow */
     bool reachable;             /* all of it can be assembled */
+    bool in_part;               /* not all is reached, for all that is known: peaks are of a part */
     bool certified;             /* interval proof; sampled otherwise */
     double volume_m2_rad;       /* of the required box */
     fw_workspace_beyond beyond; /* a pose out of reach ... */
