@@ -199,9 +199,8 @@ typedef struct fw_chance_subset {
     double *most;   /* (repetitions) high, or where none failed what is below the last level */
     size_t planned; /* evaluations of a repetition, with a level to spare */
     size_t failing;
-    double *
-        failed; /* (failing x dimensions) failing points of the last levels, or the nearest to it */
-    double reach; /* 0: they fail; else how many standard deviations out they lie, about */
+    double *failed; /* (failing x dimensions) that fail, of the last levels, or come nearest */
+    double reach;   /* 0: they fail; else how many standard deviations out they lie, about */
     double step[FW_CHANCE_LEVELS + 1]; /* length of the chains' steps at each level */
     int reached;                       /* the last level that has taught its own */
 } fw_chance_subset;
