@@ -61,7 +61,7 @@ const SENTENCES = {
     step: "The step of the recipe that was run.", Step: "The step of the recipe that was run.", Wafer: "The wafer that went through it, or the whole lot.",
 };
 const PATTERNS = [
-    [/: value$/, "What your laboratory has found, in the unit beside it."], [/: standard uncertainty$/, "One standard deviation; 0 says that the number is exact."], [/: how it is known$/, "Measured, stated by a maker, typical, or assumed: what is assumed stays marked so."],
+    [/: value$/, "What your laboratory has found, in the unit beside it."], [/: which it is$/, "The name of what your laboratory uses, as its maker writes it."], [/: standard uncertainty$/, "One standard deviation; 0 says that the number is exact."], [/: how it is known$/, "Measured, stated by a maker, typical, or assumed: what is assumed stays marked so."],
     [/^\d+\/\d+/, "Shows or hides this layer of the mask."], [/^Open results of/, "Samples that flexwright study has left beside the description."],
 ];
 
@@ -79,7 +79,7 @@ export function controlsOf(panel) {
     for (const e of panel.querySelectorAll("select, input, textarea")) {
         if (e.offsetParent === null || e.type === "file") continue;
         const name = plain(e.dataset.name ?? e.getAttribute("aria-label") ?? e.labels?.[0]?.textContent ?? "");
-        if (!seen.has(name)) seen.set(name, { name: /^\d+\/\d+/.test(name) ? "layers" : name.replace(/^.* \([^()]+\): (value|standard uncertainty|how it is known)$/, "$1"), sentence: sentenceOf(name, e.title) });
+        if (!seen.has(name)) seen.set(name, { name: /^\d+\/\d+/.test(name) ? "layers" : name.replace(/^.* \([^()]+\): (value|which it is|standard uncertainty|how it is known)$/, "$1"), sentence: sentenceOf(name, e.title) });
     }
     return [...new Map([...seen.values()].map((x) => [x.name, x])).values()];
 }
