@@ -243,15 +243,15 @@ add_custom_target(quick DEPENDS ${FW_QUICK_PROGRAMS} ${programs} solids)
 # measures them only for the next time). Of those that stand in FW_LONG each belongs to one turn (tests/turn.py), the one that
 # has the least so far; the others run each time, or take turns within.
 set(FW_LONG
-        docs.json:101 hard.test_hard_verdict:85 build.bytes:79 docs.readme:50 docs.limits:40 serve.robust:35
-        effects.absent:34 accept.wafer:33 unit.plan.test_cancel_threads:32 python.package:26 clearance.cases:24
-        cli.slurm:24 fault.files:23 unit.verdict.test_made_by_hand:23 hard.valgrind:20 unit.plan.test_advice:17
-        accept.masks:16 unit.study.test_engine:16 docs.schema:15 klayout.cells:15 judge.examples:14 process.orders:14
+        build.bytes:160 unit.plan.test_cancel_threads:110 docs.json:101 hard.test_hard_verdict:85 effects.absent:60
+        accept.wafer:55 python.package:52 docs.readme:50 klayout.cells:44 docs.limits:40 hard.valgrind:36
+        serve.robust:35 clearance.cases:24 cli.slurm:24 accept.masks:24 process.orders:24 fault.files:23
+        unit.verdict.test_made_by_hand:23 unit.plan.test_live_attached:21 unit.plan.test_advice:17
+        unit.study.test_engine:16 hard.test_hard_friction:16 docs.schema:15 hostile.documents:15 judge.examples:14
         install.tree:12 unit.effects.test_fringe:12 accept.random:12 serve.mutants:11 release.distances:11
-        unit.plan.test_nearest_drawn:10 hostile.documents:9 hard.test_hard_friction:9 serve.doors:9 live.memory:9
-        unit.workspace.test_pose_strain:9 accept.shapes:8 accuracy.survey:8 docs.gallery_solids:8 klayout.package:8
-        klayout.rules:8 library.consumer:7 serve.hostile:7 hard.test_hard_surfaces:7 fault.calls:7
-        unit.plan.test_live_attached:7 unit.plan.test_live_kept:7 unit.plan.test_not_drawn:7 clearance.random:7
+        unit.plan.test_nearest_drawn:10 serve.doors:9 live.memory:9 unit.workspace.test_pose_strain:9 accept.shapes:8
+        accuracy.survey:8 docs.gallery_solids:8 klayout.package:8 klayout.rules:8 library.consumer:7 serve.hostile:7
+        hard.test_hard_surfaces:7 fault.calls:7 unit.plan.test_live_kept:7 unit.plan.test_not_drawn:7 clearance.random:7
         unit.continuum.test_continuum:7 accept.written:7 clearance.stators:6 unit.workspace.test_survey:6 fault.memory:6
         fault.served:6 accept.selftest:6 python.docs:6 docs.theory:6 judge.frequencies:6 python.install:6)
 set(FW_LONG_EACH_TIME

@@ -30,6 +30,11 @@ def main():
     wrong += ["%s has more than one turn" % n for n, own in of.items() if len(own) > 1]
     wrong += ["no test has turn %s" % t for t in sorted(turns - {x for own in of.values() for x in own})]
     wrong += ["there is no turn %s" % t for t in sorted({x for own in of.values() for x in own} - turns)]
+    digits = "".join(sorted(turns))
+    others = ((ROOT / "test", (f"0x$commit % {TURNS}))", f"echo {digits} |")), (ROOT / "tests/build/sanitized_beside.sh", (f"number % {TURNS}))",)),
+              (ROOT / "tests/build/sanitized_unit.sh", (f"other++ % {TURNS} ==",)))
+    wrong += [f"{file.name} knows another number of turns than tests/turn.py: no '{part}'" for file, parts in others for part in parts
+              if part not in file.read_text(encoding="utf-8")]
     wrong += ["%s has no label" % n for n, own in labels.items() if not own]
     print("\n".join(wrong) or "%d tests, %d of them not in ./test and %d not in ./test --all" % (len(labels), *map(len, left_out)))
     return 1 if wrong or not all(left_out) else 0
