@@ -7,8 +7,8 @@
    best of these with its inputs at the ends of their ranges; and one search more, by models of all that was judged, with
    what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
    is sought alone, then the first with the second held at nine levels between (epsilon constraints; Haimes, Lasdon, Wismer
-   1971; at fewer where the budget has not enough for searches at all of them), and the front is what no other one of all that was judged and accepted beats. Nothing is proved: a better one may
-   be where nobody looked.
+   1971; at fewer where the budget has not enough for searches at all of them), and the front is what no other one of all
+   that was judged and accepted beats. Nothing is proved: a better one may be where nobody looked.
 
    At a wanted yield all of these are only what further searches begin with (study_search.c).
    Test: tests/cli/test_study.py, tests/cli/test_sizing.py */
@@ -221,6 +221,14 @@ static int worth_it(const fw_study *study) {
     return 2 * (study->nvary + 1);
 }
 
+/* n searches, and what they judged; *left: devices that there are */
+static fw_status run_all(sizing *s, fw_study_search *search, int n, int *left) {
+    FW_TRY(fw_study_search_run(s->study, search, n));
+    for (int i = 0; i < n; i++)
+        join(s, &search[i]), *left -= search[i].used;
+    return FW_OK;
+}
+
 /* Local searches that end apart from each other say that there are several places to end at. Then half of the devices that they
    left beyond what the last search has go over the ranges once more, by further points of the sequence, and the other half to
    searches from the best of these. *left: devices that there are. Test: tests/cli/test_sizing.py, SeveralMinima */
@@ -239,10 +247,7 @@ static fw_status look_again(sizing *s, const aim *a, const fw_study_search *ende
     fw_study_sort_samples(&s->kept[since], s->nkept - since);
     s->more_n += look, *left -= look;
     FW_TRY(starts(s, a, since, ended, n, search, &n, look / STARTS, first));
-    FW_TRY(fw_study_search_run(s->study, search, n));
-    for (int i = 0; i < n; i++)
-        join(s, &search[i]), *left -= search[i].used;
-    return FW_OK;
+    return run_all(s, search, n, left);
 }
 
 /* one more search, from all that was judged, with the devices that the others left */
@@ -325,9 +330,7 @@ static fw_status seek(sizing *s, aim *a, int most, long *first) {
     FW_NEED(search);
     FW_TRY(starts(s, a, 0, NULL, 0, search, &n, most, first));
     if (most < worth_it(s->study)) n = 0;
-    FW_TRY(fw_study_search_run(s->study, search, n));
-    for (int i = 0; i < n; i++)
-        join(s, &search[i]), left -= search[i].used;
+    FW_TRY(run_all(s, search, n, &left));
     if (!a->held) FW_TRY(look_again(s, a, search, n, most, &left, first));
     if (!a->held) FW_TRY(try_ends(s, a, &left));
     return go_on(s, a, left, first);
