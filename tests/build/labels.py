@@ -31,8 +31,10 @@ def main():
     wrong += ["no test has turn %s" % t for t in sorted(turns - {x for own in of.values() for x in own})]
     wrong += ["there is no turn %s" % t for t in sorted({x for own in of.values() for x in own} - turns)]
     digits = "".join(sorted(turns))
-    others = ((ROOT / "test", (f"0x$commit % {TURNS}))", f"echo {digits} |")), (ROOT / "tests/build/sanitized_beside.sh", (f"number % {TURNS}))",)),
-              (ROOT / "tests/build/sanitized_unit.sh", (f"other++ % {TURNS} ==",)))
+    wrong += ["build.sanitized has another turn than every even one"] if [x for x in labels["build.sanitized"] if "turn" in x] != ["turn-even"] else []
+    others = ((ROOT / "test", (f"0x$commit % {TURNS}))", f"echo {digits} |")),
+              (ROOT / "tests/build/sanitized_beside.sh", (f"number % {TURNS // 2})) -eq $((FW_TURN / 2))",)),
+              (ROOT / "tests/build/sanitized_unit.sh", (f"other++ % {TURNS // 2} == int(turn / 2)",)))
     wrong += [f"{file.name} knows another number of turns than tests/turn.py: no '{part}'" for file, parts in others for part in parts
               if part not in file.read_text(encoding="utf-8")]
     wrong += ["%s has no label" % n for n, own in labels.items() if not own]

@@ -3,8 +3,8 @@
 # The second compiler, clang, has no warning about any source either. What it builds runs under
 # AddressSanitizer and UndefinedBehaviorSanitizer without recovery: of the unit tests all but long ones that
 # add few edges of control flow (tests/edges), with FW_TEST_ALL=1 (./test --all) all of them; and the whole program on
-# the gallery. At the end it says which external functions of src/ ran in none. In a turn of ./test (tests/turn.py) an eighth runs, and
-# always what reads the bytes of strangers.
+# the gallery. At the end it says which external functions of src/ ran in none. In every second turn of ./test (tests/turn.py) a quarter
+# runs, and always what reads the bytes of strangers: half of the time goes into compiling it, whatever runs then.
 set -eu
 cd "$(dirname "$0")/../.."
 . tools/setup.sh

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # sanitized_unit.sh DIRECTORY-OF-THE-BUILD EXPRESSION: the unit tests that ctest knows there as quick or longer, but for those of
 # the expression, a dozen of one room in one program, two programs at a time. A program takes a fifth of a second to begin under
-# AddressSanitizer, which one for each test would pay some three hundred times. In a turn of ./test (tests/turn.py) every fourth dozen, and
-# always the rooms that read what strangers wrote.
+# AddressSanitizer, which one for each test would pay some three hundred times. In a turn of ./test (tests/turn.py), which is an even one,
+# every fourth dozen, and always the rooms that read what strangers wrote.
 set -eu
 build=$1
 case ${2:-} in
@@ -28,7 +28,7 @@ case ${2:-} in
         awk '{ n[$1]++; at = $1 " " int((n[$1] - 1) / 12); t[at] = t[at] " " $2; c[at]++ }
              END { for (a in t) { split(a, r, " "); print c[a], r[1] t[a] } }' |
         sort -k1,1nr -k2 | cut -d ' ' -f 2- |
-        awk -v turn="${FW_TURN:-all}" 'turn == "all" || /^(base|quantity|xml|device|drawing|process) / || other++ % 8 == turn' >"$build/unit-groups.txt"
+        awk -v turn="${FW_TURN:-all}" 'turn == "all" || /^(base|quantity|xml|device|drawing|process) / || other++ % 4 == int(turn / 2)' >"$build/unit-groups.txt"
     [ -s "$build/unit-groups.txt" ] || { echo "ctest knows no unit tests in $build"; exit 1; }
     xargs -P 2 -L 1 "$0" "$build" --these <"$build/unit-groups.txt"
     ;;
