@@ -120,24 +120,66 @@ static fw_device_limit_data limit_data_none(fw_place place) {
 
 /* ---- materials ---- */
 
-enum { YOUNGS, POISSON, DENSITY, STRENGTH, LOSS, EXPANSION, MODULUS_CHANGE, C11, C12, C44, IDS };
-static const char *const ids[IDS] = {"youngs",    "poisson",        "density", "strength", "loss",
-                                     "expansion", "modulus-change", "c11",     "c12",      "c44"};
+enum {
+    YOUNGS,
+    POISSON,
+    DENSITY,
+    STRENGTH,
+    LOSS,
+    EXPANSION,
+    EXPANSION_SLOPE,
+    EXPANSION_CURVATURE,
+    MODULUS_CHANGE,
+    C11,
+    C12,
+    C44,
+    IDS
+};
+static const char *const ids[IDS] = {"youngs",
+                                     "poisson",
+                                     "density",
+                                     "strength",
+                                     "loss",
+                                     "expansion",
+                                     "expansion-slope",
+                                     "expansion-curvature",
+                                     "modulus-change",
+                                     "c11",
+                                     "c12",
+                                     "c44"};
 
 static const fw_quantity_dimension dimension_of[IDS] = {[YOUNGS] = {-1, 1, -2, 0, 0, 0, 0, 0},
                                                         [DENSITY] = {.m = -3, .kg = 1},
                                                         [STRENGTH] = {-1, 1, -2, 0, 0, 0, 0, 0},
                                                         [EXPANSION] = {.K = -1},
+                                                        [EXPANSION_SLOPE] = {.K = -2},
+                                                        [EXPANSION_CURVATURE] = {.K = -3},
                                                         [MODULUS_CHANGE] = {.K = -1},
                                                         [C11] = {-1, 1, -2, 0, 0, 0, 0, 0},
                                                         [C12] = {-1, 1, -2, 0, 0, 0, 0, 0},
                                                         [C44] = {-1, 1, -2, 0, 0, 0, 0, 0}};
 
 static fw_quantity *slot(fw_device_material *m, int k) {
-    fw_quantity *const all[IDS] = {&m->youngs, &m->poisson,   &m->density,        &m->strength,
-                                   &m->loss,   &m->expansion, &m->modulus_change, &m->c11,
-                                   &m->c12,    &m->c44};
+    fw_quantity *const all[IDS] = {&m->youngs,
+                                   &m->poisson,
+                                   &m->density,
+                                   &m->strength,
+                                   &m->loss,
+                                   &m->expansion,
+                                   &m->expansion_slope,
+                                   &m->expansion_curvature,
+                                   &m->modulus_change,
+                                   &m->c11,
+                                   &m->c12,
+                                   &m->c44};
     return all[k];
+}
+
+double fw_device_material_expansion(const fw_device_material *m, double change_K) {
+    if (m->expansion.unknown) return (double)NAN;
+    const double slope = m->expansion_slope.unknown ? 0 : m->expansion_slope.value;
+    const double curvature = m->expansion_curvature.unknown ? 0 : m->expansion_curvature.value;
+    return m->expansion.value + change_K * (slope + change_K * curvature);
 }
 
 static int index_of(const char *id) {
@@ -171,6 +213,14 @@ static void check_value(fw_arena *arena, const fw_xml_element *e, int k, const f
     case LOSS:
         wrong = !(q->value >= 0.0);
         range = "at least 0 (a negative one would feed energy in)";
+        break;
+    case EXPANSION_SLOPE:
+        wrong = !(fabs(q->value) <= 1e-6);
+        range = "between -1 and 1 ppm/K2 (no expansion changes by 1 ppm/K over a kelvin)";
+        break;
+    case EXPANSION_CURVATURE:
+        wrong = !(fabs(q->value) <= 1e-8);
+        range = "between -0.01 and 0.01 ppm/K3";
         break;
     case EXPANSION: /* some shrink when they warm up, but none by as much as this */
     case MODULUS_CHANGE:

@@ -47,7 +47,10 @@ typedef struct fw_device_material {
     fw_quantity strength;  /* Pa: stress that the safety factor divides */
     const char *criterion; /* "fracture", "proportional limit", "yield" */
     fw_quantity loss;      /* 1: loss factor eta of the material damping, for c = eta k/omega */
-    fw_quantity expansion; /* 1/K, thermal, of length */
+    fw_quantity
+        expansion; /* 1/K, thermal, of length, at 300 K; in the mean over a change dT from there */
+    fw_quantity expansion_slope,
+        expansion_curvature;    /* + slope dT + curvature dT^2: 1/K2, 1/K3; unknown: 0 */
     fw_quantity modulus_change; /* 1/K: (dE/dT)/E */
     fw_quantity c11, c12, c44;  /* Pa: of a cubic crystal in a (100) wafer; unknown: isotropic */
     fw_device_limit_data limit; /* what else is known of what it bears */
@@ -65,6 +68,9 @@ typedef struct fw_device_materials {
     const struct fw_xml_source_text *source; /* (nsource) where its numbers are from */
     int nsource;
 } fw_device_materials;
+
+/* mean coefficient over a change from 300 K; 1/K, NaN: not known */
+double fw_device_material_expansion(const fw_device_material *material, double change_K);
 
 /* reads the <material> elements of a pack (base.xml) */
 fw_status fw_device_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,

@@ -240,10 +240,12 @@ static const fw_xml_attribute_row temperature_rows[] = {
      .sentence = "Of device and substrate, from where the device was made, times the law: a "
                  "difference, in K."},
     {"expansion", D_PER_K, RANGE(-0.01, 0.01, "no solid stretches by 1 % per kelvin"),
-     .fallback = "the material's", .sentence = "Of the device layer: change of length per kelvin."},
+     .fallback = "the material's",
+     .sentence = "Of the device layer: change of length per kelvin, in the mean over the change."},
     {"substrate-expansion", D_PER_K, RANGE(-0.01, 0.01, "no solid stretches by 1 % per kelvin"),
      .fallback = "the substrate's",
-     .sentence = "Of what the device is anchored to: silicon, or borosilicate glass where the flow "
+     .sentence = "Likewise of what the device is anchored to: silicon, or borosilicate glass where "
+                 "the flow "
                  "has carrier=\"insulating\"."},
     {"modulus-change", D_PER_K, RANGE(-0.01, 0.01, "no solid softens by 1 % per kelvin"),
      .fallback = "the material's",

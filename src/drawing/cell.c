@@ -215,16 +215,29 @@ static bool is_first(const fw_drawing_flat *flat, int map) {
     return true;
 }
 
+/* with the layers that hold polygons, where one was asked for */
+static fw_status say_nothing(const fw_drawing_flat *flat, const char *from) {
+    const fw_drawing_cell_asked *a = flat->asked;
+    const int most = sizeof flat->other / sizeof *flat->other;
+    fw_text others = fw_text_new(flat->arena);
+    fw_text_add(&others, "");
+    for (int i = 0; i < flat->nother && i < most; i++)
+        fw_text_printf(&others, "%s%d/%d", i == 0 ? "; polygons lie on " : ", ",
+                       flat->other[i].layer, flat->other[i].type);
+    if (flat->nother > most) fw_text_add(&others, " and others");
+    FW_TRY(fw_text_end(&others));
+    return fw_diag_error(flat->diags, 568, a->nmap ? a->layers_place : a->place,
+                         "%s has no polygon in %s%s%s%s%s", a->file,
+                         flat->name ? fw_text_kind("cell ", flat->name) : "it",
+                         flat->name ? flat->name : "", a->nmap ? " on layer " : "",
+                         a->nmap ? from : "", others.data);
+}
+
 static fw_status merge_all(fw_drawing_flat *flat, fw_drawing_cell *out) {
     const fw_drawing_cell_asked *a = flat->asked;
     size_t corners = 0, parts = 0;
     for (int i = 0; i < flat->nmap; i++)
-        if (!flat->map[i].found)
-            return fw_diag_error(flat->diags, 568, a->nmap ? a->layers_place : a->place,
-                                 "%s has no polygon in %s%s%s%s", a->file,
-                                 flat->name ? fw_text_kind("cell ", flat->name) : "it",
-                                 flat->name ? flat->name : "", a->nmap ? " on layer " : "",
-                                 a->nmap ? flat->map[i].from : "");
+        if (!flat->map[i].found) return say_nothing(flat, flat->map[i].from);
     FW_NEED(out->layer = fw_arena_array(flat->arena, fw_drawing_cell_layer, (size_t)flat->nmap));
     for (int i = 0; i < flat->nmap; i++) {
         if (!is_first(flat, i)) continue;

@@ -209,8 +209,10 @@ typedef struct fw_drawing_flat { /* a cell without its hierarchy */
     fw_drawing_shape *shape; /* (n) */
     int n, room;
     size_t points;
-    int rounded;      /* points that were not on the grid */
-    const char *name; /* of the cell */
+    fw_drawing_map other[12]; /* (nother) layers of which nothing is taken, */
+    int nother;               /* one more than there is room for: and others */
+    int rounded;              /* points that were not on the grid */
+    const char *name;         /* of the cell */
 } fw_drawing_flat;
 
 /* one polygon of n points in nm, in the device's axes. FW_LIMIT: too many; FW_GEOMETRY: too far from the
@@ -270,6 +272,15 @@ typedef struct fw_drawing_frame { /* p goes to (xx x + xy y + x, yx x + yy y + y
     double xx, xy, yx, yy, x, y;
 } fw_drawing_frame;
 
+static inline fw_geometry_vec2 fw_drawing_placed(const fw_drawing_frame *f, fw_geometry_vec2 p) {
+    return (fw_geometry_vec2){f->xx * p.x + f->xy * p.y + f->x, f->yx * p.x + f->yy * p.y + f->y};
+}
+
+typedef struct fw_drawing_layer { /* of DXF, as its tables have it */
+    const char *name;
+    bool off, frozen; /* the drawing does not show what lies on it */
+} fw_drawing_layer;
+
 typedef struct fw_drawing_dxf {
     fw_arena *arena;
     fw_diags *diags;
@@ -281,20 +292,41 @@ typedef struct fw_drawing_dxf {
     fw_drawing_pair now;
     fw_drawing_block *block; /* (nblock) */
     int nblock, block_room;
+    fw_drawing_layer *layer_row; /* (nlayer_row) */
+    int nlayer_row, layer_room;
+    const char *code_page; /* of names that are no UTF-8; NULL: ANSI_1252 */
+    const char *other
+        [12]; /* (nother) other layers than the one that is asked for, on which something lies */
+    size_t nother;          /* one more than there is room for: there are others */
     fw_drawing_frame frame; /* of the block that is being placed, in the drawing */
     const char
-        *inherited;    /* layer of its INSERT, which its layer 0 stands for; NULL: there is none */
-    int depth, work;   /* blocks within blocks; entities of blocks that were placed */
-    bool failed, over; /* nothing more can be read; the text is at its end */
-    int insunits;      /* -1: not said */
-    unsigned told;     /* a bit for each kind of entity that was passed over with a warning */
-    const char *layer; /* the only one so far that had something; NULL */
+        *inherited;  /* layer of its INSERT, which its layer 0 stands for; NULL: there is none */
+    int depth, work; /* blocks within blocks; entities of blocks that were placed */
+    bool no_memory;
+    bool failed, over;     /* nothing more can be read; the text is at its end */
+    int insunits;          /* -1: not said */
+    unsigned told;         /* a bit for each kind of entity that was passed over with a warning */
+    const char *layer;     /* the only one so far that had something; NULL */
     fw_drawing_edge *edge; /* (nedge) */
     int nedge, edge_room;
     fw_drawing_run *closed; /* (nclosed) runs of edges that are closed as they are */
     int nclosed, closed_room;
 } fw_drawing_dxf;
 
+static inline fw_place fw_drawing_dxf_place(const fw_drawing_dxf *dxf, int line) {
+    return (fw_place){dxf->asked->file, line, 1};
+}
+/* a layer on which something lies that was not asked for */
+fw_status fw_drawing_dxf_note_other(fw_drawing_dxf *dxf, const char *layer);
+/* a name of the file in UTF-8: \U+XXXX is one character, and bytes that are no UTF-8 are of the drawing's code page, as in files of
+   before 2007; NULL: no memory */
+const char *fw_drawing_dxf_name(const fw_drawing_dxf *dxf, const char *value, size_t n);
+/* how many edges are taken; one more edge, in units of the file and placed by the frame; the edges from `first` on are a closed
+   line. What is too much is reported, and dxf->failed */
+int fw_drawing_dxf_most(const fw_drawing_dxf *dxf);
+fw_status fw_drawing_dxf_edge(fw_drawing_dxf *dxf, fw_geometry_vec2 a, fw_geometry_vec2 b,
+                              double sweep_rad, int line);
+fw_status fw_drawing_dxf_close(fw_drawing_dxf *dxf, int first, int line);
 /* closed runs and chains of edges to outlines in metres; FW_INPUT: reported */
 fw_status fw_drawing_dxf_outlines(fw_drawing_dxf *dxf, fw_drawing *out);
 

@@ -1,10 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From the edges of a DXF file to closed outlines: its unit, chains of lines and arcs, and which of
+/* From what a DXF file says to closed outlines: its names in UTF-8, its unit, its edges, chains of lines and arcs, and which of
    the closed lines are holes in others. */
 #include "base/text.h"
 #include "drawing/drawing.h"
 #include "geometry/segment.h"
+#include <ctype.h>
+#include <iconv.h>
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
 
 #define FARTHEST_M 0.3 /* wafers are at most 300 mm wide */
 
@@ -12,8 +17,107 @@ typedef fw_drawing_edge edge;
 typedef fw_drawing_run closed;
 typedef fw_drawing_dxf reader;
 
-static fw_place place_at(const reader *r, int line) {
-    return (fw_place){r->asked->file, line, 1};
+/* ---- names ---- */
+
+/* a character of the drawing's code page, "ANSI_1252" or what $DWGCODEPAGE has; false: not known here */
+static bool in_code_page(const char *page, const char *byte, fw_text *out) {
+    char from[16], to[8], *in = (char *)(uintptr_t)byte, *end = to;
+    size_t left = 1, room = sizeof to;
+    snprintf(from, sizeof from, "CP%.12s",
+             page && strncmp(page, "ANSI_", 5) == 0 ? page + 5 : "1252");
+    iconv_t way = iconv_open("UTF-8", from);
+    if (way == (iconv_t)-1) return false;
+    bool good = iconv(way, &in, &left, &end, &room) != (size_t)-1;
+    iconv_close(way);
+    if (good) fw_text_bytes(out, to, (size_t)(end - to));
+    return good;
+}
+
+static int hex_of(const char *four) {
+    int value = 0;
+    for (int i = 0; i < 4; i++) {
+        const char *at = strchr("0123456789abcdef", tolower((unsigned char)four[i]));
+        if (!at || four[i] == '\0') return 0;
+        value = 16 * value + (int)(at - "0123456789abcdef");
+    }
+    return value;
+}
+
+static void add_utf8(fw_text *out, unsigned c) {
+    unsigned char bytes[3] = {(unsigned char)(0xe0 | c >> 12),
+                              (unsigned char)(0x80 | (c >> 6 & 63)),
+                              (unsigned char)(0x80 | (c & 63))};
+    if (c < 0x80)
+        fw_text_bytes(out, &(unsigned char){(unsigned char)c}, 1);
+    else if (c < 0x800)
+        fw_text_bytes(out, (unsigned char[]){(unsigned char)(0xc0 | c >> 6), bytes[2]}, 2);
+    else
+        fw_text_bytes(out, bytes, 3);
+}
+
+const char *fw_drawing_dxf_name(const fw_drawing_dxf *dxf, const char *value, size_t n) {
+    fw_text out = fw_text_new(dxf->arena);
+    const char *text = fw_arena_strndup(dxf->arena, value, n);
+    if (!text) return NULL;
+    fw_text_add(&out, "");
+    while (*text) {
+        unsigned code = 0;
+        int escaped = strlen(text) >= 7 && memcmp(text, "\\U+", 3) == 0 ? hex_of(text + 3) : 0;
+        size_t bytes = fw_text_utf8(text, &code);
+        if (escaped > 0 && (escaped < 0xd800 || escaped > 0xdfff)) {
+            add_utf8(&out, (unsigned)escaped);
+            text += 7;
+        } else if (bytes > 0 || !in_code_page(dxf->code_page, text, &out)) {
+            fw_text_bytes(&out, text, bytes > 0 ? bytes : 1);
+            text += bytes > 0 ? bytes : 1;
+        } else
+            text++;
+    }
+    return fw_text_end(&out) == FW_OK ? out.data : NULL;
+}
+
+/* ---- edges ---- */
+
+/* a mask's drawing may have more than a body's outline */
+int fw_drawing_dxf_most(const fw_drawing_dxf *dxf) {
+    return dxf->asked->segments_most ? dxf->asked->segments_most : FW_DRAWING_SEGMENTS_MOST;
+}
+
+fw_status fw_drawing_dxf_edge(fw_drawing_dxf *r, fw_geometry_vec2 a, fw_geometry_vec2 b,
+                              double sweep_rad, int line) {
+    const int most = fw_drawing_dxf_most(r);
+    if (r->nedge == most) {
+        fw_diag_error(r->diags, 319, fw_drawing_dxf_place(r, line),
+                      "more than %d lines and arcs are taken from one file; draw fewer points, or "
+                      "use several layers",
+                      most);
+        r->failed = true;
+        return FW_OK;
+    }
+    if (r->nedge == r->edge_room) {
+        int more = r->edge_room ? 2 * r->edge_room : 64;
+        FW_NEED(r->edge = fw_arena_grow(r->arena, r->edge, (size_t)r->nedge, (size_t)more,
+                                        sizeof *r->edge));
+        r->edge_room = more;
+    }
+    bool mirrored = r->frame.xx * r->frame.yy < r->frame.xy * r->frame.yx;
+    r->edge[r->nedge++] = (edge){fw_drawing_placed(&r->frame, a), fw_drawing_placed(&r->frame, b),
+                                 mirrored ? -sweep_rad : sweep_rad, line, false};
+    return FW_OK;
+}
+
+fw_status fw_drawing_dxf_close(fw_drawing_dxf *r, int first, int line) {
+    if (r->failed || r->nedge == first) return FW_OK;
+    if (r->nclosed == r->closed_room) {
+        int more = r->closed_room ? 2 * r->closed_room : 16;
+        FW_NEED(r->closed = fw_arena_grow(r->arena, r->closed, (size_t)r->nclosed, (size_t)more,
+                                          sizeof *r->closed));
+        r->closed_room = more;
+    }
+    for (int i = first; i < r->nedge; i++)
+        r->edge[i].used = true;
+    r->closed[r->nclosed++] = (closed){first, r->nedge - first, line};
+    return FW_OK;
 }
 
 /* ---- units ---- */
@@ -68,7 +172,7 @@ static bool scale_edges(reader *r, double unit_m) {
         e->b = scaled(e->b, unit_m);
         double most = fmax(fmax(fabs(e->a.x), fabs(e->a.y)), fmax(fabs(e->b.x), fabs(e->b.y)));
         if (most <= FARTHEST_M) continue;
-        fw_diag_error(r->diags, 313, place_at(r, e->line),
+        fw_diag_error(r->diags, 313, fw_drawing_dxf_place(r, e->line),
                       "it lies farther than 300 mm from the origin, wider than any wafer; correct "
                       "the unit or the drawing");
         return false;
@@ -82,14 +186,14 @@ static fw_status trace(reader *r, const fw_drawing_piece *piece, int n, fw_geome
     fw_drawing_flaw flaw;
     const int most = r->asked->outlines_most ? r->asked->outlines_most : FW_DRAWING_OUTLINES_MOST;
     if (out->count == most)
-        return fw_diag_error(r->diags, 319, place_at(r, line),
+        return fw_diag_error(r->diags, 319, fw_drawing_dxf_place(r, line),
                              "more than %d outlines are taken from one file", most);
     fw_drawing_outline *o = &out->outline[out->count];
     fw_status status = fw_drawing_trace(r->arena, start, piece, n, &o->contour, &flaw);
     if (status == FW_GEOMETRY) {
         const char *what = fw_drawing_flaw_text(r->arena, &flaw);
         FW_NEED(what);
-        return fw_diag_error(r->diags, 315, place_at(r, line),
+        return fw_diag_error(r->diags, 315, fw_drawing_dxf_place(r, line),
                              "the closed line that begins here %s; repair the drawing", what);
     }
     FW_TRY(status);
@@ -115,7 +219,7 @@ static int next_in_chain(const reader *r, fw_geometry_vec2 at, bool *backwards) 
 
 static fw_status say_open(reader *r, int line, fw_geometry_vec2 at, bool several) {
     char x[32], y[32];
-    return fw_diag_error(r->diags, 315, place_at(r, line),
+    return fw_diag_error(r->diags, 315, fw_drawing_dxf_place(r, line),
                          "the chain of lines and arcs that begins here %s at (%s, %s) um, ends "
                          "being joined that lie within 1 nm; close the line in the drawing",
                          several ? "meets more than one other" : "ends",
@@ -162,12 +266,38 @@ static fw_status find_holes(reader *r, fw_drawing *d) {
                       fw_geometry_contour_distance_below(own, other, 1e-9, NULL, NULL) > 0;
         }
         if (around > 1)
-            return fw_diag_error(r->diags, 315, place_at(r, d->outline[i].line),
+            return fw_diag_error(r->diags, 315, fw_drawing_dxf_place(r, d->outline[i].line),
                                  "the closed line that begins here lies within a hole, an island "
                                  "that nothing holds; remove it, or put it on another layer");
         d->outline[i].hole = around == 1;
     }
     return FW_OK;
+}
+
+fw_status fw_drawing_dxf_note_other(fw_drawing_dxf *r, const char *layer) {
+    const size_t most = sizeof r->other / sizeof *r->other;
+    for (size_t i = 0; i < r->nother && i < most; i++)
+        if (strcmp(r->other[i], layer) == 0) return FW_OK;
+    if (r->nother < most) FW_NEED(r->other[r->nother] = fw_arena_strdup(r->arena, layer));
+    r->nother += r->nother <= most;
+    return FW_OK;
+}
+
+/* with the layers on which something lies, where one was asked for */
+static fw_status say_nothing(reader *r) {
+    const char *layer = r->asked->layer;
+    const size_t most = sizeof r->other / sizeof *r->other;
+    fw_text others = fw_text_new(r->arena);
+    fw_text_add(&others, "");
+    for (size_t i = 0; i < r->nother && i < most; i++)
+        fw_text_printf(&others, "%s'%.64s'", i == 0 ? "; something lies on " : ", ", r->other[i]);
+    if (r->nother > most) fw_text_add(&others, " and others");
+    FW_TRY(fw_text_end(&others));
+    return fw_diag_error(r->diags, 314, layer ? r->asked->layer_place : r->asked->place,
+                         "%s has no closed line%s%s%s%s; draw one as a polyline, or as lines and "
+                         "arcs that meet",
+                         r->asked->file, layer ? " on layer '" : "", layer ? layer : "",
+                         layer ? "'" : "", others.data);
 }
 
 static fw_status make_outlines(reader *r, fw_drawing *out) {
@@ -182,14 +312,7 @@ static fw_status make_outlines(reader *r, fw_drawing *out) {
         FW_TRY(trace(r, piece, c->count, r->edge[c->first].a, c->line, out));
     }
     FW_TRY(put_together(r, piece, out));
-    if (out->count == 0)
-        return fw_diag_error(r->diags, 314,
-                             r->asked->layer ? r->asked->layer_place : r->asked->place,
-                             "%s has no closed line%s%s%s; draw one as a polyline, or as lines and "
-                             "arcs that meet",
-                             r->asked->file, r->asked->layer ? " on layer '" : "",
-                             r->asked->layer ? r->asked->layer : "", r->asked->layer ? "'" : "");
-    return find_holes(r, out);
+    return out->count == 0 ? say_nothing(r) : find_holes(r, out);
 }
 
 fw_status fw_drawing_dxf_outlines(fw_drawing_dxf *dxf, fw_drawing *out) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* DXF (ASCII) to closed outlines. Pairs of lines, a group code and a value; of the sections only
-   $INSUNITS of HEADER, BLOCKS, and the ENTITIES of model space with the blocks that they insert. A bulge is the tangent of a quarter of the
+   $INSUNITS and $DWGCODEPAGE of HEADER, the layers of TABLES, BLOCKS, and the ENTITIES of model space with the blocks that they insert. A bulge is the tangent of a quarter of the
    sweep, so arcs of polylines are exact. Source: AutoCAD DXF Reference, u18_1_h. */
 #include "base/constants.h"
 #include "base/text.h"
@@ -14,8 +14,6 @@
 enum { LINE_MOST = 2048, LAYER_MOST = 256, BLOCKS_MOST = 10000, DEEPEST = 16, WORK_MOST = 100000 };
 
 typedef fw_drawing_pair pair;
-typedef fw_drawing_edge edge;
-typedef fw_drawing_run closed;
 typedef fw_drawing_dxf reader;
 
 typedef struct vertex {
@@ -23,13 +21,9 @@ typedef struct vertex {
     double bulge;
 } vertex;
 
-static fw_place place_at(const reader *r, int line) {
-    return (fw_place){r->asked->file, line, 1};
-}
-
 static void damaged(reader *r, int line, const char *what) {
     if (!r->failed)
-        fw_diag_error(r->diags, 312, place_at(r, line),
+        fw_diag_error(r->diags, 312, fw_drawing_dxf_place(r, line),
                       "this is no DXF file as it should be: %s; save it again as ASCII DXF", what);
     r->failed = true;
 }
@@ -59,7 +53,7 @@ static bool next(reader *r) {
     double number;
     r->pair_at = r->at;
     r->pair_line = r->line;
-    if (r->failed || r->over || !next_line(r, &code, &n)) {
+    if (r->failed || r->no_memory || r->over || !next_line(r, &code, &n)) {
         r->over = true;
         return false;
     }
@@ -112,22 +106,72 @@ static const struct {
                    {"VIEWPORT", false}, {"XLINE", true},       {"RAY", true},
                    {"TEXT", true},      {"MTEXT", true},       {"HATCH", true}};
 
-/* what the drawing does not show (group 60) is not taken, and that is told once of a file */
+/* ---- layers ---- */
+
+static const fw_drawing_layer *find_layer(const reader *r, const char *name) {
+    for (int i = 0; i < r->nlayer_row; i++)
+        if (strcasecmp(r->layer_row[i].name, name) == 0) return &r->layer_row[i];
+    return NULL;
+}
+
+/* LAYER of the tables: stands on it, leaves on the next entry. Off is a negative colour (group 62), frozen bit 1 of the flags */
+static fw_status note_layer(reader *r) {
+    fw_drawing_layer row = {.name = ""};
+    while (next(r) && r->now.code != 0)
+        if (r->now.code == 2)
+            FW_NEED(row.name = fw_drawing_dxf_name(r, r->now.value, r->now.length));
+        else if (r->now.code == 62)
+            row.off = number_now(r) < 0;
+        else if (r->now.code == 70)
+            row.frozen = (int)fmax(0, fmin(number_now(r), 1e6)) & 1;
+    if (r->nlayer_row == BLOCKS_MOST) damaged(r, r->line, "it has more than 10000 layers");
+    if (r->failed) return FW_OK;
+    if (r->nlayer_row == r->layer_room) {
+        int more = r->layer_room ? 2 * r->layer_room : 16;
+        FW_NEED(r->layer_row = fw_arena_grow(r->arena, r->layer_row, (size_t)r->nlayer_row,
+                                             (size_t)more, sizeof *r->layer_row));
+        r->layer_room = more;
+    }
+    r->layer_row[r->nlayer_row++] = row;
+    return FW_OK;
+}
+
+/* once of a file: whether it had not been told */
+static bool tell_once(reader *r, unsigned bit) {
+    unsigned before = r->told;
+    r->told |= bit;
+    return before != r->told;
+}
+
+/* What the drawing does not show is not taken: what is invisible itself (group 60), and what lies on a layer that is off or
+   frozen, unless that layer is asked for by name. A block is hidden by a frozen layer of its INSERT, not by one that is off */
 static bool is_seen(reader *r, const entity *e) {
-    const unsigned told = 1u << 31;
-    if (e->hidden && !(r->told & told))
-        fw_diag_warning(r->diags, 705, place_at(r, e->line),
+    const unsigned invisible = 1u << 31, switched = 1u << 30;
+    const fw_drawing_layer *on = find_layer(r, e->layer);
+    bool shown = !on || !(on->frozen || (on->off && strcmp(e->name, "INSERT") != 0));
+    bool named = r->asked->layer && strcmp(r->asked->layer, e->layer) == 0;
+    if (e->hidden && tell_once(r, invisible))
+        fw_diag_warning(r->diags, 705, fw_drawing_dxf_place(r, e->line),
                         "%s on layer '%.64s' is invisible in the drawing (group 60) and not "
                         "taken, and nor is anything else of this file that is: where it is meant "
                         "to be drawn, make it visible",
                         e->name, e->layer);
-    if (e->hidden) r->told |= told;
-    return !e->hidden;
+    else if (!shown && tell_once(r, switched))
+        fw_diag_warning(r->diags, 716, fw_drawing_dxf_place(r, e->line),
+                        "layer '%.64s' is %s in the drawing, %s", e->layer,
+                        on->frozen ? "frozen" : "switched off",
+                        named ? "which does not show it; it is taken all the same, since it is "
+                                "asked for by its name"
+                              : "and what lies on it is not taken: where it is meant to be drawn, "
+                                "switch it on or thaw it, or ask for it by its name");
+    return !e->hidden && (shown || named);
 }
 
 static bool is_wanted(reader *r, const entity *e) {
     if (e->paper) return false;
-    return (!r->asked->layer || strcmp(r->asked->layer, e->layer) == 0) && is_seen(r, e);
+    if (!r->asked->layer || strcmp(r->asked->layer, e->layer) == 0) return is_seen(r, e);
+    r->no_memory = r->no_memory || fw_drawing_dxf_note_other(r, e->layer) != FW_OK;
+    return false;
 }
 
 /* without a layer in the request all must lie on one */
@@ -153,7 +197,7 @@ static bool usable(reader *r, entity *e) {
     inherit(r, e);
     if (!is_wanted(r, e) || !is_of_layer(r, e)) return false;
     if (e->thick || e->turned) {
-        fw_diag_error(r->diags, 315, place_at(r, e->line),
+        fw_diag_error(r->diags, 315, fw_drawing_dxf_place(r, e->line),
                       e->thick ? "%s on layer '%.64s' has a width of its own; draw its outline "
                                  "instead, or set the width to 0"
                                : "%s on layer '%.64s' is drawn in a plane of its own (groups 210 "
@@ -164,69 +208,24 @@ static bool usable(reader *r, entity *e) {
     return !r->failed;
 }
 
-static fw_geometry_vec2 placed(const fw_drawing_frame *f, fw_geometry_vec2 p) {
-    return (fw_geometry_vec2){f->xx * p.x + f->xy * p.y + f->x, f->yx * p.x + f->yy * p.y + f->y};
-}
-
-/* a mask's drawing may have more than a body's outline */
-static int segments_most(const reader *r) {
-    return r->asked->segments_most ? r->asked->segments_most : FW_DRAWING_SEGMENTS_MOST;
-}
-
-static fw_status add_edge(reader *r, fw_geometry_vec2 a, fw_geometry_vec2 b, double sweep_rad,
-                          int line) {
-    if (r->nedge == segments_most(r)) {
-        fw_diag_error(r->diags, 319, place_at(r, line),
-                      "more than %d lines and arcs are taken from one file; draw fewer points, or "
-                      "use several layers",
-                      segments_most(r));
-        r->failed = true;
-        return FW_OK;
-    }
-    if (r->nedge == r->edge_room) {
-        int more = r->edge_room ? 2 * r->edge_room : 64;
-        FW_NEED(r->edge = fw_arena_grow(r->arena, r->edge, (size_t)r->nedge, (size_t)more,
-                                        sizeof *r->edge));
-        r->edge_room = more;
-    }
-    bool mirrored = r->frame.xx * r->frame.yy < r->frame.xy * r->frame.yx;
-    r->edge[r->nedge++] = (edge){placed(&r->frame, a), placed(&r->frame, b),
-                                 mirrored ? -sweep_rad : sweep_rad, line, false};
-    return FW_OK;
-}
-
-static fw_status add_closed(reader *r, int first, int line) {
-    if (r->failed || r->nedge == first) return FW_OK;
-    if (r->nclosed == r->closed_room) {
-        int more = r->closed_room ? 2 * r->closed_room : 16;
-        FW_NEED(r->closed = fw_arena_grow(r->arena, r->closed, (size_t)r->nclosed, (size_t)more,
-                                          sizeof *r->closed));
-        r->closed_room = more;
-    }
-    for (int i = first; i < r->nedge; i++)
-        r->edge[i].used = true;
-    r->closed[r->nclosed++] = (closed){first, r->nedge - first, line};
-    return FW_OK;
-}
-
 /* a vertex that repeats the one before it is none */
 static fw_status add_polyline(reader *r, const entity *e, const vertex *v, int n) {
     bool shut = e->flags & 1;
     int first = r->nedge;
     for (int i = 0; i + !shut < n && !r->failed; i++) {
         fw_geometry_vec2 a = v[i].at, b = v[(i + 1) % n].at;
-        if (!vec_same(a, b)) FW_TRY(add_edge(r, a, b, 4 * atan(v[i].bulge), e->line));
+        if (!vec_same(a, b)) FW_TRY(fw_drawing_dxf_edge(r, a, b, 4 * atan(v[i].bulge), e->line));
     }
     bool ends_meet = n > 2 && vec_same(v[0].at, v[n - 1].at);
-    return shut || ends_meet ? add_closed(r, first, e->line) : FW_OK;
+    return shut || ends_meet ? fw_drawing_dxf_close(r, first, e->line) : FW_OK;
 }
 
 static fw_status add_circle(reader *r, const entity *e) {
     int first = r->nedge;
     fw_geometry_vec2 left = {e->x[0] - e->radius, e->y[0]}, right = {e->x[0] + e->radius, e->y[0]};
-    FW_TRY(add_edge(r, right, left, FW_PI, e->line));
-    FW_TRY(add_edge(r, left, right, FW_PI, e->line));
-    return add_closed(r, first, e->line);
+    FW_TRY(fw_drawing_dxf_edge(r, right, left, FW_PI, e->line));
+    FW_TRY(fw_drawing_dxf_edge(r, left, right, FW_PI, e->line));
+    return fw_drawing_dxf_close(r, first, e->line);
 }
 
 /* one of a full turn is a circle, as some programs write these */
@@ -236,9 +235,10 @@ static fw_status add_arc(reader *r, const entity *e) {
     if (sweep <= 0) sweep += 360;
     double to = from + sweep * FW_PI / 180;
     fw_geometry_vec2 c = {e->x[0], e->y[0]};
-    return add_edge(r, (fw_geometry_vec2){c.x + e->radius * cos(from), c.y + e->radius * sin(from)},
-                    (fw_geometry_vec2){c.x + e->radius * cos(to), c.y + e->radius * sin(to)},
-                    sweep * FW_PI / 180, e->line);
+    return fw_drawing_dxf_edge(
+        r, (fw_geometry_vec2){c.x + e->radius * cos(from), c.y + e->radius * sin(from)},
+        (fw_geometry_vec2){c.x + e->radius * cos(to), c.y + e->radius * sin(to)},
+        sweep * FW_PI / 180, e->line);
 }
 
 typedef struct vertices {
@@ -247,7 +247,7 @@ typedef struct vertices {
 } vertices;
 
 static fw_status add_vertex(reader *r, vertices *v) {
-    if (v->count > segments_most(r)) return FW_OK; /* said when edges are made of them */
+    if (v->count > fw_drawing_dxf_most(r)) return FW_OK; /* said when edges are made of them */
     if (v->count == v->room) {
         int more = v->room ? 2 * v->room : 64;
         FW_NEED(v->item = fw_arena_grow(r->arena, v->item, (size_t)v->count, (size_t)more,
@@ -262,9 +262,9 @@ static fw_status add_vertex(reader *r, vertices *v) {
 static void common_group(reader *r, entity *e) {
     int code = r->now.code;
     if (code == 8) {
-        size_t n = r->now.length < LAYER_MOST ? r->now.length : LAYER_MOST - 1;
-        memcpy(e->layer, r->now.value, n);
-        e->layer[n] = '\0';
+        const char *name = fw_drawing_dxf_name(r, r->now.value, r->now.length);
+        if (name) snprintf(e->layer, sizeof e->layer, "%s", name);
+        r->no_memory = r->no_memory || !name;
     } else if (code == 67)
         e->paper = number_now(r) != 0;
     else if (code == 60)
@@ -335,7 +335,7 @@ static fw_status read_heavy(reader *r, entity *e) {
     }
     if (r->failed || !usable(r, e)) return FW_OK;
     if (other) {
-        fw_diag_error(r->diags, 315, place_at(r, e->line),
+        fw_diag_error(r->diags, 315, fw_drawing_dxf_place(r, e->line),
                       "this POLYLINE is a spline, a mesh or drawn in space; convert it to a plain "
                       "polyline of lines and arcs");
         r->failed = true;
@@ -363,7 +363,8 @@ static fw_status read_simple(reader *r, entity *e) {
     }
     if (r->failed || !usable(r, e)) return FW_OK;
     fw_geometry_vec2 a = {e->x[0], e->y[0]}, b = {e->x[1], e->y[1]};
-    if (strcmp(e->name, "LINE") == 0) return vec_same(a, b) ? FW_OK : add_edge(r, a, b, 0, e->line);
+    if (strcmp(e->name, "LINE") == 0)
+        return vec_same(a, b) ? FW_OK : fw_drawing_dxf_edge(r, a, b, 0, e->line);
     if (!(e->radius > 0)) {
         damaged(r, e->line, "an arc has no radius");
         return FW_OK;
@@ -379,14 +380,14 @@ static fw_status read_other(reader *r, entity *e) {
     for (size_t i = 0; i < sizeof passed_over / sizeof *passed_over; i++) {
         if (strcmp(passed_over[i].name, e->name) != 0) continue;
         if (passed_over[i].told && !(r->told >> i & 1))
-            fw_diag_warning(r->diags, 723, place_at(r, e->line),
+            fw_diag_warning(r->diags, 723, fw_drawing_dxf_place(r, e->line),
                             "%s on layer '%.64s' is not taken, and no other one of this file: "
                             "where it is meant to be drawn, convert it to closed polylines",
                             e->name, e->layer);
         r->told |= 1u << i;
         return FW_OK;
     }
-    fw_diag_error(r->diags, 315, place_at(r, e->line),
+    fw_diag_error(r->diags, 315, fw_drawing_dxf_place(r, e->line),
                   "%s on layer '%.64s' is not read: convert it to polylines of lines and arcs",
                   e->name, e->layer);
     r->failed = true;
@@ -405,8 +406,7 @@ static fw_drawing_block *find_block(const reader *r, const char *name) {
 static fw_status note_block(reader *r) {
     fw_drawing_block b = {.name = ""};
     while (next(r) && r->now.code != 0) {
-        if (r->now.code == 2)
-            FW_NEED(b.name = fw_arena_strndup(r->arena, r->now.value, r->now.length));
+        if (r->now.code == 2) FW_NEED(b.name = fw_drawing_dxf_name(r, r->now.value, r->now.length));
         if (r->now.code == 10) b.base.x = number_now(r);
         if (r->now.code == 20) b.base.y = number_now(r);
     }
@@ -434,7 +434,7 @@ static fw_status read_block(reader *r, int number, const entity *e) {
                       : r->work >= WORK_MOST ? "would be placed more than 100000 times"
                                              : NULL;
     if (why) {
-        fw_diag_error(r->diags, 319, place_at(r, e->line),
+        fw_diag_error(r->diags, 319, fw_drawing_dxf_place(r, e->line),
                       "block '%.64s' %s; explode some of the blocks", b->name, why);
         r->failed = true;
         return FW_OK;
@@ -463,9 +463,11 @@ typedef struct insert {
 
 static void insert_group(reader *r, insert *in, entity *e) {
     int code = r->now.code;
-    if (code == 2)
-        snprintf(in->name, sizeof in->name, "%.*s", (int)r->now.length, r->now.value);
-    else if (code == 10 || code == 20)
+    if (code == 2) {
+        const char *name = fw_drawing_dxf_name(r, r->now.value, r->now.length);
+        if (name) snprintf(in->name, sizeof in->name, "%s", name);
+        r->no_memory = r->no_memory || !name;
+    } else if (code == 10 || code == 20)
         *(code == 10 ? &e->x[0] : &e->y[0]) = number_now(r);
     else if (code == 41 || code == 42)
         in->scale[code - 41] = number_now(r);
@@ -501,7 +503,8 @@ static fw_status read_insert(reader *r, entity *e) {
     const fw_drawing_block *b = find_block(r, in.name);
     const char *fault = insert_fault(&in, e, b);
     if (fault) {
-        fw_diag_error(r->diags, 315, place_at(r, e->line), "block '%.64s' %s", in.name, fault);
+        fw_diag_error(r->diags, 315, fw_drawing_dxf_place(r, e->line), "block '%.64s' %s", in.name,
+                      fault);
         r->failed = true;
         return FW_OK;
     }
@@ -514,8 +517,8 @@ static fw_status read_insert(reader *r, entity *e) {
         for (int k = 0; k < in.columns && !r->failed; k++) {
             double u = k * in.step[0] - in.scale[0] * r->block[number].base.x,
                    v = i * in.step[1] - in.scale[1] * r->block[number].base.y;
-            fw_geometry_vec2 o =
-                placed(&from, (fw_geometry_vec2){e->x[0] + c * u - s * v, e->y[0] + s * u + c * v});
+            fw_geometry_vec2 o = fw_drawing_placed(
+                &from, (fw_geometry_vec2){e->x[0] + c * u - s * v, e->y[0] + s * u + c * v});
             double xx = c * in.scale[0], xy = -s * in.scale[1], yx = s * in.scale[0],
                    yy = c * in.scale[1];
             r->frame = (fw_drawing_frame){from.xx * xx + from.xy * yx,
@@ -549,8 +552,8 @@ static fw_status read_section(reader *r) {
         return FW_OK;
     }
     bool header = is(&r->now, 2, "HEADER"), entities = is(&r->now, 2, "ENTITIES"),
-         blocks = is(&r->now, 2, "BLOCKS");
-    bool wanted = false;
+         blocks = is(&r->now, 2, "BLOCKS"), tables = is(&r->now, 2, "TABLES");
+    bool wanted = false, page = false;
     next(r);
     while (!r->failed && !r->over && !is(&r->now, 0, "ENDSEC")) {
         if (entities && r->now.code == 0) {
@@ -561,7 +564,14 @@ static fw_status read_section(reader *r) {
             FW_TRY(note_block(r));
             continue;
         }
-        if (header && r->now.code == 9) wanted = is(&r->now, 9, "$INSUNITS");
+        if (tables && is(&r->now, 0, "LAYER")) {
+            FW_TRY(note_layer(r));
+            continue;
+        }
+        if (header && r->now.code == 9)
+            wanted = is(&r->now, 9, "$INSUNITS"), page = is(&r->now, 9, "$DWGCODEPAGE");
+        if (header && page && r->now.code == 3)
+            FW_NEED(r->code_page = fw_arena_strndup(r->arena, r->now.value, r->now.length));
         if (header && wanted && r->now.code == 70)
             r->insunits = (int)fmax(0, fmin(number_now(r), 1e3));
         next(r);
@@ -584,6 +594,7 @@ fw_status fw_drawing_read_dxf(fw_arena *arena, const char *data, size_t n,
         if (is(&r.now, 0, "SECTION")) FW_TRY(read_section(&r));
     if (!r.failed && r.line == 0) damaged(&r, 1, "it is empty");
     if (!r.failed && r.over) damaged(&r, r.line, "it does not end with EOF");
+    if (r.no_memory) return FW_NOMEM;
     if (r.failed) return FW_INPUT;
     return fw_drawing_dxf_outlines(&r, out);
 }

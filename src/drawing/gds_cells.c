@@ -310,11 +310,21 @@ static fw_status too_large(const library *l, size_t offset) {
         l->flat->asked->file, offset, (int)FW_DRAWING_SHAPES_MOST, (int)FW_DRAWING_POINTS_MOST);
 }
 
+/* the first layers of which nothing is taken */
+static void note_other(fw_drawing_flat *flat, int layer, int type) {
+    const int most = sizeof flat->other / sizeof *flat->other;
+    for (int i = 0; i < flat->nother && i < most; i++)
+        if (flat->other[i].layer == layer && flat->other[i].type == type) return;
+    if (flat->nother < most)
+        flat->other[flat->nother] = (fw_drawing_map){.layer = layer, .type = type};
+    flat->nother += flat->nother <= most;
+}
+
 /* to every layer that takes it; in the frame of the device */
 static fw_status add_polygon(library *l, const element *e, const frame *f, fw_geometry_vec2 *p,
                              int n) {
     fw_drawing_flat *flat = l->flat;
-    bool any = flat->asked->nmap == 0;
+    bool any = flat->asked->nmap == 0, taken = any;
     for (int i = 0; i < n; i++)
         p[i] = placed(f, p[i].x, p[i].y);
     for (int i = 0; i < flat->nmap; i++) {
@@ -329,7 +339,7 @@ static fw_status add_polygon(library *l, const element *e, const frame *f, fw_ge
                 m->type);
         if (any) m->layer = e->layer, m->type = e->type;
         if (!own && !any) continue;
-        m->found = true;
+        m->found = taken = true;
         fw_status status = fw_drawing_flat_add(flat, i, p, n, false);
         if (status == FW_LIMIT) return too_large(l, e->offset);
         char unit[32];
@@ -342,6 +352,7 @@ static fw_status add_polygon(library *l, const element *e, const frame *f, fw_ge
                 flat->asked->file, e->offset, fw_number_text(unit, sizeof unit, l->unit_nm, 9));
         FW_TRY(status);
     }
+    if (!taken) note_other(flat, e->layer, e->type);
     return FW_OK;
 }
 

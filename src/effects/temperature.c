@@ -16,20 +16,29 @@ static bool called_for(const fw_effect_case *c) {
     return false;
 }
 
-/* what the scene states, else the material's; NaN where neither is known */
-static double stated_or(double stated, const fw_mechanism *m, bool modulus) {
-    if (!isnan(stated)) return stated;
-    if (!m->variant) return (double)NAN;
-    const fw_quantity *q =
-        modulus ? &m->variant->material.modulus_change : &m->variant->material.expansion;
-    return q->unknown ? (double)NAN : q->value;
+/* coefficient of the layer: what the scene states, else the material's in the mean over the change; NaN: not known */
+static double own_expansion(const fw_device_temperature *t, const fw_mechanism *m) {
+    if (!isnan(t->expansion_per_K)) return t->expansion_per_K;
+    return m->variant ? fw_device_material_expansion(&m->variant->material, t->change_K)
+                      : (double)NAN;
 }
 
 /* likewise of what the layer is anchored to */
 static double substrate_of(const fw_device_temperature *t, const fw_mechanism *m) {
+    const fw_mechanism_variant *v = m->variant;
     if (!isnan(t->substrate_expansion_per_K)) return t->substrate_expansion_per_K;
-    if (!m->variant || m->variant->substrate_expansion.unknown) return (double)NAN;
-    return m->variant->substrate_expansion.value;
+    if (!v || v->substrate_expansion.unknown) return (double)NAN;
+    const double slope = v->substrate_slope.unknown ? 0 : v->substrate_slope.value;
+    const double curvature = v->substrate_curvature.unknown ? 0 : v->substrate_curvature.value;
+    return v->substrate_expansion.value + t->change_K * (slope + t->change_K * curvature);
+}
+
+/* relative change of Young's modulus; NaN: not known */
+static double modulus_change_of(const fw_device_temperature *t, const fw_mechanism *m) {
+    if (!isnan(t->modulus_change_per_K)) return t->modulus_change_per_K;
+    const fw_mechanism_variant *v = m->variant;
+    return v && !v->material.modulus_change.unknown ? v->material.modulus_change.value
+                                                    : (double)NAN;
 }
 
 static bool has_hinge(const fw_mechanism *m) {
@@ -41,19 +50,19 @@ static bool has_hinge(const fw_mechanism *m) {
 /* of the ground against the device where the law is 1: (1 + alpha_s dT)/(1 + alpha dT) - 1, about
    -(alpha - alpha_s) dT */
 static double ground_strain(const fw_mechanism *m, const fw_device_temperature *t) {
-    double own = stated_or(t->expansion_per_K, m, false) * t->change_K;
+    double own = own_expansion(t, m) * t->change_K;
     double substrate = substrate_of(t, m) * t->change_K;
     return (substrate - own) / (1 + own);
 }
 
 /* of the layer's own lengths where the law is 1 */
 static double layer_strain(const fw_mechanism *m, const fw_device_temperature *t) {
-    return stated_or(t->expansion_per_K, m, false) * t->change_K;
+    return own_expansion(t, m) * t->change_K;
 }
 
 /* relative change of hinge stiffness per unit of the law; 0 where no hinge asks for it */
 static double softening(const fw_mechanism *m, const fw_device_temperature *t) {
-    return has_hinge(m) ? stated_or(t->modulus_change_per_K, m, true) * t->change_K : 0;
+    return has_hinge(m) ? modulus_change_of(t, m) * t->change_K : 0;
 }
 
 void fw_effects_heat_strains(const fw_mechanism *m, const fw_device_scene *s, double strain[2]) {
@@ -137,6 +146,27 @@ static fw_status check_law(const fw_effect_case *c, const fw_device_temperature 
                          fw_number_text(time, sizeof time, at, 6));
 }
 
+/* A coefficient of which the pack does not say how it goes with temperature is that near 300 K. What is left where two materials
+   are nearly alike may then be another one by far. */
+static void tell_far(const fw_effect_case *c, const fw_device_temperature *t, fw_diags *diags) {
+    static const double near_K = 50;
+    const fw_mechanism_variant *v = c->mechanism->variant;
+    if (!v || fabs(t->change_K) <= near_K || ground_strain(c->mechanism, t) == 0) return;
+    const bool own = isnan(t->expansion_per_K) && v->material.expansion_slope.unknown;
+    const bool other = isnan(t->substrate_expansion_per_K) && v->substrate_slope.unknown;
+    if (!(own || other) || fw_diag_said(diags, 748, t->place)) return;
+    fw_diag_warning(diags, 748, t->place,
+                    "over a change of more than 50 K the thermal expansion of %s is not what it is "
+                    "near 300 K, and the pack does not say how it goes with temperature; state its "
+                    "mean over this change as %s",
+                    own && other ? "the layer and its substrate"
+                    : own        ? "the layer"
+                                 : "the substrate",
+                    own && other ? "expansion and substrate-expansion"
+                    : own        ? "expansion"
+                                 : "substrate-expansion");
+}
+
 static fw_status check(const fw_effect_case *c, fw_diags *diags) {
     double least = 1;
     int laws = 0;
@@ -149,6 +179,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
         if (isnan(soft))
             return unknown(t, diags, "change of Young's modulus",
                            "modulus-change (0 where it does not matter)");
+        tell_far(c, t, diags);
         FW_TRY(check_law(c, t, &laws, diags));
         least -= fabs(soft) * fw_quantity_law_largest(t->law, c->scene->duration_s);
         if (!(least > 0))
@@ -174,7 +205,7 @@ static sizes sizes_of(const fw_effect_case *c) {
         const fw_device_temperature *t = &c->scene->temperature[i];
         if (t->change_K == 0) continue;
         double largest = fw_quantity_law_largest(t->law, c->scene->duration_s);
-        double own = stated_or(t->expansion_per_K, c->mechanism, false) * t->change_K;
+        double own = own_expansion(t, c->mechanism) * t->change_K;
         double part = fabs(softening(c->mechanism, t)) * largest;
         *(fw_quantity_law_is_constant(t->law) ? &s.soft : &s.changing) += part;
         s.strain += fabs(ground_strain(c->mechanism, t)) * largest;

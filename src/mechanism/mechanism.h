@@ -43,8 +43,9 @@ typedef struct fw_mechanism_drying {
 typedef struct fw_mechanism_variant { /* what the device is made of, in one flow */
     const char *flow;                 /* flow id or NULL */
     fw_device_material material;
-    const char *substrate;           /* name of what the layer is anchored to; NULL: not known */
-    fw_quantity substrate_expansion; /* of it, 1/K */
+    const char *substrate; /* name of what the layer is anchored to; NULL: not known */
+    /* of it, 1/K at 300 K; over a change dT the mean is that + slope dT + curvature dT^2, 1/K2 and 1/K3 (unknown: 0) */
+    fw_quantity substrate_expansion, substrate_slope, substrate_curvature;
     /* a scene goes by the material's own expansion, by that of the substrate */
     bool heated_layer, heated_substrate;
     bool

@@ -382,6 +382,8 @@ static fw_mechanism_variant mechanism_alone(void) {
                                      .criterion = "",
                                      .loss = unknown,
                                      .expansion = unknown,
+                                     .expansion_slope = unknown,
+                                     .expansion_curvature = unknown,
                                      .modulus_change = unknown,
                                      .c11 = unknown,
                                      .c12 = unknown,

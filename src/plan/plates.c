@@ -508,7 +508,8 @@ fw_status fw_plan_find_ground(fw_plan *plan, const fw_plan_flow *pf, fw_mechanis
     const fw_device_material *of = fw_plan_material(plan, pf, id);
     v->substrate_insulates = faces ? faces->conducts == 0 : !carries && on_glass(pf);
     v->substrate = of ? of->name : carries ? carries->name : NULL;
-    if (of) v->substrate_expansion = of->expansion;
+    if (of) v->substrate_expansion = of->expansion, v->substrate_slope = of->expansion_slope;
+    if (of) v->substrate_curvature = of->expansion_curvature;
     return FW_OK;
 }
 

@@ -349,6 +349,10 @@ static void place_edges(fw_process_fixed_point *p, const double *A, const double
     const fw_process_cut *cut = device_cut(p);
     const fw_process_edge none = {(double)NAN, (double)NAN, (double)NAN};
     bool ranged = true;
+    double least, most;
+    fw_process_wear_range(&p->wear, &least, &most);
+    const double worn_low = p->off_low_m + p->wear.loss_m - most,
+                 worn_high = p->off_high_m + p->wear.loss_m - least;
     for (int k = 0; k < p->ncut; k++)
         ranged = ranged && !isnan(low[k]) && !isnan(high[k]) && !isnan(p->cut[k].etched_m);
     for (int i = 0; i < p->ncls; i++) {
@@ -363,10 +367,10 @@ static void place_edges(fw_process_fixed_point *p, const double *A, const double
         c->edge = fw_process_fixed_point_edge(p, c->opening_m, A);
         c->low = c->high = none;
         if (!ranged) continue;
-        c->low = shifted(fw_process_fixed_point_edge(p, c->opening_m, low), p->off_low_m,
-                         -p->flare_off_m);
-        c->high = shifted(fw_process_fixed_point_edge(p, c->opening_m, high), p->off_high_m,
-                          p->flare_off_m);
+        c->low =
+            shifted(fw_process_fixed_point_edge(p, c->opening_m, low), worn_low, -p->flare_off_m);
+        c->high =
+            shifted(fw_process_fixed_point_edge(p, c->opening_m, high), worn_high, p->flare_off_m);
     }
 }
 

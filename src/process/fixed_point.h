@@ -120,7 +120,7 @@ typedef struct fw_process_edge_class { /* one width of opening, in ascending ord
     double over_etch;        /* E/reach - 1; below 0: not through in the whole time. NaN */
     fw_process_edge edge;    /* where the edges of the material stand: the known part */
     fw_process_edge low,
-        high; /* at the ends of all ranges of the pack's corners; NaN: A has none */
+        high; /* at the ends of all ranges of the pack's corners, and of what is worn; NaN: A has none */
 } fw_process_edge_class;
 
 typedef struct fw_process_wear {  /* what the device itself loses of every open face, walls too */
@@ -132,6 +132,9 @@ typedef struct fw_process_wear {  /* what the device itself loses of every open 
     const struct fw_process_step *step; /* the first of them; NULL: there is none */
     const struct fw_process_exposed *exposed;
 } fw_process_wear;
+
+/* between which losses the corners of a verdict lie; m */
+void fw_process_wear_range(const fw_process_wear *w, double *low, double *high);
 
 enum { FW_CUTS = 4 };
 

@@ -342,7 +342,7 @@ static bool wear_input(const fw_process_wear *w, const fw_mechanism_variant *v,
                                                .source = by->source,
                                                .place = w->exposed->place}};
     set_range(in, &in->q);
-    in->low = fmax(in->low, 0.0), in->high = fmax(in->high, w->most_m);
+    fw_process_wear_range(w, &in->low, &in->high);
     in->edge_m = -1.0;
     in->even = w->loss_m;
     in->thickness = -1.0 / v->thickness_m;

@@ -42,6 +42,11 @@ void fw_process_quantity_range(const fw_quantity *q, double *low, double *high) 
     *high = q->interval ? q->high : q->value + 2.0 * q->uncertainty;
 }
 
+void fw_process_wear_range(const fw_process_wear *w, double *low, double *high) {
+    *low = fmax(w->loss_m - 2.0 * w->uncertainty_m, 0.0);
+    *high = fmax(w->loss_m + 2.0 * w->uncertainty_m, w->most_m);
+}
+
 bool fw_process_quantity_computed(const fw_quantity *q) {
     return strncmp(q->id, "mask.", 5) == 0 || (q->status == FW_DERIVED && q->unknown);
 }

@@ -171,10 +171,14 @@ static fw_status add_barcode(fw_wafer_sheet *s, const char *text, double inner, 
     return FW_OK;
 }
 
-/* its inner edge is the flat: as long as that, behind it */
-static fw_status add_flat_line(fw_wafer_sheet *s, const fw_wafer_form *form) {
-    double half = 0.5 * form->flat_m, r = 0.5 * form->diameter_m, away = sqrt(r * r - half * half);
-    double beyond = away + FLAT_LINE_M;
+/* its inner edge is the flat of the wafer as the plate has it, scaled as the dies are: as long as that, behind it. *fits: it ends
+   before the lettering begins */
+static fw_status add_flat_line(fw_wafer_sheet *s, const fw_wafer_form *form, double scale,
+                               bool *fits) {
+    double half = 0.5 * scale * form->flat_m, r = 0.5 * scale * form->diameter_m;
+    double away = sqrt(r * r - half * half), beyond = away + FLAT_LINE_M;
+    *fits = hypot(half, beyond) < 0.5 * form->diameter_m + BESIDE_M;
+    if (!*fits) return FW_OK;
     switch (form->side) {
     case FW_SIDE_BOTTOM:
         return add_bar(s, "flat line", -half, -beyond, half, -away);
@@ -254,8 +258,13 @@ static fw_status draw_plate(fw_wafer_maker *m, fw_wafer_sheet *s, int plate, boo
     if (order->barcode) /* title and identification stand beyond it */
         FW_TRY(add_barcode(s, order->barcode, inner, outer, 2 * inner, &beside));
     drawn->barcode = beside ? order->barcode : NULL;
-    drawn->flat_line = order->flat_line && w->form.flat_m > 0;
-    if (drawn->flat_line) FW_TRY(add_flat_line(s, &w->form));
+    if (order->flat_line && w->form.flat_m > 0)
+        FW_TRY(add_flat_line(s, &w->form, order->scale, &drawn->flat_line));
+    if (order->flat_line && w->form.flat_m > 0 && !drawn->flat_line)
+        fw_diag_warning(
+            m->diags, 195, order->place,
+            "<order>: the flat line is where the flat of the scaled wafer lies, in the "
+            "ring of title and barcode, and is left out; a smaller scale leaves it room");
     if (!beside)
         fw_diag_warning(
             m->diags, 195, order->place,

@@ -254,7 +254,8 @@ static void glass(const sheet *s, fw_text *out) {
 /* the inner edge of the flat line, as the file has it: *along of the coordinate "x" or "y"; false: there is none */
 static bool flat_line_of(const sheet *s, const char **coordinate, double *at_m) {
     const fw_wafer_form *f = &s->wafer->form;
-    double away = sqrt(0.25 * f->diameter_m * f->diameter_m - 0.25 * f->flat_m * f->flat_m);
+    double chord2_m2 = f->diameter_m * f->diameter_m - f->flat_m * f->flat_m;
+    double away = 0.5 * s->written->asked->scale * sqrt(chord2_m2);
     bool upright = f->side == FW_SIDE_LEFT || f->side == FW_SIDE_RIGHT;
     bool below = f->side == FW_SIDE_LEFT || f->side == FW_SIDE_BOTTOM;
     *coordinate = upright ? "x" : "y";
@@ -267,7 +268,7 @@ static void beside(const sheet *s, fw_text *out) {
     const fw_wafer_beside *b = &s->beside;
     char text[300], long_mm[32], at_mm[32];
     const char *coordinate;
-    double at_m;
+    double at_m, long_m = s->written->asked->scale * s->wafer->form.flat_m;
     fw_mask_order_line(out, "text at the top", b->title ? b->title : "none: it has no room");
     fw_mask_order_line(out, "text at the bottom", b->line ? b->line : "none: it has no room");
     if (b->barcode)
@@ -276,7 +277,7 @@ static void beside(const sheet *s, fw_text *out) {
     fw_mask_order_line(out, "barcode", b->barcode ? text : "none");
     bool line = flat_line_of(s, &coordinate, &at_m);
     snprintf(text, sizeof text, "%s mm long, its inner edge at %s = %s mm",
-             fw_number_text(long_mm, sizeof long_mm, s->wafer->form.flat_m * 1e3, 6), coordinate,
+             fw_number_text(long_mm, sizeof long_mm, long_m * 1e3, 6), coordinate,
              fw_number_text(at_mm, sizeof at_mm, at_m * 1e3, 6));
     fw_mask_order_line(out, "flat line", line ? text : "none");
 }

@@ -145,6 +145,14 @@ describe("rules and looks", () => {
     test("at 1024 pixels nothing is cut off or hidden behind another", async () => {
         const wide = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth, ...["top", "edit", "centre", "right"].map((id) => document.getElementById(id).getBoundingClientRect().right)]);
         assert.ok(wide[0] <= wide[1] && wide.slice(2).every((x) => x <= wide[1]), wide.join());
+        const cut = await page.evaluate(() => [...document.querySelectorAll(".tabs")].map((t) => t.scrollWidth - t.clientWidth));
+        assert.ok(cut.every((x) => x <= 0), `tabs are cut off by ${cut} pixels`);
+        await view(page, "workspace");
+        const legend = await page.evaluate(() => {
+            const whole = document.querySelector("#panel-workspace .colour-legend");
+            return [whole.querySelector(".ramp").getBoundingClientRect().width, whole.scrollWidth - whole.clientWidth];
+        });
+        assert.ok(legend[0] >= 50 && legend[1] <= 0, `the legend's colours are ${legend[0]} pixels wide, and ${legend[1]} are cut off`);
     });
 
     test("by keyboard alone: tabs, slider, views", async () => {

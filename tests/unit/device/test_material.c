@@ -119,6 +119,35 @@ static void what_is_absent_is_unknown(void **state) {
     fw_arena_free(arena);
 }
 
+/* the mean over a change is that of Okada and Tokumaru's formula, integrated here, within 0.05 ppm/K from -150 to 300 K; of a
+   material that does not say how it changes it is the coefficient itself */
+static void expansion_goes_with_temperature(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    size_t n;
+    char *xml = load(arena, "processes/base.xml", &n);
+    fw_device_materials m;
+    assert_int_equal(fw_device_materials_read(arena, "base.xml", xml, n, &diags, &m), FW_OK);
+    const char *const crystal[] = {"silicon-100", "silicon-substrate"};
+    for (int k = 0; k < 2; k++)
+        for (int change = -150; change <= 300; change += 25) {
+            double sum = 0;
+            for (int i = 0; i < 1000; i++) {
+                double T = 300 + change * (i + 0.5) / 1000;
+                sum += 3.725 * (1 - exp(-5.88e-3 * (T - 124))) + 5.548e-4 * T;
+            }
+            const fw_device_material *si = fw_device_material_find(&m, crystal[k]);
+            assert_near(fw_device_material_expansion(si, change), 1e-9 * sum, 0.05e-6);
+        }
+    const fw_device_material *cu = fw_device_material_find(&m, "copper-plated"),
+                             *glass = fw_device_material_find(&m, "glass-carrier");
+    /* over 100 K, of 16.7 and 17.6 ppm/K at its ends */
+    assert_near(fw_device_material_expansion(cu, 100), 17.15e-6, 0.1e-6);
+    assert_relative(fw_device_material_expansion(glass, 100), 3.3e-6, 1e-14);
+    fw_arena_free(arena);
+}
+
 /* expansion may be negative, as that of silicon below 120 K; 1 % per kelvin is a
    slip of the unit */
 static void changes_with_temperature(void **state) {
@@ -230,14 +259,16 @@ static void memory_runs_out(void **state) {
 /* a flow's own material counts as a whole, sources of either file hold, and what it does not give is the shared one's */
 static void a_flow_gives_its_own(void **state) {
     (void)state;
-    static const char shared[] =
-        PACK("<material id='a' name='A'><q id='youngs' value='100' u='1' unit='GPa' status='typical' "
-             "src='s'/><q id='strength' value='400' u='1' unit='MPa' status='typical' src='s'/>"
-             "</material><material id='b' name='B'/>"),
-        own[] = "<process><source id='o'>own</source><material id='a' name='ours'>"
-                "<q id='strength' value='40' u='4' unit='MPa' status='measured' src='o'/>"
-                "<q id='density' value='8900' u='1' unit='kg/m3' status='typical' src='s'/>"
-                "</material><material id='c' name='C'/></process>";
+    static const char shared[] = PACK(
+        "<material id='a' name='A'><q id='youngs' value='100' u='1' unit='GPa' status='typical' "
+        "src='s'/><q id='strength' value='400' u='1' unit='MPa' status='typical' src='s'/>"
+        "</material><material id='b' name='B'/>"),
+                      own[] =
+                          "<process><source id='o'>own</source><material id='a' name='ours'>"
+                          "<q id='strength' value='40' u='4' unit='MPa' status='measured' src='o'/>"
+                          "<q id='density' value='8900' u='1' unit='kg/m3' status='typical' "
+                          "src='s'/>"
+                          "</material><material id='c' name='C'/></process>";
     fw_arena *arena = fw_arena_new(0);
     fw_diags diags = fw_diags_new(arena);
     fw_device_materials base, m;
@@ -261,10 +292,15 @@ static void a_flow_gives_its_own(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_pack_is_sound), cmocka_unit_test(what_is_absent_is_unknown),
-        cmocka_unit_test(crystals),          cmocka_unit_test(changes_with_temperature),
-        cmocka_unit_test(overrides_replace), cmocka_unit_test(limits_asked_and_overridden),
-        cmocka_unit_test(memory_runs_out),   cmocka_unit_test(a_flow_gives_its_own),
+        cmocka_unit_test(the_pack_is_sound),
+        cmocka_unit_test(what_is_absent_is_unknown),
+        cmocka_unit_test(crystals),
+        cmocka_unit_test(expansion_goes_with_temperature),
+        cmocka_unit_test(changes_with_temperature),
+        cmocka_unit_test(overrides_replace),
+        cmocka_unit_test(limits_asked_and_overridden),
+        cmocka_unit_test(memory_runs_out),
+        cmocka_unit_test(a_flow_gives_its_own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

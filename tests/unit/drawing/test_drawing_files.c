@@ -21,11 +21,10 @@
     "0\nARC\n8\n" layer "\n10\n" x "\n20\n" y "\n40\n" r "\n50\n" from "\n51\n" to "\n"
 #define CIRCLE(layer, x, y, r) "0\nCIRCLE\n8\n" layer "\n10\n" x "\n20\n" y "\n40\n" r "\n"
 
-#define BLOCKS(content)  "0\nSECTION\n2\nBLOCKS\n" content "0\nENDSEC\n"
+#define BLOCKS(content) "0\nSECTION\n2\nBLOCKS\n" content "0\nENDSEC\n"
 #define BLOCK(name, x, y, content)                                                                 \
     "0\nBLOCK\n8\n0\n2\n" name "\n70\n0\n10\n" x "\n20\n" y "\n" content "0\nENDBLK\n8\n0\n"
-#define INSERT(name, x, y, more)                                                                   \
-    "0\nINSERT\n8\njaw\n2\n" name "\n10\n" x "\n20\n" y "\n" more
+#define INSERT(name, x, y, more) "0\nINSERT\n8\njaw\n2\n" name "\n10\n" x "\n20\n" y "\n" more
 
 static fw_drawing_asked asked_for(const char *layer, const char *unit, double unit_m) {
     return (fw_drawing_asked){.file = "t.dxf",
@@ -86,17 +85,18 @@ static void polylines_and_circles(void **state) {
 static void what_is_passed_over(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
-#define SQUARE_LIGHT LIGHT("jaw", "1", AT("0", "0") AT("9", "0") AT("9", "9"))
+#define SQUARE_LIGHT       LIGHT("jaw", "1", AT("0", "0") AT("9", "0") AT("9", "9"))
 #define OTHER(kind, layer) "0\n" kind "\n8\n" layer "\n"
-    static const char text[] =
-        HEAD("13") ENTITIES(OTHER("TEXT", "other") OTHER("DIMENSION", "jaw") SQUARE_LIGHT OTHER("HATCH", "jaw")
-                                OTHER("MTEXT", "jaw") OTHER("HATCH", "jaw") OTHER("MTEXT", "jaw"));
+    static const char text[] = HEAD("13")
+        ENTITIES(OTHER("TEXT", "other") OTHER("DIMENSION", "jaw") SQUARE_LIGHT OTHER("HATCH", "jaw")
+                     OTHER("MTEXT", "jaw") OTHER("HATCH", "jaw") OTHER("MTEXT", "jaw"));
     fw_drawing_asked asked = asked_for("jaw", NULL, NONE);
     fw_diags diags = fw_diags_new(arena);
     fw_drawing d;
     assert_int_equal(fw_drawing_read(arena, text, strlen(text), &asked, &diags, &d), FW_OK);
     assert_int_equal(d.count, 1);
-    static const char *const told[] = {"DIMENSION on layer 'jaw'", "HATCH on layer 'jaw'", "MTEXT on layer 'jaw'"};
+    static const char *const told[] = {"DIMENSION on layer 'jaw'", "HATCH on layer 'jaw'",
+                                       "MTEXT on layer 'jaw'"};
     assert_int_equal(diags.count, 3);
     for (size_t i = 0; i < 3; i++) {
         assert_int_equal(diags.item[i].number, 723);
@@ -110,8 +110,8 @@ static void invisible_and_full_arcs(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
 #define HIDDEN(layer) "0\nCIRCLE\n8\n" layer "\n60\n1\n10\n500\n20\n0\n40\n9\n"
-    static const char text[] =
-        HEAD("13") ENTITIES(HIDDEN("other") ARC("jaw", "0", "0", "20", "0", "360") HIDDEN("jaw") HIDDEN("jaw"));
+    static const char text[] = HEAD("13") ENTITIES(
+        HIDDEN("other") ARC("jaw", "0", "0", "20", "0", "360") HIDDEN("jaw") HIDDEN("jaw"));
     fw_drawing_asked asked = asked_for("jaw", NULL, NONE);
     fw_diags diags = fw_diags_new(arena);
     fw_drawing d;
@@ -121,6 +121,77 @@ static void invisible_and_full_arcs(void **state) {
     assert_int_equal(diags.count, 1);
     assert_int_equal(diags.item[0].number, 705);
     assert_non_null(strstr(diags.item[0].message, "CIRCLE on layer 'jaw' is invisible"));
+    fw_arena_free(arena);
+}
+
+#define TABLES(all)                                                                                \
+    "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n70\n3\n" all "0\nENDTAB\n0\nENDSEC\n"
+#define LAYER(name, flags, colour)                                                                 \
+    "0\nLAYER\n2\n" name "\n70\n" flags "\n62\n" colour "\n6\nCONTINUOUS\n"
+
+/* areas in um2, and the one warning or 0 */
+static void of_layers(const char *text, const char *layer, double area_um2, int number,
+                      const char *says) {
+    fw_arena *arena = fw_arena_new(0);
+    fw_drawing_asked asked = asked_for(layer, NULL, NONE);
+    fw_diags diags = fw_diags_new(arena);
+    fw_drawing d;
+    fw_status status = fw_drawing_read(arena, text, strlen(text), &asked, &diags, &d);
+    if (status != FW_OK) fail_msg("%s", diags.count ? diags.item[0].message : "no message");
+    assert_relative(area(&d), area_um2 * UM * UM, 1e-12);
+    assert_int_equal(diags.count, number != 0);
+    if (number) {
+        assert_int_equal(diags.item[0].number, number);
+        if (!strstr(diags.item[0].message, says)) fail_msg("%s", diags.item[0].message);
+    }
+    fw_arena_free(arena);
+}
+
+/* what lies on a layer that is off or frozen is taken where that is asked for by its name; a frozen layer hides the whole
+   block that was inserted on it, one that is off its layer 0 alone */
+static void layers_that_are_not_shown(void **state) {
+    (void)state;
+#define SHOWN                                                                                      \
+    HEAD("13") TABLES(LAYER("jaw", "0", "7") LAYER("help", "0", "-7") LAYER("old", "1", "7"))
+    static const char two[] = SHOWN ENTITIES(CIRCLE("help", "500", "0", "9") CIRCLE(
+        "help", "600", "0", "9") CIRCLE("jaw", "0", "0", "10"));
+    of_layers(two, NULL, M_PI * 100, 716,
+              "layer 'help' is switched off in the drawing, and what lies on it is not taken: "
+              "where it is meant to be drawn, switch it on or thaw it");
+    of_layers(two, "jaw", M_PI * 100, 0, NULL);
+    of_layers(two, "help", 2 * M_PI * 81, 716,
+              "layer 'help' is switched off in the drawing, which does not show it; it is taken "
+              "all the same");
+    static const char frozen[] = SHOWN BLOCKS(
+        BLOCK("B", "0", "0", CIRCLE("jaw", "0", "0", "10") CIRCLE("0", "50", "0", "10")))
+        ENTITIES("0\nINSERT\n8\nOLD\n2\nB\n10\n0\n20\n0\n" CIRCLE("jaw", "200", "0", "1"));
+    of_layers(frozen, "jaw", M_PI, 716,
+              "layer 'OLD' is frozen in the drawing, and what lies on it is not taken: where it is "
+              "meant to be drawn, switch it on or thaw it");
+    static const char off[] = SHOWN BLOCKS(
+        BLOCK("B", "0", "0", CIRCLE("jaw", "0", "0", "10") CIRCLE("0", "50", "0", "10")))
+        ENTITIES("0\nINSERT\n8\nhelp\n2\nB\n10\n0\n20\n0\n" CIRCLE("jaw", "200", "0", "1"));
+    of_layers(off, "jaw", M_PI * 101, 0, NULL);
+    of_layers(off, NULL, M_PI * 101, 716, "layer 'help' is switched off");
+}
+
+/* names are UTF-8, \U+XXXX, or of the code page that the header states */
+static void names_of_layers(void **state) {
+    (void)state;
+    of_layers(HEAD("13") ENTITIES(CIRCLE("\xc3\x96l", "0", "0", "10")), "Öl", M_PI * 100, 0, NULL);
+    of_layers(HEAD("13") ENTITIES(CIRCLE("\\U+00D6l", "0", "0", "10")), "Öl", M_PI * 100, 0, NULL);
+    of_layers(HEAD("13") ENTITIES(CIRCLE("\xd6l", "0", "0", "10")), "Öl", M_PI * 100, 0, NULL);
+    of_layers("0\nSECTION\n2\nHEADER\n9\n$DWGCODEPAGE\n3\nANSI_1251\n9\n$"
+              "INSUNITS\n70\n13\n0\nENDSEC\n" ENTITIES(CIRCLE("\xc6", "0", "0", "10")),
+              "Ж", M_PI * 100, 0, NULL);
+    of_layers(HEAD("13") ENTITIES(CIRCLE("\\U+20acx\\U+12", "0", "0", "10")), "€x\\U+12",
+              M_PI * 100, 0, NULL);
+    fw_arena *arena = fw_arena_new(0);
+    static const char text[] = HEAD("13") ENTITIES(CIRCLE("Maske", "0", "0", "10") CIRCLE(
+        "\xd6l", "0", "0", "10") CIRCLE("Maske", "0", "0", "20"));
+    fw_drawing_asked asked = asked_for("Mask", NULL, NONE);
+    refused(arena, text, strlen(text), &asked, 314,
+            "has no closed line on layer 'Mask'; something lies on 'Maske', 'Öl'; draw one");
     fw_arena_free(arena);
 }
 
@@ -158,10 +229,11 @@ static void blocks(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     static const char text[] = HEAD("13") BLOCKS(
-        BLOCK("Half", "1", "2", LIGHT("0", "1", AT("11", "2") "42\n1\n" AT("-9", "2"))
-                  CIRCLE("other", "0", "0", "5"))
-            BLOCK("rows", "0", "0",
-                  INSERT("HALF", "5", "7", "41\n-2\n42\n2\n50\n90\n70\n2\n71\n3\n44\n100\n45\n50\n")))
+        BLOCK("Half", "1", "2",
+              LIGHT("0", "1", AT("11", "2") "42\n1\n" AT("-9", "2")) CIRCLE("other", "0", "0", "5"))
+            BLOCK(
+                "rows", "0", "0",
+                INSERT("HALF", "5", "7", "41\n-2\n42\n2\n50\n90\n70\n2\n71\n3\n44\n100\n45\n50\n")))
         ENTITIES(INSERT("rows", "1000", "0", ""));
     fw_drawing_asked asked = asked_for("jaw", NULL, NONE);
     fw_drawing d = sound(arena, text, strlen(text), &asked);
@@ -212,19 +284,19 @@ static void dxf_is_refused(void **state) {
         {HEAD("13") ENTITIES("0\nSPLINE\n8\n0\n"), NULL, NULL, NONE, 315, "SPLINE"},
         /* what is not known is not passed over */
         {HEAD("13") ENTITIES("0\nPLANESURFACE\n8\n0\n"), NULL, NULL, NONE, 315, "PLANESURFACE"},
-        {HEAD("13") ENTITIES(INSERT("block", "0", "0", "")), NULL, NULL, NONE, 315, "not in the file"},
+        {HEAD("13") ENTITIES(INSERT("block", "0", "0", "")), NULL, NULL, NONE, 315,
+         "not in the file"},
         {HEAD("13") BLOCKS(BLOCK("b", "0", "0", CIRCLE("0", "0", "0", "9")))
              ENTITIES(INSERT("b", "0", "0", "41\n2\n")),
          NULL, NULL, NONE, 315, "stretched"},
         {HEAD("13") BLOCKS(BLOCK("b", "0", "0", CIRCLE("0", "0", "0", "9")))
              ENTITIES(INSERT("b", "0", "0", "230\n-1\n")),
          NULL, NULL, NONE, 315, "plane"},
-        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", INSERT("c", "1", "1", ""))
-                               BLOCK("c", "0", "0", INSERT("b", "1", "1", "")))
-             ENTITIES(INSERT("b", "0", "0", "")),
+        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", INSERT("c", "1", "1", "")) BLOCK(
+             "c", "0", "0", INSERT("b", "1", "1", ""))) ENTITIES(INSERT("b", "0", "0", "")),
          NULL, NULL, NONE, 319, "holds itself"},
-        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", "")) ENTITIES(
-             INSERT("b", "0", "0", "70\n32000\n71\n32000\n44\n1\n45\n1\n")),
+        {HEAD("13") BLOCKS(BLOCK("b", "0", "0", ""))
+             ENTITIES(INSERT("b", "0", "0", "70\n32000\n71\n32000\n44\n1\n45\n1\n")),
          NULL, NULL, NONE, 319, "100000"},
         {HEAD("13") BLOCKS(BLOCK("b", "0", "0", CIRCLE("0", "0", "0", "9") "0\nSPLINE\n8\n0\n"))
              ENTITIES(INSERT("b", "0", "0", "")),
@@ -447,13 +519,12 @@ static void damaged_files(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(polylines_and_circles), cmocka_unit_test(what_is_passed_over),
-        cmocka_unit_test(invisible_and_full_arcs),
-        cmocka_unit_test(chains),
-        cmocka_unit_test(heavy_polyline),        cmocka_unit_test(blocks),
-        cmocka_unit_test(dxf_is_refused),
-        cmocka_unit_test(cells_and_layers),      cmocka_unit_test(gds_is_refused),
-        cmocka_unit_test(damaged_files),
+        cmocka_unit_test(polylines_and_circles),   cmocka_unit_test(what_is_passed_over),
+        cmocka_unit_test(invisible_and_full_arcs), cmocka_unit_test(layers_that_are_not_shown),
+        cmocka_unit_test(names_of_layers),         cmocka_unit_test(chains),
+        cmocka_unit_test(heavy_polyline),          cmocka_unit_test(blocks),
+        cmocka_unit_test(dxf_is_refused),          cmocka_unit_test(cells_and_layers),
+        cmocka_unit_test(gds_is_refused),          cmocka_unit_test(damaged_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,6 +102,29 @@ static void what_it_stands_on(void **state) {
         fw_arena_free(s.arena);
     }
     stand s;
+    stand_new(
+        &s); /* each in the mean over the change; of a substrate that does not say how it goes a warning tells it */
+    s.variant.material.expansion_slope.value = 2e-8;
+    s.variant.material.expansion_curvature.value = -3e-11;
+    s.variant.substrate_slope.value = 1e-8;
+    compile(&s);
+    double own = 1e-5 + 2e-6 - 3e-7, below = 1e-5 + 1e-6;
+    assert_near(s.loads.strain[2], (1 + 100 * below) / (1 + 100 * own) - 1, 1e-15);
+    assert_int_equal(s.diags.count, 0);
+    s.variant.substrate_slope.unknown = true;
+    s.warm[0].place = (fw_place){"t.xml", 5, 1};
+    compile(&s);
+    compile(&s);
+    assert_near(s.loads.strain[2], (1 + 1e-3) / (1 + 100 * own) - 1, 1e-15);
+    assert_int_equal(s.diags.count, 1);
+    assert_int_equal(s.diags.item[0].number, 748);
+    assert_non_null(strstr(s.diags.item[0].message, "expansion of the substrate"));
+    s.warm[0].place.line = 7, s.warm[0].change_K = 50;
+    compile(&s);
+    s.warm[0].change_K = -100, s.warm[0].substrate_expansion_per_K = 1e-5;
+    compile(&s);
+    assert_int_equal(s.diags.count, 1);
+    fw_arena_free(s.arena);
     stand_new(&s);
     s.variant.substrate_expansion.unknown = true;
     s.warm[0].expansion_per_K = 0; /* of the layer only */

@@ -57,6 +57,15 @@ static void mask_and_films(void **state) {
     assert_near(f->bias_m - plain->bias_m, 0.36e-6, 1e-20);
     assert_near(f->edges.cls[f->edges.field].edge.middle_m, 0.0, 1e-20);
     assert_non_null(strstr(f->bias_note, "step C25 takes 0.36 um"));
+    /* and the widths that are accepted lie between the ends of what it may take: as far as a verdict judges them */
+    const fw_process_edge_class *c = &f->edges.cls[f->edges.field],
+                                *of = &plain->edges.cls[plain->edges.field];
+    double least, most;
+    fw_process_wear_range(&f->edges.wear, &least, &most);
+    assert_near(least, 0.36e-6 - 0.216e-6, 1e-20);
+    assert_true(most >= 0.36e-6 + 0.216e-6 - 1e-20);
+    assert_near(of->low.top_m - c->low.top_m, most - 0.36e-6, 1e-20);
+    assert_near(c->high.bottom_m - of->high.bottom_m, 0.36e-6 - least, 1e-20);
     bool said = false;
     for (int i = 0; i < plain->nreason; i++)
         said = said || strstr(plain->reason[i], "not known (seed.d)");
@@ -124,8 +133,7 @@ static const fw_release *way_of(double needed_m) {
     fw_release *r = fw_arena_one(arena, fw_release);
     r->part = fw_arena_array(arena, fw_release_part, 1);
     r->npart = 1, r->weakest = -1, r->needed_m = needed_m, r->lost_m = 1.0;
-    r->part[0] =
-        (fw_release_part){.duty = FW_RELEASE_MOVES, .area_m2 = 1e-8, .reach_m = needed_m};
+    r->part[0] = (fw_release_part){.duty = FW_RELEASE_MOVES, .area_m2 = 1e-8, .reach_m = needed_m};
     return r;
 }
 
@@ -154,8 +162,7 @@ static void release_takes(void **state) {
     (void)state;
     const double r = 0.1, R = 1.5, share = 1.2 * r / R;
     const fw_process_mask_facts facts = drawn();
-    fw_process_flow *f =
-        released("<exposed material=\"copper-plated\" rate=\"seed.R\"/>", r, R);
+    fw_process_flow *f = released("<exposed material=\"copper-plated\" rate=\"seed.R\"/>", r, R);
     fw_process_flow *plain = released("", r, R);
     const fw_verdict_fabrication_input *in;
     fw_mechanism_variant v = {.thickness_m = 9e-6};
