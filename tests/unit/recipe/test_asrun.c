@@ -987,12 +987,22 @@ static void readings_of_bad_runs(void **state) {
 #define AT(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
     static const char lines[] = "; coupon=cd-lines, line, drawn=6 um, value=3.64 3.65 3.63 um, u=0.02 um; coupon=cd-lines, space, drawn=6 um, value=8.34 8.35 8.36 um, u=0.02 um";
     static const char step[] = "; coupon=al-step, value=0.6 um, u=0.01 um, at=50 um";
+    static const char ladder[] = "; coupon=undercut-ladder, width, drawn=10 um, value=6.9 um, u=0.02 um, at=50 um";
+#define LADDER AT("S18", "14:00", "15:50", "1") ";"
     static const struct {
         const char *entry[4];
         int n;
         fw_recipe_counted counted;
         int read, told;
     } log[] = {
+        /* the ladder begins at the edge that the lines of its wafer tell; where nobody read it since, it does not count */
+        {{AT("S14", "10:00", "10:17", "1"), LADDER}, 2, {0}, 1, 0},
+        {{AT("S14", "10:00", "10:40", "1"), LADDER}, 2, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:40", "2"), LADDER}, 2, {0}, 1, 0},
+        {{AT("S14", "10:00", "10:40", "1"), LADDER}, 2, {.all_runs = true}, 1, 0},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1"), LADDER}, 3, {0}, 3, 1},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:20", "1"), LADDER}, 4, {0}, 0, 2},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:02", "1"), LADDER}, 4, {0}, 1, 1},
         {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 2, 0},
         {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 0, 1},
         {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.all_runs = true}, 2, 1},
@@ -1014,7 +1024,8 @@ static void readings_of_bad_runs(void **state) {
         const char *text = begun();
         for (int k = 0; k < log[i].n; k++) {
             const char *e = log[i].entry[k];
-            const char *more = strncmp(e, "S15", 3) == 0 ? lines : strncmp(e, "S18", 3) == 0 ? step : "";
+            const char *more = strncmp(e, "S15", 3) == 0 ? lines : strchr(e, '\0')[-1] == ';' ? ladder : strncmp(e, "S18", 3) == 0 ? step : "";
+            if (more == ladder) more++; /* its entry ends with one */
             text = with(text, fw_arena_printf(arena, "%s%s", e, more), 0);
         }
         assert_non_null(strstr(text, "\tplanned=1000 "));
@@ -1036,6 +1047,7 @@ static void readings_of_bad_runs(void **state) {
     assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_readings(arena, &run, &without, &diags, &r), FW_INPUT);
     with(begun(), AT("S14", "10:00", "10:17", "1") "; planned=1 2 3 4 5 6 7", 282);
+#undef LADDER
 #undef AT
 }
 
