@@ -16,8 +16,9 @@ typedef struct fw_schedule_calendar {
     int breaks;
     unsigned closed_days; /* bit 0: Monday; on them it is closed */
     bool dated;           /* first_day is stated; without it day 1 is a Monday */
-    long first_day;       /* of the plan, days since 1970-01-01, negative before */
-    double first_s;       /* it begins no earlier on that day */
+    bool undated;   /* ... and nobody asks when: dates on which a machine is closed do not count */
+    long first_day; /* of the plan, days since 1970-01-01, negative before */
+    double first_s; /* it begins no earlier on that day */
     bool
         zoned; /* its times are zone_min ahead of UTC; without it those of the laboratory's own clock */
     int zone_min;
@@ -130,6 +131,8 @@ typedef struct fw_schedule_options {
     const char *day;       /* as FW_WORKING_DAY; NULL: that; "none": round the clock */
     const char *planned;   /* times for steps, "S03=90 min,S09=20 s"; NULL: none */
     int effort;            /* schedules tried; 0: by size */
+    bool
+        undated; /* nobody asks when: what a machine is closed for on dates is left out where `day` has none */
 } fw_schedule_options;
 
 /* "08:00-18:00", "08:00-12:00,13:00-18:00" with breaks between, or "none"; behind it " from 2026-11-23" where the plan

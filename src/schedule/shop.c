@@ -176,6 +176,7 @@ static fw_status shop_of(fw_arena *arena, const fw_process_flow *flow,
                       options->day);
         return FW_USAGE;
     }
+    m.shop->calendar.undated = options->undated;
     m.shop->ntask = flow->nstep;
     FW_NEED(m.task = fw_arena_array(arena, fw_schedule_task, (size_t)flow->nstep));
     FW_NEED(m.machine = fw_arena_array(arena, fw_schedule_machine, (size_t)flow->nstep));
