@@ -517,8 +517,6 @@ bool fw_process_step_on_back(const fw_process_step *step);
 bool fw_process_step_is_of_lot(const fw_process_step *step);
 /* do several runs of it on one wafer come to one longer run: is its time that of an amount? */
 bool fw_process_step_adds_up(const fw_process_step *step);
-/* of so long at the machine, pauses between its parts included, how much is the step's own time */
-double fw_process_step_own_s(const fw_process_step *step, double machine_s);
 /* does what it does go on for as long as a wafer is left in it: in a bath, under a current? */
 bool fw_process_step_runs_on(const fw_process_step *step);
 /* does it go on until somebody ends it: a bath that the wafer is taken out of, a current that is switched off? */

@@ -82,7 +82,7 @@ double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_e
     for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
         *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
                      o->start_s == e->start_s && o->end_s == e->end_s && !is_replaced(run, o);
-    return fw_process_step_is_of_lot(e->step) ? e->loads
+    return fw_process_step_is_of_lot(e->step) ? fw_process_step_times(run->flow, e->step, *together)
                                               : (*together + e->step->batch - 1) / e->step->batch;
 }
 

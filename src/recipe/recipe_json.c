@@ -303,7 +303,7 @@ static void holds(fw_json *out, const fw_schedule_shop *shop) {
         fw_json_number(out, "max_s", h->max_s, FW_PLAIN_DIGITS);
         fw_json_truth(out, "implied", h->implied);
         fw_json_truth(out, "first_only", h->first_only);
-        words(out, "why", h->why);
+        words(out, "why", h->why ? h->why : h->keeps);
         fw_json_end(out);
     }
     fw_json_end(out);

@@ -44,10 +44,12 @@ typedef struct fw_schedule_task { /* a step of the flow as it is planned */
     bool at_end;       /* ... or up to the end, since somebody must end it: it goes on by itself */
     int load;          /* most wafers of one run */
     bool lot;          /* once for all wafers together */
-    bool alone;        /* a hold: every wafer by itself, up to the machine's places */
-    bool by_day;       /* the whole run inside the working day: nobody may be alone with it */
-    bool unknown;      /* no time is known: counted with attended_s only */
-    bool stated;       /* the time is the user's planning time */
+    bool
+        filling; /* it mixes one filling of a bath, for as many wafers as its load: that is not made smaller */
+    bool alone;   /* a hold: every wafer by itself, up to the machine's places */
+    bool by_day;  /* the whole run inside the working day: nobody may be alone with it */
+    bool unknown; /* no time is known: counted with attended_s only */
+    bool stated;  /* the time is the user's planning time */
     bool
         in_parts; /* somebody looks at it between its parts: the whole run inside the working day where one is so long */
 } fw_schedule_task;
@@ -69,8 +71,9 @@ typedef struct fw_schedule_hold { /* min <= start of `to` - end of `from` <= max
     int from, to;                 /* tasks */
     double min_s, max_s;          /* -INFINITY, INFINITY: none */
     bool implied; /* not of the pack: two steps that nobody does alone, on the same day; or `why` */
-    bool first_only; /* for the first wafer of the lot */
-    const char *why; /* what the wafer is like meanwhile: "wet with h.pan"; NULL: as `implied` */
+    bool first_only;   /* for the first wafer of the lot */
+    const char *why;   /* what the wafer is like meanwhile: "wet with h.pan"; NULL: as `implied` */
+    const char *keeps; /* instead: "a filling of SC1 keeps no longer (sc1.keeps)"; NULL */
 } fw_schedule_hold;
 
 typedef struct fw_schedule_shop { /* the problem */

@@ -3,6 +3,7 @@
    against actual says what is out of its limits. */
 #include "../process/packs.h"
 #include "base/output.h"
+#include "process/process_law.h"
 #include "recipe/asrun.h"
 #include "recipe/asrun_parts.h"
 #include <stdlib.h>
