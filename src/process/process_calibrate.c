@@ -32,6 +32,11 @@ const char *fw_process_coupon_other_side(const fw_process_measurement *row) {
     return NULL;
 }
 
+bool fw_process_coupon_is_looked_at(const fw_process_measurement *row) {
+    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
+    return kind && !kind->sides_measured && fw_process_coupon_other_side(row);
+}
+
 const char *fw_process_coupon_rate(const fw_process_flow *flow, const fw_process_measurement *row) {
     const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
     const fw_quantity *etched = fw_process_flow_etch(flow).rate;

@@ -393,20 +393,13 @@ int fw_process_stages_of_edges(const fw_process_flow *flow, const fw_process_mea
     return n;
 }
 
-bool fw_process_coupon_is_looked_at(const fw_process_measurement *row) {
-    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
-    return kind && !kind->sides_measured && fw_process_coupon_other_side(row);
-}
-
 bool fw_process_coupon_begins_at_edge(const fw_process_measurement *row) {
-    const fw_process_coupon *kind = fw_process_coupon_kind(row->coupon);
-    return kind == &fw_process_coupon_slots || kind == &fw_process_coupon_ladder;
+    return strcmp(row->coupon, "arde-slots") == 0 || strcmp(row->coupon, "undercut-ladder") == 0;
 }
 
 bool fw_process_coupon_tells_edge(const fw_process_flow *flow, const fw_process_measurement *row) {
     const char *edge = fw_process_coupon_edge(flow);
-    return fw_process_coupon_kind(row->coupon) == &fw_process_coupon_cd_lines &&
-           strcmp(row->of ? row->of : edge, edge) == 0;
+    return strcmp(row->coupon, "cd-lines") == 0 && strcmp(row->of ? row->of : edge, edge) == 0;
 }
 
 const fw_process_step *fw_process_flow_edge_step(const fw_process_flow *flow) {
