@@ -51,6 +51,7 @@ typedef struct fw_cli_options {
     int ngiven;
     char **argv; /* as it was started, for tradeoff, which starts it again under callgrind */
     const fw_cancel *interrupted; /* set by SIGINT and SIGTERM: every design here stops then */
+    bool schedules; /* it is a command whose schedules somebody reads: it takes --day */
     bool json, quiet, verbose, no_progress, help, version;
     int colour; /* -1 auto, 0 never, 1 always */
 } fw_cli_options;

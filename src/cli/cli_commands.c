@@ -226,6 +226,7 @@ static bool one_document(const fw_cli_command *command, const fw_cli_options *o)
 
 bool fw_cli_parse(const fw_cli_command *command, int argc, char **argv, fw_cli_options *o) {
     bool only_names = false;
+    o->schedules = (command->options & FW_OPT_SCHEDULE) != 0;
     for (int i = 2; i < argc; i++) {
         const char *argument = argv[i];
         if (!only_names && strcmp(argument, "--") == 0)

@@ -82,6 +82,7 @@ fw_design *fw_cli_session_open(fw_cli_options *options, int *exit_status) {
         *exit_status = fw_cli_session_no_memory();
         return NULL;
     }
+    fw_plan_design_plan(design)->options.schedule.undated = !options->schedules;
     fw_plan_design_cancel_with(design, options->interrupted);
     show_progress(design, options);
     int status = FW_STATUS_OK;

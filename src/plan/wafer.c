@@ -302,7 +302,8 @@ static fw_status make_all(fw_plan *plan) {
 
 /* A step of a sweep has masks and schedules, but no wafer of its own. */
 fw_status fw_plan_check_dates(fw_plan *plan) {
-    for (int i = 0; i < plan->nflow && !plan->options.drawn_alone; i++)
+    const bool asked = !plan->options.drawn_alone && !plan->options.schedule.undated;
+    for (int i = 0; asked && i < plan->nflow; i++)
         if (plan->flow[i].flow)
             FW_TRY(fw_schedule_tool_dates(plan->flow[i].flow, plan->options.schedule.day,
                                           &plan->diags));

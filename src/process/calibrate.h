@@ -23,6 +23,8 @@ typedef struct fw_process_measurement { /* one row of the table; SI */
         condition_uncertainty[FW_CONDITIONS]; /* etched at; 0: not said */
     bool once;      /* another row reads the very same, and stands for it */
     const char *of; /* id of what was read, by the step that it was read at; NULL: by the flow */
+    bool
+        of_wafer; /* of an edge as this wafer alone has it: others of the wafer are read against it, and it gives no result */
 } fw_process_measurement;
 
 typedef struct fw_process_calibrated {
@@ -40,6 +42,7 @@ typedef struct fw_process_calibrated {
     /* of a rate that its step corrects for a condition: between which values it was measured, where all of its readings say
        so; 0: not all do, or it is none. It is written as that at the reference value */
     double least[FW_CONDITIONS], most[FW_CONDITIONS];
+    bool of_wafer; /* of rows that are: no result */
 } fw_process_calibrated;
 
 typedef struct
@@ -107,6 +110,12 @@ const fw_quantity *fw_process_change_takes_edges(const fw_process_flow *flow,
                                                  const fw_process_change *change);
 /* is the step about a layer that such an etch takes from every edge? */
 bool fw_process_step_makes_edges(const fw_process_flow *flow, const fw_process_step *step);
+/* does what follows from the row take the edge of the layer that masks the etch (slots, the ladder), as lines of its wafer have it, else as
+   the flow plans it? */
+bool fw_process_coupon_begins_at_edge(const fw_process_measurement *row);
+/* is it what tells where that edge is? And the step that leaves it there; NULL: the flow has none */
+bool fw_process_coupon_tells_edge(const fw_process_flow *flow, const fw_process_measurement *row);
+const fw_process_step *fw_process_flow_edge_step(const fw_process_flow *flow);
 /* how thick what masks the etch was put there, where the coupon says what was lost of it; NULL: it does not, or no such thing */
 const fw_quantity *fw_process_coupon_mask(const fw_process_flow *flow,
                                           const fw_process_measurement *row);
@@ -147,6 +156,8 @@ typedef struct fw_process_reading {
     const char *step, *date; /* where it was logged, "2026-11-20" */
     double squares;          /* sum of the squared distances of its sites from their mean, SI */
     int nsite;               /* 0: looked at, not measured */
+    const char *
+        edge_off; /* of slots and the ladder: by which run the edge that they begin at is not as planned; NULL: it is */
 } fw_process_reading;
 
 typedef struct fw_process_readings {
@@ -155,6 +166,12 @@ typedef struct fw_process_readings {
     const char *lot, *file, *sha256; /* lot may be NULL */
 } fw_process_readings;
 
+/* measurable.c, FW-D611: says where the last reading is of one run with others, and what stands under `at` is not the same */
+void fw_process_readings_ask_apart(const fw_process_readings *readings, fw_diags *diags);
+/* wafer_state.c, FW-D693: leaves out what begins at an edge that is not as planned and that nobody read, and lines of one wafer
+   alone that nothing is read against */
+void fw_process_readings_of_edges(const fw_process_flow *flow, fw_process_readings *readings,
+                                  fw_diags *diags);
 /* calibrate_wafers.c: every wafer by itself, then what they have in common; with the correlations */
 fw_status fw_process_calibrate_wafers(fw_arena *arena, const fw_process_flow *flow,
                                       const fw_process_readings *readings, fw_diags *diags,

@@ -139,7 +139,7 @@ static fw_status wafer_of(lot *l, const char *name, wafer **w) {
 static fw_status note_ids(lot *l, const wafer *w, bool items) {
     int from = items ? 0 : w->found.count, to = items ? w->found.count : w->of_shared.m;
     for (int k = from; k < to; k++) {
-        bool known = false;
+        bool known = items && w->found.item[k].of_wafer;
         for (int i = 0; i < l->nid; i++)
             known = known || strcmp(l->id[i], w->of_shared.id[k]) == 0;
         if (known) continue;
@@ -178,10 +178,11 @@ static fw_status calibrate_each(lot *l) {
     return FW_OK;
 }
 
-/* which of a wafer's results has the id; -1: none */
+/* which of a wafer's results has the id; -1: none. Where its edge is otherwise than planned is none */
 static int at(const wafer *w, const char *id) {
     for (int i = 0; i < w->of_shared.m; i++)
-        if (strcmp(w->of_shared.id[i], id) == 0) return i;
+        if (strcmp(w->of_shared.id[i], id) == 0)
+            return i < w->found.count && w->found.item[i].of_wafer ? -1 : i;
     return -1;
 }
 
@@ -291,7 +292,8 @@ static fw_status note_of(const lot *l, const moments *o, const char *id, const c
 
 /* is it a reading of a coupon of c; of one whose feature is a quantity, of that one? */
 static bool behind(const lot *l, const fw_process_calibrated *c, const fw_process_reading *r) {
-    if (!strstr(c->coupon, r->row.coupon) || (r->row.of && strcmp(r->row.of, c->id) != 0))
+    if (!strstr(c->coupon, r->row.coupon) || (r->row.of && strcmp(r->row.of, c->id) != 0) ||
+        r->row.of_wafer)
         return false;
     return !fw_process_flow_quantity(l->flow, r->row.feature) || strcmp(r->row.feature, c->id) == 0;
 }

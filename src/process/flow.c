@@ -235,6 +235,15 @@ static double pausing_s(const fw_process_step *s, double t_s) {
     return fmax(0.0, ceil(t_s / s->pulse->value * (1.0 - 1e-12)) - 1.0) * s->pause->value;
 }
 
+/* the longest time of the step's own that goes with its pauses into so much */
+double fw_process_step_own_s(const fw_process_step *s, double machine_s) {
+    if (!s->pulse || s->pulse->unknown || s->pause->unknown || !(s->pulse->value > 0.0))
+        return machine_s;
+    const double part = s->pulse->value, cycle = part + s->pause->value,
+                 whole = floor(machine_s / cycle);
+    return whole * part + fmin(machine_s - whole * cycle, part);
+}
+
 /* What somebody's presence takes beyond the step's own time is handling, which is as long when the step goes on to its
    stop time: a log is judged from both. Test: test_step_texts.c. */
 static void book(fw_process_step *s) {

@@ -462,6 +462,30 @@ fw_status fw_process_measurements_ask(const fw_process_flow *flow,
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
+/* All readings of the coupon are of one run, but what stands under `at` is not the same: both count, and one may be
+   mistyped. Told once of a coupon, wafer and step. */
+void fw_process_readings_ask_apart(const fw_process_readings *r, fw_diags *diags) {
+    const fw_process_reading *last = &r->item[r->n - 1];
+    const fw_process_measurement *b = &last->row;
+    if (isnan(b->at) || !fw_process_coupon_of_one_run(b->coupon)) return;
+    for (int i = 0; i < r->n - 1; i++) {
+        const fw_process_measurement *a = &r->item[i].row;
+        if (strcmp(r->item[i].step, last->step) != 0 ||
+            strcmp(r->item[i].wafer, last->wafer) != 0 || strcmp(a->coupon, b->coupon) != 0)
+            continue;
+        const double u = hypot(fmax(a->at_uncertainty, 0.0), fmax(b->at_uncertainty, 0.0));
+        if (fabs(a->at - b->at) <= 2.0 * u + 1e-12 * fabs(a->at)) continue;
+        fw_diag_warning(diags, 611, b->place,
+                        "coupon %s of step %s%s%s is of one run, but lines %d and %d say that it "
+                        "was under something else (at=); each reading counts with its own. Where "
+                        "one is mistyped, log its readings again; where both were measured, say "
+                        "by u-at= how exactly",
+                        b->coupon, last->step, last->wafer[0] ? ", wafer " : "", last->wafer,
+                        (int)a->place.line, (int)b->place.line);
+        return;
+    }
+}
+
 /* ---- at which step of the flow a coupon is read ---- */
 
 /* "the edge of the aluminium (made.al-edge) ": as its corner is called */

@@ -315,7 +315,9 @@ static fw_status fit_kind(fw_process_coupon_work *w, const fw_process_coupon *ki
     w->nread = 0;
     const int before = w->nout;
     fw_status status = kind->fit(w);
-    if (with && status == FW_OK) FW_TRY(add_with(w, before, with));
+    for (int k = before; k < w->nout; k++)
+        w->out[k].of_wafer = first->of_wafer;
+    if (with && status == FW_OK && !first->of_wafer) FW_TRY(add_with(w, before, with));
     if (status == FW_OK) status = join(w->arena, w->diags, w->out, &w->nout);
     w->nknown = w->nout;
     return status;

@@ -164,4 +164,7 @@ double fw_process_arde_integral(double width_m, double depth_m, bool cylinder);
    the pairs or when they do not rise; *why then says so */
 bool fw_process_table_between(const double *pairs, int n, double x, double *y, const char **why);
 
+/* of so long at the machine, pauses between its parts included, how much is the step's own time */
+double fw_process_step_own_s(const fw_process_step *step, double machine_s);
+
 #endif

@@ -131,7 +131,7 @@ static const fw_xml_attribute_row bath_rows[] = {
                  "lot, and every step has a filling of its own."},
     {"keeps", TO(QUANTITY),
      .sentence = "How long it may be used after it was mixed, by the log after its first use where "
-                 "that is not in it; without: nothing says so."},
+                 "that is not in it; the schedule keeps to it. Without: nothing says so."},
 };
 static const fw_xml_attribute_row part_rows[] = {
     {"of", TO(CONSUMABLE), REQUIRED, .sentence = "Of what."},
@@ -168,7 +168,9 @@ static const fw_xml_attribute_row tool_rows[] = {
                  "closed on days."},
     {"days", TEXT, .datatype = "NMTOKENS",
      .sentence = "With open: Mon Tue Wed Thu Fri Sat Sun, those that it is open on; without, all."},
-    {"closed", TEXT, .datatype = "date", .sentence = "First day on which it may not be used."},
+    {"closed", TEXT, .datatype = "date",
+     .sentence = "First day on which it may not be used, as a whole; what another lot books for "
+                 "hours cannot be stated."},
     {"to", TEXT, .datatype = "date", .sentence = "Last one; without, closed is the only one."},
 };
 static const fw_xml_attribute_row choose_rows[] = {

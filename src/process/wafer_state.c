@@ -393,6 +393,80 @@ int fw_process_stages_of_edges(const fw_process_flow *flow, const fw_process_mea
     return n;
 }
 
+bool fw_process_coupon_begins_at_edge(const fw_process_measurement *row) {
+    return strcmp(row->coupon, "arde-slots") == 0 || strcmp(row->coupon, "undercut-ladder") == 0;
+}
+
+bool fw_process_coupon_tells_edge(const fw_process_flow *flow, const fw_process_measurement *row) {
+    const char *edge = fw_process_coupon_edge(flow);
+    return strcmp(row->coupon, "cd-lines") == 0 && strcmp(row->of ? row->of : edge, edge) == 0;
+}
+
+const fw_process_step *fw_process_flow_edge_step(const fw_process_flow *flow) {
+    fw_process_coupon_stage stage[FW_COUPON_STAGES];
+    const int n = fw_process_stages_of_edges(flow, NULL, stage);
+    for (int i = 0; i < n; i++)
+        if (strcmp(stage[i].gives, fw_process_coupon_edge(flow)) == 0) return stage[i].from;
+    return NULL;
+}
+
+/* is a reading of that wafer among them that tells the edge (of_wafer: of this wafer alone), or else one that begins at it? */
+static bool has(const fw_process_flow *flow, const fw_process_readings *all, const char *wafer,
+                bool edge, bool of_wafer) {
+    for (const fw_process_reading *r = all->item; r < all->item + all->n; r++)
+        if (strcmp(r->wafer, wafer) == 0 && r->row.of_wafer == of_wafer &&
+            (edge ? fw_process_coupon_tells_edge(flow, &r->row)
+                  : fw_process_coupon_begins_at_edge(&r->row)))
+            return true;
+    return false;
+}
+
+/* FW-D693, of reading i and those like it, at the first */
+static void tell_no_edge(const fw_process_readings *all, int i, fw_diags *diags) {
+    const fw_process_reading *r = &all->item[i];
+    int n = 0;
+    for (int k = 0; k < all->n; k++) {
+        const fw_process_reading *o = &all->item[k];
+        const bool like = strcmp(o->row.coupon, r->row.coupon) == 0 && o->edge_off &&
+                          strcmp(o->wafer, r->wafer) == 0 && strcmp(o->step, r->step) == 0;
+        if (like && k < i) return;
+        n += like;
+    }
+    fw_diag_warning(
+        diags, 693, r->row.place,
+        "%d reading%s of %s at step %s%s%s %s: where the layer that masks the etch ends on this "
+        "wafer is not what was planned, since %s, and no cd-lines that count tell it; "
+        "--all-runs counts all",
+        n, n > 1 ? "s" : "", r->row.coupon, r->step, r->wafer[0] ? " of wafer " : "", r->wafer,
+        n > 1 ? "do not count" : "does not count", r->edge_off);
+}
+
+/* Slots and the ladder begin at the edge that lines of their wafer tell, else at the planned one: where that is not as planned, and
+   no lines tell it, they are left out. So are lines that tell of their wafer alone where nothing begins at their edge, or
+   others tell it. Test: test_asrun.c, readings_of_bad_runs; test_wafers.c, the_edge_of_its_wafer */
+void fw_process_readings_of_edges(const fw_process_flow *flow, fw_process_readings *all,
+                                  fw_diags *diags) {
+    fw_process_readings some = *all;
+    for (int i = 0; i < some.n; i++) {
+        fw_process_reading *r = &some.item[i];
+        if (has(flow, &some, r->wafer, true, false) || has(flow, &some, r->wafer, true, true))
+            r->edge_off = NULL; /* somebody read it */
+    }
+    for (int i = 0; i < some.n; i++)
+        if (some.item[i].edge_off) tell_no_edge(&some, i, diags);
+    all->n = 0;
+    for (int i = 0; i < some.n; i++)
+        if (!some.item[i].edge_off) all->item[all->n++] = some.item[i];
+    some.n = all->n;
+    all->n = 0;
+    for (int i = 0; i < some.n; i++) {
+        const fw_process_reading r = some.item[i];
+        if (!r.row.of_wafer ||
+            (has(flow, &some, r.wafer, false, false) && !has(flow, &some, r.wafer, true, false)))
+            all->item[all->n++] = r;
+    }
+}
+
 static const fw_process_step *etch_step(const fw_process_flow *flow) {
     const fw_quantity *A = fw_process_flow_etch(flow).anisotropy;
     for (const fw_process_step *s = flow->step; A && s < flow->step + flow->nstep; s++)

@@ -337,9 +337,11 @@ static void put_times_as_set(const fw_recipe_asrun *run, const fw_recipe_asrun_e
 
 static void put_bath(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, fw_text *out) {
     const char *is, *allowed;
-    fw_text left = fw_text_new(out->arena);
+    fw_text left = fw_text_new(out->arena), brief = fw_text_new(out->arena);
     if (fw_recipe_asrun_put_left_in_it(run, e, &left) && fw_text_end(&left) == FW_OK)
         fw_text_printf(out, "      %s; was the rest in it?\n", left.data);
+    if (fw_recipe_asrun_put_pauses(run, e, &brief) && fw_text_end(&brief) == FW_OK)
+        fw_text_printf(out, "      %s; or was that without them?\n", brief.data);
     if (fw_recipe_asrun_bath_life(out->arena, run, e, &is, &allowed) == FW_OK && is)
         fw_text_printf(out, "      bath %s: %s: OUT, since %s\n", e->bath, is, allowed);
 }
@@ -374,13 +376,14 @@ static void details(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, 
 /* of the last run of a wafer, and of those before it; planned is one */
 static void sum_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *last,
                      fw_recipe_asrun_total *t) {
-    const bool known = last->step->time.computable;
+    const fw_process_step *plan = last->former ? last->as_set : last->step; /* of its line */
+    const bool known = plan->time.computable;
     for (const fw_recipe_asrun_entry *e = last; e; e = fw_recipe_asrun_run_before(run, e)) {
         if (!e->wafer && last->wafer) break; /* of the lot, which counts once */
         int together;
         const double loads = fw_recipe_asrun_loads(run, e, &together),
                      took = (e->end_s - e->start_s) / together;
-        if (e == last && known) t->planned_s += last->step->booked_s * loads / together;
+        if (e == last && known) t->planned_s += plan->booked_s * loads / together;
         *(known ? &t->actual_s : &t->unplanned_s) += took;
         if (e != last && known) t->earlier_s += took;
     }

@@ -348,30 +348,6 @@ static void warn_again(const fw_recipe_read_again *again, fw_diags *diags) {
                     FW_RECIPE_KEEP_BOTH);
 }
 
-/* All readings of the coupon are of one run, but what stands under `at` is not the same: both count, and one may be
-   mistyped. Told once of a coupon, wafer and step. */
-static void warn_apart(const fw_process_readings *r, fw_diags *diags) {
-    const fw_process_reading *last = &r->item[r->n - 1];
-    const fw_process_measurement *b = &last->row;
-    if (isnan(b->at) || !fw_process_coupon_of_one_run(b->coupon)) return;
-    for (int i = 0; i < r->n - 1; i++) {
-        const fw_process_measurement *a = &r->item[i].row;
-        if (strcmp(r->item[i].step, last->step) != 0 ||
-            strcmp(r->item[i].wafer, last->wafer) != 0 || strcmp(a->coupon, b->coupon) != 0)
-            continue;
-        const double u = hypot(fmax(a->at_uncertainty, 0.0), fmax(b->at_uncertainty, 0.0));
-        if (fabs(a->at - b->at) <= 2.0 * u + 1e-12 * fabs(a->at)) continue;
-        fw_diag_warning(diags, 611, b->place,
-                        "coupon %s of step %s%s%s is of one run, but lines %d and %d say that it "
-                        "was under something else (at=); each reading counts with its own. Where "
-                        "one is mistyped, log its readings again; where both were measured, say "
-                        "by u-at= how exactly",
-                        b->coupon, last->step, last->wafer[0] ? ", wafer " : "", last->wafer,
-                        (int)a->place.line, (int)b->place.line);
-        return;
-    }
-}
-
 /* of a wafer that was scrapped or held by then: what was read is of another state than the flow's */
 static bool is_out(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                    const fw_recipe_coupon *c, fw_diags *diags) {
@@ -426,14 +402,15 @@ static fw_status tell_otherwise(fw_arena *arena, const fw_recipe_asrun *run,
 /* ---- readings of runs that were not as planned ----
    What says under what it was read (at=: a time, a depth, a charge) goes with that, however long it took. A line or a space
    is taken to be of a wafer that went through its steps as planned: by a wet etch of twice the time it would tell of that
-   run alone, and of no next wafer. */
+   run alone, and of no next wafer. Of its own wafer it tells where the edge is, and slots and the ladder begin at that edge. */
 
-/* the run of the reading's wafer, up to the step of the reading, that was out of its window in the end, and what it is made
-   of; NULL: none is known to be. A log of before its lines had their times tells nothing */
+/* the run of the reading's wafer, up to a step, that was out of its window in the end, and what it is made of; NULL: none is known
+   to be. A log of before its lines had their times tells nothing */
 static const fw_recipe_asrun_entry *out_of_window(const fw_recipe_asrun *run,
-                                                  const fw_recipe_asrun_entry *of) {
+                                                  const fw_recipe_asrun_entry *of,
+                                                  const fw_process_step *last) {
     for (const fw_recipe_asrun_entry *e = run->entry; e < run->entry + run->nentry; e++) {
-        if (!e->step || e->step > of->step || fw_process_step_is_of_lot(e->step) ||
+        if (!e->step || e->step > last || fw_process_step_is_of_lot(e->step) ||
             e->start_s > of->start_s || e->step->nchange == 0 ||
             !fw_process_step_adds_up(e->step) || !of_wafer(e, of) ||
             !fw_recipe_asrun_is_last(run, e) || fw_recipe_asrun_overtaken(run, e, of->wafer))
@@ -454,12 +431,40 @@ static const fw_recipe_asrun_entry *layer_not_accepted(const fw_recipe_asrun *ru
     return NULL;
 }
 
-/* FW-D693, once for the entry; true: its readings that say nothing of what they were read under do not count */
-static bool is_of_bad_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                          const bool *there, const fw_recipe_counted *counted, fw_diags *diags) {
+/* by which run the edge that slots and the ladder of e begin at is not as planned: "S14 (line 3, 2026-11-03T10:00) was long" */
+static fw_status edge_off(fw_arena *arena, const fw_recipe_asrun *run,
+                          const fw_recipe_asrun_entry *e, const char **off) {
+    const fw_process_step *edge = fw_process_flow_edge_step(run->flow);
+    const fw_recipe_asrun_entry *of = edge ? out_of_window(run, e, edge) : NULL;
+    if (!of) return FW_OK;
+    *off = fw_arena_printf(arena, "%s (line %d, %s) was %s", of->step->id, of->line, of->start,
+                           fw_recipe_asrun_in_time(run, of));
+    return *off ? FW_OK : FW_NOMEM;
+}
+
+/* FW-D693, of n readings of e */
+static void tell_left_out(const fw_recipe_asrun_entry *e, const fw_recipe_coupon *first, int n,
+                          bool all_runs, const char *why, fw_diags *diags) {
+    fw_diag_warning(diags, 693, first->row.place, "%d reading%s of %s at step %s%s%s %s: %s%s", n,
+                    n > 1 ? "s" : "", first->row.coupon, e->step->id, e->wafer ? " of wafer " : "",
+                    e->wafer ? e->wafer : "",
+                    all_runs ? (n > 1 ? "count" : "counts")
+                             : (n > 1 ? "do not count" : "does not count"),
+                    why, all_runs ? ", and --all-runs asks for all" : "; --all-runs counts all");
+}
+
+/* of readings that say nothing of what they were read under: OF_WAFER tell how their own wafer is, and of no next one, IS_PAST how it was
+   before a step was run again */
+typedef enum standing { COUNTS, OF_WAFER, IS_PAST } standing;
+
+/* once for the entry; row: those of its readings */
+static standing is_of_bad_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                              const fw_process_measurement *row, const bool *there,
+                              const fw_recipe_counted *counted, fw_diags *diags) {
     const fw_recipe_asrun_entry *by = e->step ? fw_recipe_asrun_overtaken(run, e, e->wafer) : NULL,
-                                *bad = by || !e->step ? NULL : out_of_window(run, e);
+                                *bad = by || !e->step ? NULL : out_of_window(run, e, e->step);
     const fw_recipe_coupon *first = NULL;
+    bool edge = false;
     int n = 0;
     for (int i = 0; i < e->ncoupon; i++) {
         fw_recipe_read_again again;
@@ -467,25 +472,22 @@ static bool is_of_bad_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entr
             read_again(run, (int)(e - run->entry), i, &again))
             continue;
         if (n++ == 0) first = &e->coupon[i];
+        edge = edge || fw_process_coupon_tells_edge(run->flow, &row[i]);
     }
-    if (n == 0 || (!by && !bad)) return false;
+    if (n == 0 || (!by && !bad)) return COUNTS;
     const fw_recipe_asrun_entry *of = by ? by : bad;
-    fw_text why = fw_text_new(diags->arena);
-    fw_text_printf(&why, "%s%s (line %d, %s)", of->step->id,
-                   !by                                              ? ""
-                   : fw_recipe_asrun_is_again(run, by, e, e->wafer) ? ", run again after it"
-                                                                    : ", run after it",
-                   of->line, of->start);
-    if (!by) fw_text_printf(&why, " was %s", fw_recipe_asrun_in_time(run, of));
-    if (fw_text_end(&why) != FW_OK) return false;
-    fw_diag_warning(
-        diags, 693, first->row.place, "%d reading%s of %s at step %s%s%s %s: %s%s", n,
-        n > 1 ? "s" : "", first->row.coupon, e->step->id, e->wafer ? " of wafer " : "",
-        e->wafer ? e->wafer : "",
-        counted->all_runs ? (n > 1 ? "count" : "counts")
-                          : (n > 1 ? "do not count" : "does not count"),
-        why.data, counted->all_runs ? ", and --all-runs asks for all" : "; --all-runs counts all");
-    return !counted->all_runs;
+    const char *why = fw_arena_printf(
+        diags->arena, "%s%s (line %d, %s)%s%s%s", of->step->id,
+        !by                                              ? ""
+        : fw_recipe_asrun_is_again(run, by, e, e->wafer) ? ", run again after it"
+                                                         : ", run after it",
+        of->line, of->start, by ? "" : " was ", by ? "" : fw_recipe_asrun_in_time(run, of),
+        !by && edge && !counted->all_runs ? "; what is read of slots and the ladder of this wafer "
+                                            "begins at the edge that they tell"
+                                          : "");
+    if (!why) return COUNTS;
+    tell_left_out(e, first, n, counted->all_runs, why, diags);
+    return counted->all_runs ? COUNTS : by ? IS_PAST : OF_WAFER;
 }
 
 /* FW-D735, FW-D693; true: its readings that follow the plan do not count */
@@ -505,21 +507,14 @@ static fw_status is_otherwise(fw_arena *arena, const fw_recipe_asrun *run,
     const fw_recipe_asrun_entry *o = layer_not_accepted(run, e);
     if (*otherwise || !o) return FW_OK;
     *otherwise = !counted->all_runs;
-    fw_diag_warning(diags, 693, first->row.place,
-                    "%d reading%s of %s at step %s%s%s %s: %s of step %s (line %d) was not "
-                    "accepted, %s%s",
-                    n, n > 1 ? "s" : "", first->row.coupon, e->step->id,
-                    e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "",
-                    counted->all_runs ? (n > 1 ? "count" : "counts")
-                                      : (n > 1 ? "do not count" : "does not count"),
-                    fw_recipe_asrun_not_accepted(o)->measure, o->step->id, o->line,
-                    fw_recipe_asrun_not_accepted(o)->value,
-                    counted->all_runs ? ", and --all-runs asks for all"
-                                      : "; --all-runs counts all");
+    const fw_recipe_measured *m = fw_recipe_asrun_not_accepted(o);
+    const char *why = fw_arena_printf(arena, "%s of step %s (line %d) was not accepted, %s",
+                                      m->measure, o->step->id, o->line, m->value);
+    FW_NEED(why);
+    tell_left_out(e, first, n, counted->all_runs, why, diags);
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-/* is the wafer in the list? */
 static bool is_among(const char *list, const char *wafer) {
     fw_word word;
     while (list && wafer && fw_word_next(&list, ", ", &word))
@@ -527,7 +522,6 @@ static bool is_among(const char *list, const char *wafer) {
     return false;
 }
 
-/* every wafer that is to be left out is one of the lot */
 static fw_status check_without(const fw_recipe_asrun *run, const fw_recipe_counted *counted,
                                fw_diags *diags) {
     const char *list = counted->without;
@@ -563,10 +557,14 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
         FW_NEED(row && there ? follows : NULL);
         for (int k = 0; k < e->ncoupon; k++)
             FW_TRY(fw_recipe_asrun_stage(arena, run, e, &e->coupon[k], &row[k], &there[k], diags));
-        const bool bad = is_of_bad_run(run, e, there, counted, diags);
+        const standing bad = is_of_bad_run(run, e, row, there, counted, diags);
         for (int k = 0; k < e->ncoupon; k++) {
-            follows[k] =
-                there[k] && !(bad && isnan(row[k].at)) && fw_process_coupon_follows_plan(&row[k]);
+            if (bad != COUNTS && isnan(row[k].at)) {
+                row[k].of_wafer =
+                    there[k] && bad == OF_WAFER && fw_process_coupon_tells_edge(run->flow, &row[k]);
+                there[k] = row[k].of_wafer;
+            }
+            follows[k] = there[k] && !row[k].of_wafer && fw_process_coupon_follows_plan(&row[k]);
             any = any || follows[k];
         }
         FW_TRY(is_otherwise(arena, run, e, follows, counted, &otherwise, diags));
@@ -579,21 +577,24 @@ fw_status fw_recipe_asrun_readings(fw_arena *arena, const fw_recipe_asrun *run,
                 warn_again(&again, diags);
                 continue;
             }
-            if (!there[k] || (bad && isnan(c->row.at)) || (otherwise && follows[k])) continue;
+            if (!there[k] || (otherwise && (follows[k] || row[k].of_wafer))) continue;
             fw_process_reading *r = &readings->item[readings->n++];
             *r = (fw_process_reading){.row = row[k],
                                       .wafer = e->wafer ? e->wafer : "",
                                       .step = e->step->id,
                                       .nsite = c->nsite};
+            if (!counted->all_runs && fw_process_coupon_begins_at_edge(&r->row))
+                FW_TRY(edge_off(arena, run, e, &r->edge_off));
             fw_recipe_asrun_etched_at(run, e, &r->row);
             FW_NEED(r->date = fw_arena_strndup(arena, e->end, 10));
             for (int s = 0; s < FW_RECIPE_SITES; s++) {
                 double off = c->site[s] - c->row.value;
                 if (!isnan(c->site[s])) r->squares += off * off;
             }
-            warn_apart(readings, diags);
+            fw_process_readings_ask_apart(readings, diags);
         }
     }
+    fw_process_readings_of_edges(run->flow, readings, diags);
     readings->left_out = most - readings->n;
-    return FW_OK;
+    return diags->failed ? FW_NOMEM : FW_OK;
 }

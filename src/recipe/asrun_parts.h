@@ -176,6 +176,10 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
    with ..."; false: it is not */
 bool fw_recipe_asrun_put_left_in_it(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                     fw_text *out);
+/* of one that is unclear since its pauses leave less than the first look: "took 1 h 50 min, of which its pauses leave 80 min, ..." (FW-D732);
+   false: it is not */
+bool fw_recipe_asrun_put_pauses(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                fw_text *out);
 /* recipe_words.c, FW-D703: where the plan has no time for a step that goes on for as long as the wafer is in it, did this one take much less or more
    than other wafers of the lot, or more than a working day? *planned: "no planned time (missing ...); other wafers took 15 min" */
 fw_status fw_recipe_asrun_odd_time(fw_arena *arena, const fw_recipe_asrun *run,

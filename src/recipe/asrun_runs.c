@@ -74,15 +74,16 @@ bool fw_recipe_asrun_is_last(const fw_recipe_asrun *run, const fw_recipe_asrun_e
 }
 
 /* A load is an entry of each of its wafers, alike: they share its time. As many loads one after the other as the step takes
-   for them, and (*together) how many share it. */
+   for them, and (*together) how many share it. So do wafers that a step of the whole lot was logged for. */
 double fw_recipe_asrun_loads(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                              int *together) {
     *together = 1;
-    if (!e->wafer || fw_process_step_is_of_lot(e->step)) return e->loads;
+    if (!e->wafer) return e->loads;
     for (const fw_recipe_asrun_entry *o = run->entry; o < run->entry + run->nentry; o++)
         *together += o->step == e->step && o->wafer && strcmp(o->wafer, e->wafer) != 0 &&
                      o->start_s == e->start_s && o->end_s == e->end_s && !is_replaced(run, o);
-    return (*together + e->step->batch - 1) / e->step->batch;
+    return fw_process_step_is_of_lot(e->step) ? fw_process_step_times(run->flow, e->step, *together)
+                                              : (*together + e->step->batch - 1) / e->step->batch;
 }
 
 /* what e's wafer has been through, too: an entry of the same wafer, or one of the whole lot */

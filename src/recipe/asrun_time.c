@@ -179,6 +179,37 @@ static bool adds_up_to_more(const fw_recipe_asrun *run, const fw_recipe_asrun_en
     return runs->n > 1 && e->as_set->time.computable && took > stop && took <= surely;
 }
 
+/* Of a step that is done in parts: what the entry leaves of its own time once the pauses are taken off, where that is below the first
+   look and the whole entry is not; 0: it is neither. The log may have the step's own time alone. */
+static double left_by_pauses(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    const fw_process_time *last = &e->as_set->time;
+    double own_s = 0.0, all_s = 0.0;
+    if (!last->computable || !e->step->pulse) return 0.0;
+    for (const fw_recipe_asrun_entry *o = e; o; o = fw_recipe_asrun_goes_on_from(run, o)) {
+        int together;
+        const double of_s = o->as_set->time.nominal_s,
+                     by = of_s > 0.0 ? last->nominal_s / of_s : 1.0,
+                     took_s = (o->end_s - o->start_s) / fw_recipe_asrun_loads(run, o, &together) +
+                              fw_recipe_asrun_clock_s(o);
+        own_s += by * fw_process_step_own_s(e->step, took_s);
+        all_s += by * took_s;
+    }
+    return own_s < last->first_look_s && all_s >= last->first_look_s ? own_s : 0.0;
+}
+
+bool fw_recipe_asrun_put_pauses(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                fw_text *out) {
+    const double own_s = left_by_pauses(run, e);
+    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
+    if (own_s > 0.0) fw_text_add(out, "took "), fw_recipe_asrun_put_took(out, e, &runs);
+    if (!(own_s > 0.0)) return false;
+    fw_text_add(out, ", of which its pauses leave ");
+    fw_schedule_put_duration(out, own_s);
+    fw_text_add(out, ", and the first look is at ");
+    fw_schedule_put_duration(out, e->as_set->time.first_look_s);
+    return true;
+}
+
 /* what was asked, and no later entry has answered, is not in its window */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     const char *judged = by_the_window(run, e);
@@ -186,7 +217,7 @@ const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_
     double by_s;
     if (strcmp(judged, "in window") != 0) return judged;
     return fw_recipe_asrun_is_late_as_set(run, e) || adds_up_to_more(run, e, &runs) ||
-                   is_left_in_it(run, e, &by_s)
+                   is_left_in_it(run, e, &by_s) || left_by_pauses(run, e) > 0.0
                ? "unclear"
                : judged;
 }
@@ -318,8 +349,14 @@ static void ask_unknown_to_law(const fw_recipe_asrun_entry *e, fw_place place, f
 static fw_status ask_as_set(fw_arena *arena, const fw_recipe_asrun *run,
                             const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    fw_text text = fw_text_new(arena);
+    fw_text text = fw_text_new(arena), brief = fw_text_new(arena);
     ask_unknown_to_law(e, place, diags);
+    if (fw_recipe_asrun_put_pauses(run, e, &brief) && fw_text_end(&brief) == FW_OK)
+        fw_diag_warning(
+            diags, 732, place,
+            "step %s%s%s %s: too short, unless that is its time without them; then log it "
+            "with the end by the clock, else go on with it",
+            e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", brief.data);
     if (fw_recipe_asrun_put_left_in_it(run, e, &text)) {
         FW_TRY(fw_text_end(&text));
         fw_diag_warning(diags, 684, place,
@@ -527,36 +564,6 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
         e->at->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", how,
         e->deviation ? "" : ", and write down why (deviation=...)");
     return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-static void overtaken_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                           fw_json *out) {
-    const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
-    if (!by) return;
-    fw_json_object(out, "overtaken_by");
-    fw_json_text(out, "step", by->step->id);
-    fw_json_text(out, "start", by->start);
-    fw_json_whole(out, "line", by->line);
-    fw_json_end(out);
-}
-
-/* what it was overtaken by, and the times that it is judged by, where what was set makes others of them */
-void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                                 fw_json *out) {
-    const fw_process_step *s = e->as_set;
-    overtaken_json(run, e, out);
-    if (s == e->step) return;
-    const bool known = s->time.computable;
-    fw_json_object(out, "as_set");
-    fw_json_number(out, "planned_s", known ? s->time.nominal_s : (double)NAN, FW_PLAIN_DIGITS);
-    fw_json_number(out, "first_look_s", known ? s->time.first_look_s : (double)NAN,
-                   FW_PLAIN_DIGITS);
-    fw_json_number(out, "stop_s", known ? s->time.stop_s : (double)NAN, FW_PLAIN_DIGITS);
-    fw_json_number(out, "at_machine_s", known ? s->booked_s : (double)NAN, FW_PLAIN_DIGITS);
-    fw_json_number(out, "at_machine_most_s", known ? s->booked_stop_s : (double)NAN,
-                   FW_PLAIN_DIGITS);
-    fw_json_truth(out, "longer_unless_finished", fw_recipe_asrun_is_late_as_set(run, e));
-    fw_json_end(out);
 }
 
 /* ---- what it was planned with, and what it would be planned with here ---- */

@@ -2,6 +2,7 @@
 /* The JSON of this room: flexwright.recipe/1, flexwright.measurements/1, flexwright.schedule/1,
    flexwright.sections/1. */
 #include "base/json.h"
+#include "recipe/asrun_parts.h"
 #include "recipe/recipe_profile.h"
 #include "recipe/recipe.h"
 #include <math.h>
@@ -302,7 +303,7 @@ static void holds(fw_json *out, const fw_schedule_shop *shop) {
         fw_json_number(out, "max_s", h->max_s, FW_PLAIN_DIGITS);
         fw_json_truth(out, "implied", h->implied);
         fw_json_truth(out, "first_only", h->first_only);
-        words(out, "why", h->why);
+        words(out, "why", h->why ? h->why : h->keeps);
         fw_json_end(out);
     }
     fw_json_end(out);
@@ -567,4 +568,32 @@ fw_status fw_recipe_write_sections_json(const fw_process_flow *flow, const fw_re
     fw_json_end(out);
     fw_json_end(out);
     return fw_json_finish(out, "\n");
+}
+
+static void overtaken_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                           fw_json *out) {
+    const fw_recipe_asrun_entry *by = fw_recipe_asrun_overtaken(run, e, e->wafer);
+    if (!by) return;
+    fw_json_object(out, "overtaken_by");
+    fw_json_text(out, "step", by->step->id);
+    fw_json_text(out, "start", by->start);
+    fw_json_whole(out, "line", by->line);
+    fw_json_end(out);
+}
+
+/* what it was overtaken by, and the times that it is judged by, where what was set makes others of them */
+void fw_recipe_asrun_as_set_json(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                                 fw_json *out) {
+    const fw_process_step *s = e->as_set;
+    overtaken_json(run, e, out);
+    if (s == e->step) return;
+    const bool known = s->time.computable;
+    fw_json_object(out, "as_set");
+    number(out, "planned_s", known ? s->time.nominal_s : (double)NAN);
+    number(out, "first_look_s", known ? s->time.first_look_s : (double)NAN);
+    number(out, "stop_s", known ? s->time.stop_s : (double)NAN);
+    number(out, "at_machine_s", known ? s->booked_s : (double)NAN);
+    number(out, "at_machine_most_s", known ? s->booked_stop_s : (double)NAN);
+    fw_json_truth(out, "longer_unless_finished", fw_recipe_asrun_is_late_as_set(run, e));
+    fw_json_end(out);
 }

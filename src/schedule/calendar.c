@@ -535,7 +535,7 @@ fw_status fw_schedule_tool_dates(const fw_process_flow *flow, const char *day, f
 static fw_status closed_of(making *w, const fw_process_tool_time *t, fw_schedule_machine *m) {
     long from, to;
     FW_TRY(read_closed(t, &from, &to, w->diags));
-    if (!w->day->dated) return undated(t, w->diags);
+    if (!w->day->dated) return w->day->undated ? FW_OK : undated(t, w->diags);
     double *span = w->closed_s[m->nclosed++];
     span[0] = fw_schedule_calendar_elapsed(w->day, day_s * (double)(from - w->day->first_day));
     span[1] = fw_schedule_calendar_elapsed(w->day, day_s * (double)(to + 1 - w->day->first_day));

@@ -57,6 +57,7 @@ static fw_status cycle_words(fw_arena *arena, const fw_schedule_shop *shop, cons
             fw_schedule_put_duration(&windows, h->max_s);
             fw_text_printf(&windows, " of the end of %s", shop->task[h->from].id);
             if (h->why) fw_text_printf(&windows, " (the wafer is %s)", h->why);
+            if (h->keeps) fw_text_printf(&windows, " (%s)", h->keeps);
             continue;
         }
         needs += a->weight_s - (opens ? own : 0.0);

@@ -16,8 +16,9 @@ typedef struct fw_schedule_calendar {
     int breaks;
     unsigned closed_days; /* bit 0: Monday; on them it is closed */
     bool dated;           /* first_day is stated; without it day 1 is a Monday */
-    long first_day;       /* of the plan, days since 1970-01-01, negative before */
-    double first_s;       /* it begins no earlier on that day */
+    bool undated;   /* ... and nobody asks when: dates on which a machine is closed do not count */
+    long first_day; /* of the plan, days since 1970-01-01, negative before */
+    double first_s; /* it begins no earlier on that day */
     bool
         zoned; /* its times are zone_min ahead of UTC; without it those of the laboratory's own clock */
     int zone_min;
@@ -43,10 +44,12 @@ typedef struct fw_schedule_task { /* a step of the flow as it is planned */
     bool at_end;       /* ... or up to the end, since somebody must end it: it goes on by itself */
     int load;          /* most wafers of one run */
     bool lot;          /* once for all wafers together */
-    bool alone;        /* a hold: every wafer by itself, up to the machine's places */
-    bool by_day;       /* the whole run inside the working day: nobody may be alone with it */
-    bool unknown;      /* no time is known: counted with attended_s only */
-    bool stated;       /* the time is the user's planning time */
+    bool
+        filling; /* it mixes one filling of a bath, for as many wafers as its load: that is not made smaller */
+    bool alone;   /* a hold: every wafer by itself, up to the machine's places */
+    bool by_day;  /* the whole run inside the working day: nobody may be alone with it */
+    bool unknown; /* no time is known: counted with attended_s only */
+    bool stated;  /* the time is the user's planning time */
     bool
         in_parts; /* somebody looks at it between its parts: the whole run inside the working day where one is so long */
 } fw_schedule_task;
@@ -68,8 +71,9 @@ typedef struct fw_schedule_hold { /* min <= start of `to` - end of `from` <= max
     int from, to;                 /* tasks */
     double min_s, max_s;          /* -INFINITY, INFINITY: none */
     bool implied; /* not of the pack: two steps that nobody does alone, on the same day; or `why` */
-    bool first_only; /* for the first wafer of the lot */
-    const char *why; /* what the wafer is like meanwhile: "wet with h.pan"; NULL: as `implied` */
+    bool first_only;   /* for the first wafer of the lot */
+    const char *why;   /* what the wafer is like meanwhile: "wet with h.pan"; NULL: as `implied` */
+    const char *keeps; /* instead: "a filling of SC1 keeps no longer (sc1.keeps)"; NULL */
 } fw_schedule_hold;
 
 typedef struct fw_schedule_shop { /* the problem */
@@ -130,6 +134,8 @@ typedef struct fw_schedule_options {
     const char *day;       /* as FW_WORKING_DAY; NULL: that; "none": round the clock */
     const char *planned;   /* times for steps, "S03=90 min,S09=20 s"; NULL: none */
     int effort;            /* schedules tried; 0: by size */
+    bool
+        undated; /* nobody asks when: what a machine is closed for on dates is left out where `day` has none */
 } fw_schedule_options;
 
 /* "08:00-18:00", "08:00-12:00,13:00-18:00" with breaks between, or "none"; behind it " from 2026-11-23" where the plan

@@ -242,14 +242,39 @@ static bool broken(fw_schedule_placing *p, const fw_schedule_group *u, bool insi
     return any;
 }
 
+/* the runs of these tasks for some of the unit's wafers, task by task */
+static void place_runs(fw_schedule_placing *p, int from, int to, int first, int count) {
+    for (int task = from; task <= to; task++)
+        for (int w = 0; w < count; w += p->load[task]) {
+            int left = count - w;
+            place_run(p, task, first + w, left < p->load[task] ? left : p->load[task]);
+        }
+}
+
+/* Where a filling is mixed in the unit its wafers go on from there one load after the other: all of them at once would wait for
+   each other at every step */
+static void place_tasks(fw_schedule_placing *p, const fw_schedule_group *u) {
+    int mixes = u->from, together = 1;
+    while (mixes <= u->to && !p->shop->task[mixes].filling)
+        mixes++;
+    if (mixes > u->to) {
+        place_runs(p, u->from, u->to, u->first, u->count);
+        return;
+    }
+    for (int task = mixes + 1; task <= u->to; task++)
+        together = p->load[task] > together ? p->load[task] : together;
+    for (int w = 0; w < u->count; w += p->load[mixes]) {
+        const int left = u->count - w, n = left < p->load[mixes] ? left : p->load[mixes];
+        place_runs(p, u->from, mixes, u->first + w, n);
+        for (int k = 0; k < n; k += together)
+            place_runs(p, mixes + 1, u->to, u->first + w + k, n - k < together ? n - k : together);
+    }
+}
+
 static answer place_unit(fw_schedule_placing *p, fw_schedule_group *u) {
     int before = p->nrun;
     for (int shift = 0; shift < MOST_SHIFTS; shift++) {
-        for (int task = u->from; task <= u->to; task++)
-            for (int w = 0; w < u->count; w += p->load[task]) {
-                int left = u->count - w;
-                place_run(p, task, u->first + w, left < p->load[task] ? left : p->load[task]);
-            }
+        place_tasks(p, u);
         if (p->run[p->nrun - 1].start_s > p->start_s + FW_HORIZON_S) break;
         if (!broken(p, u, true)) {
             u->placed = true;
@@ -345,7 +370,8 @@ static void forget_releases(fw_schedule_placing *p) {
 static bool smaller_load(fw_schedule_placing *p, const fw_schedule_group *u) {
     int most = -1;
     for (int i = u->from; i <= u->to; i++)
-        if (!p->shop->task[i].lot && p->load[i] > 1 && (most < 0 || p->load[i] > p->load[most]))
+        if (!p->shop->task[i].lot && !p->shop->task[i].filling && p->load[i] > 1 &&
+            (most < 0 || p->load[i] > p->load[most]))
             most = i;
     if (most < 0) return false;
     p->load[most] = u->count - 1 < p->load[most] && u->count > 1 ? u->count - 1 : p->load[most] - 1;

@@ -187,7 +187,7 @@ static void change(search *s) {
             p->priority[k * shop->wafers + wafer] += by;
     }
     const fw_schedule_task *t = &shop->task[batch];
-    if (!t->lot && t->load > 1 && uniform(s) < 0.5) {
+    if (!t->lot && !t->filling && t->load > 1 && uniform(s) < 0.5) {
         int most = t->load < shop->wafers ? t->load : shop->wafers;
         p->load[batch] = 1 + below(s, most);
     }
@@ -384,12 +384,19 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
     if (!s.best.any) {
         const fw_schedule_task *from = &shop->task[s.placing.failed_from],
                                *to = &shop->task[s.placing.failed_to];
+        const char *keeps = NULL;
+        for (int i = 0; i < shop->nhold; i++)
+            if (shop->hold[i].keeps && shop->hold[i].to <= s.placing.failed_to &&
+                shop->hold[i].to >= s.placing.failed_from)
+                keeps = shop->hold[i].keeps;
         FW_NEED(
             out->why = fw_arena_printf(
                 arena,
                 "no order was found that keeps all windows with these people and this working "
-                "day; it failed at %s%s%s. Fewer wafers, more operators or a longer day may help",
-                from->id, from == to ? "" : " to ", from == to ? "" : to->id));
+                "day; it failed at %s%s%s%s%s. Fewer wafers, more operators or a longer day may "
+                "help",
+                from->id, from == to ? "" : " to ", from == to ? "" : to->id,
+                keeps ? ", where " : "", keeps ? keeps : ""));
         return FW_OK;
     }
     improve(&s, effort > 0 ? effort : usual_effort(shop));

@@ -35,6 +35,38 @@ static bool never_alone(const fw_process_step *s) {
     return false;
 }
 
+/* ---- how long baths keep ---- */
+
+/* how long a filling may be used; INFINITY: nothing says it */
+static double keeps_s(const fw_process_bath *bath) {
+    return bath && bath->keeps && !bath->keeps->unknown ? bath->keeps->value : (double)INFINITY;
+}
+
+/* for how many wafers, one after the other; INFINITY: for all of a lot, or nobody knows */
+static double serves(const fw_process_bath *bath) {
+    return bath->serves && !bath->serves->unknown ? floor(bath->serves->value + 1e-9)
+                                                  : (double)INFINITY;
+}
+
+/* how often the step is in the bath */
+static int uses(const fw_process_step *s, const fw_process_bath *bath) {
+    int n = 0;
+    for (int k = 0; k < s->nuse; k++)
+        n += s->use[k].bath == bath;
+    return n;
+}
+
+/* The bath that the step mixes where each filling of a lot is mixed when its wafers need it, since it keeps only so long: for `serves`
+   wafers, that are in it once. NULL: all are mixed at once */
+static const fw_process_bath *mixed_in_time(const fw_process_flow *flow, const fw_process_step *s) {
+    const fw_process_bath *bath = fw_process_step_mixes(flow, s);
+    int passes = 0;
+    if (!bath || !isfinite(keeps_s(bath)) || !(serves(bath) >= 1.0)) return NULL;
+    for (const fw_process_step *k = flow->step; k < flow->step + flow->nstep; k++)
+        passes += uses(k, bath);
+    return passes == 1 && isfinite(serves(bath)) ? bath : NULL;
+}
+
 static void make_task(making *m, int index) {
     const fw_process_step *s = &m->flow->step[index];
     fw_schedule_task *t = &m->task[index];
@@ -49,12 +81,17 @@ static void make_task(making *m, int index) {
                             .in_parts = s->pulse && s->pause && s->attended_s > 0.0,
                             .at_end = s->attended_s > 0.0 && fw_process_step_is_ended(s),
                             .unknown = !s->time.computable};
-    t->alone = strcmp(s->op, "hold") == 0 && s->attended_s <= 0.0 && !t->lot;
-    t->load = t->alone ? 1 : t->lot ? m->shop->wafers : fw_process_step_load(s);
+    const fw_process_bath *mixed = mixed_in_time(m->flow, s);
+    if (mixed && serves(mixed) < m->shop->wafers) t->lot = false, t->filling = true;
+    t->alone = strcmp(s->op, "hold") == 0 && s->attended_s <= 0.0 && !t->lot && !t->filling;
+    t->load = t->alone     ? 1
+              : t->lot     ? m->shop->wafers
+              : t->filling ? (int)serves(mixed)
+                           : fw_process_step_load(s);
     t->load = t->load > m->shop->wafers ? m->shop->wafers : t->load;
     if (t->alone && s->equipment) m->machine[t->machine].places = s->equipment->capacity;
-    const int times =
-        fw_process_step_times(m->flow, s, m->shop->wafers); /* a filling after another */
+    const int times = /* a filling after another */
+        fw_process_step_times(m->flow, s, t->filling ? t->load : m->shop->wafers);
     t->attended_s *= times;
     t->duration_s = t->latest_s = t->attended_s;
     if (t->unknown) return;
@@ -123,7 +160,7 @@ static double same_day_s(const making *m) {
 }
 
 static fw_status make_holds(making *m, fw_schedule_hold **list) {
-    int n = m->flow->nstep + m->flow->nwait;
+    int n = 2 * m->flow->nstep + m->flow->nwait;
     for (int i = 0; i < m->flow->nstep; i++)
         n += m->flow->step[i].nlag;
     FW_NEED(*list = fw_arena_array(m->arena, fw_schedule_hold, (size_t)n));
@@ -155,6 +192,23 @@ static fw_status make_holds(making *m, fw_schedule_hold **list) {
                                                        .first_only = w->first_only,
                                                        .why = w->is};
     }
+    for (int i = 0; i < m->flow->nstep; i++) {
+        const fw_process_bath *bath = fw_process_step_mixes(m->flow, &m->flow->step[i]);
+        if (!bath || !isfinite(keeps_s(bath)) || (bath->serves && bath->serves->unknown)) continue;
+        for (int k = i + 1; k < m->flow->nstep; k++) {
+            if (uses(&m->flow->step[k], bath) == 0) continue;
+            const char *keeps =
+                fw_arena_printf(m->arena, "a filling of %s, mixed in %s, keeps no longer (%s)",
+                                bath->name, m->flow->step[i].id, bath->keeps->id);
+            FW_NEED(keeps);
+            (*list)[m->shop->nhold++] = (fw_schedule_hold){.from = i,
+                                                           .to = k,
+                                                           .min_s = -(double)INFINITY,
+                                                           .max_s = keeps_s(bath),
+                                                           .implied = true,
+                                                           .keeps = keeps};
+        }
+    }
     return FW_OK;
 }
 
@@ -176,6 +230,7 @@ static fw_status shop_of(fw_arena *arena, const fw_process_flow *flow,
                       options->day);
         return FW_USAGE;
     }
+    m.shop->calendar.undated = options->undated;
     m.shop->ntask = flow->nstep;
     FW_NEED(m.task = fw_arena_array(arena, fw_schedule_task, (size_t)flow->nstep));
     FW_NEED(m.machine = fw_arena_array(arena, fw_schedule_machine, (size_t)flow->nstep));
@@ -196,6 +251,71 @@ static fw_status shop_of(fw_arena *arena, const fw_process_flow *flow,
     return FW_OK;
 }
 
+/* ---- what a schedule does not see to: FW-D739 ---- */
+
+typedef struct last_use { /* of a filling, and of what is farthest behind it */
+    double from_s, age_s;
+    const char *task;
+    int wafer; /* from 0 */
+    bool mixed;
+} last_use;
+
+/* when what the wafer is in at a run was mixed by a step of the flow; NaN: none does that */
+static double mixed_at(const fw_schedule *s, const fw_process_flow *flow,
+                       const fw_process_bath *bath, int wafer) {
+    for (int i = 0; i < s->nrun; i++) {
+        const fw_schedule_run *r = &s->run[i];
+        if (fw_process_step_mixes(flow, &flow->step[r->task]) == bath && wafer >= r->first &&
+            wafer < r->first + r->count)
+            return r->end_s;
+    }
+    return (double)NAN;
+}
+
+/* Where a bath is not mixed in a step of the flow its fillings serve so many wafers in the order in which these come, each from its
+   first use on; without a number one serves all wafers of a step. The use that is longest behind */
+static last_use worst_use(const fw_schedule *s, const fw_process_flow *flow,
+                          const fw_process_bath *bath) {
+    last_use worst = {.age_s = -1.0};
+    double first_s = 0.0, most = serves(bath), n = 0.0;
+    int of = -1;
+    for (int i = 0; i < s->nrun; i++) {
+        const fw_schedule_run *r = &s->run[i];
+        for (int w = r->first; w < r->first + r->count * (uses(&flow->step[r->task], bath) > 0);
+             w++) {
+            const double at = mixed_at(s, flow, bath, w);
+            if (n == 0.0 || n >= most || (isinf(most) && of != r->task))
+                first_s = r->start_s, n = 0.0;
+            of = r->task, n += 1.0;
+            const double from_s = isnan(at) ? first_s : at;
+            if (r->start_s - from_s > worst.age_s)
+                worst =
+                    (last_use){from_s, r->start_s - from_s, flow->step[r->task].id, w, !isnan(at)};
+        }
+    }
+    return worst;
+}
+
+static fw_status ask_baths(const fw_schedule *s, const fw_process_flow *flow, fw_diags *diags) {
+    for (const fw_process_bath *bath = flow->bath; bath < flow->bath + flow->nbath; bath++) {
+        if (!isfinite(keeps_s(bath))) continue;
+        const last_use use = worst_use(s, flow, bath);
+        if (!(use.age_s > keeps_s(bath) + 1.0)) continue;
+        fw_text text = fw_text_new(diags->arena);
+        fw_schedule_put_duration(&text, keeps_s(bath));
+        fw_text_printf(&text, " (%s), and this schedule has wafer %d in it, in %s, ",
+                       bath->keeps->id, use.wafer + 1, use.task);
+        fw_schedule_put_duration(&text, use.age_s);
+        fw_text_printf(&text, " after it was %s", use.mixed ? "mixed" : "first used");
+        FW_TRY(fw_text_end(&text));
+        fw_diag_warning(diags, 739, flow->place,
+                        "flow '%s': a filling of %s keeps for %s: mix one more for it, which the "
+                        "amounts of the sheet do not count",
+                        flow->id, bath->name, text.data);
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
                            const fw_schedule_options *options, fw_diags *diags,
                            const fw_schedule **schedule) {
@@ -210,6 +330,8 @@ fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
                         flow->id, s->why);
     else if (!s->feasible)
         fw_diag_warning(diags, 197, flow->place, "flow '%s' has no schedule: %s", flow->id, s->why);
+    else
+        FW_TRY(ask_baths(s, flow, diags));
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A flow that is XML alone (processes/soi-deep-rie.xml and masks/soi-deep-rie.xml; no line of code knows it) plans the devices
 of the gallery; and one number of the device moves verdict, mask, times and run sheet together."""
+import hashlib
 import html
 import json
 import math
@@ -103,6 +104,16 @@ class ThirdFlow(unittest.TestCase):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("FW-D376", done.stderr)
         self.assertNotIn("hinge", done.stdout + done.stderr)
+        # commands that make no schedule, and take no --day, take the pack; a log is bound to the plan that has a day
+        made = run("mask", "-", "--lab", lab, "--advice", "none", "-o", self.here / "masks", input=device_of(GALLERY))
+        self.assertTrue((self.here / "masks").is_dir(), made.stderr)
+        log = self.here / "lot.log"
+        logged = run("log", "-", "--lab", lab, "--run", log, "--lot", "L1", "--wafers", "1", "--entry",
+                     "D01; start=2026-11-02T08:00; end=2026-11-02T08:08; by=AB", input=device_of(GALLERY))
+        self.assertEqual(logged.returncode, 0, logged.stderr)
+        run("recipe", "-", "--lab", lab, "--day", "08:00-18:00 from 2026-11-30", "-o", self.here / "dated", input=device_of(GALLERY))
+        recipe = (self.here / f"dated/recipes/{FLOW}.json").read_bytes()
+        self.assertIn(f"plan={hashlib.sha256(recipe).hexdigest()}", log.read_text())
 
     def test_comb_drives_are_insulated_by_the_oxide(self):
         text = device_of(ROOT / "docs/gallery/comb-stage/device.xml").replace(' carrier="insulating"', "")

@@ -47,7 +47,7 @@ static int nrow;
 static void put(const char *coupon, const char *feature, double drawn_um, fw_quantity_dimension d,
                 double value, double u, fw_quantity_dimension at_d, double at, double u_at) {
     rows[nrow++] = (fw_process_measurement){coupon, feature, drawn_um * 1e-6, value, u, at, u_at, d,
-                                            at_d,   {0}, {0}, {0}, false, NULL};
+                                            at_d,   {0}, {0}, {0}, false, NULL, false};
 }
 
 #define LENGTH (fw_quantity_dimension) FW_DIM_LENGTH

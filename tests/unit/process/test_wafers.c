@@ -397,13 +397,51 @@ static void packs_of_before(void **state) {
     }
 }
 
+/* Slots and the ladder of a wafer that was etched longer begin at the edge that its own lines tell, which is no result of the lot:
+   A is that of the truth, and made.al-edge that of the others. Without any lines what begins at that edge does not count. */
+static void the_edge_of_its_wafer(void **state) {
+    (void)state;
+    static const double A = 0.9915, depth = 49e-6, edge[] = {-1.1e-6, -1.6e-6, -1.1e-6}, drawn[] = {10e-6, 14e-6, 20e-6};
+    for (int lines = 0; lines < 2; lines++) {
+        fw_diags said = fw_diags_new(arena);
+        fw_process_calibration c;
+        readings = (fw_process_readings){.item = item, .file = "lot.log", .sha256 = ""};
+        for (int w = 0; w < 3; w++) {
+            for (int k = 0; k < 3 && (w != 1 || lines); k++) {
+                fw_process_reading *r = put("cd-lines", "line", name[w], drawn[k] + 2.0 * edge[w], 5e-9, SITES, 20e-9);
+                r->row.drawn_m = drawn[k], r->row.of = "made.al-edge", r->row.of_wafer = w == 1;
+            }
+            for (int k = 0; k < 3; k++) {
+                const double width = drawn[k] + 2.0 * edge[w] - 2.0 * (1.0 - A) * depth;
+                fw_process_reading *r = put("undercut-ladder", "width", name[w], width, 5e-9, SITES, 20e-9);
+                r->row.drawn_m = drawn[k], r->row.at = depth, r->row.at_uncertainty = 0.2e-6;
+                r->row.at_dimension = (fw_quantity_dimension)FW_DIM_LENGTH;
+                r->edge_off = w == 1 ? "S14 (line 3, 2026-11-03T10:00) was long" : NULL;
+            }
+        }
+        fw_process_readings_of_edges(silicon, &readings, &said);
+        assert_int_equal(readings.n, lines ? 18 : 12);
+        assert_int_equal(said.count, lines ? 0 : 1);
+        if (!lines) assert_non_null(strstr(said.item[0].message, "3 readings of undercut-ladder at step S18 of wafer 2 do not count"));
+        assert_int_equal(fw_process_calibrate_wafers(arena, silicon, &readings, &said, &c), FW_OK);
+        assert_int_equal(c.count, 2);
+        for (int i = 0; i < 2; i++) {
+            const bool of_A = strcmp(c.item[i].id, "rie.A") == 0;
+            const double u = fmax(c.item[i].uncertainty, of_A ? 3e-4 : 0.03e-6);
+            assert_near(c.item[i].value, of_A ? A : 0.0, 2.0 * u);
+            assert_true(c.item[i].uncertainty < (of_A ? 2e-3 : 0.1e-6));
+            assert_non_null(strstr(c.item[i].source, of_A && lines ? "wafers 1, 2, 3" : "wafers 1, 3"));
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(coverage), cmocka_unit_test(slots),
                                        cmocka_unit_test(copies_count_once), cmocka_unit_test(one_that_is_odd),
         cmocka_unit_test(edges_about_nothing),
                                        cmocka_unit_test(refused),
                                        cmocka_unit_test(one_wafer_keeps_the_spread),
-                                       cmocka_unit_test(packs_of_before),
+                                       cmocka_unit_test(packs_of_before), cmocka_unit_test(the_edge_of_its_wafer),
                                        cmocka_unit_test(the_next_after_one)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

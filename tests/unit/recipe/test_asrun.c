@@ -3,6 +3,7 @@
    against actual says what is out of its limits. */
 #include "../process/packs.h"
 #include "base/output.h"
+#include "process/process_law.h"
 #include "recipe/asrun.h"
 #include "recipe/asrun_parts.h"
 #include <stdlib.h>
@@ -987,12 +988,22 @@ static void readings_of_bad_runs(void **state) {
 #define AT(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
     static const char lines[] = "; coupon=cd-lines, line, drawn=6 um, value=3.64 3.65 3.63 um, u=0.02 um; coupon=cd-lines, space, drawn=6 um, value=8.34 8.35 8.36 um, u=0.02 um";
     static const char step[] = "; coupon=al-step, value=0.6 um, u=0.01 um, at=50 um";
+    static const char ladder[] = "; coupon=undercut-ladder, width, drawn=10 um, value=6.9 um, u=0.02 um, at=50 um";
+#define LADDER AT("S18", "14:00", "15:50", "1") ";"
     static const struct {
         const char *entry[4];
         int n;
         fw_recipe_counted counted;
         int read, told;
     } log[] = {
+        /* the ladder begins at the edge that the lines of its wafer tell; where nobody read it since, it does not count */
+        {{AT("S14", "10:00", "10:17", "1"), LADDER}, 2, {0}, 1, 0},
+        {{AT("S14", "10:00", "10:40", "1"), LADDER}, 2, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:40", "2"), LADDER}, 2, {0}, 1, 0},
+        {{AT("S14", "10:00", "10:40", "1"), LADDER}, 2, {.all_runs = true}, 1, 0},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1"), LADDER}, 3, {0}, 3, 1},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:20", "1"), LADDER}, 4, {0}, 0, 2},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:02", "1"), LADDER}, 4, {0}, 1, 1},
         {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 2, 0},
         {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 0, 1},
         {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.all_runs = true}, 2, 1},
@@ -1014,7 +1025,8 @@ static void readings_of_bad_runs(void **state) {
         const char *text = begun();
         for (int k = 0; k < log[i].n; k++) {
             const char *e = log[i].entry[k];
-            const char *more = strncmp(e, "S15", 3) == 0 ? lines : strncmp(e, "S18", 3) == 0 ? step : "";
+            const char *more = strncmp(e, "S15", 3) == 0 ? lines : strchr(e, '\0')[-1] == ';' ? ladder : strncmp(e, "S18", 3) == 0 ? step : "";
+            if (more == ladder) more++; /* its entry ends with one */
             text = with(text, fw_arena_printf(arena, "%s%s", e, more), 0);
         }
         assert_non_null(strstr(text, "\tplanned=1000 "));
@@ -1036,6 +1048,7 @@ static void readings_of_bad_runs(void **state) {
     assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_readings(arena, &run, &without, &diags, &r), FW_INPUT);
     with(begun(), AT("S14", "10:00", "10:17", "1") "; planned=1 2 3 4 5 6 7", 282);
+#undef LADDER
 #undef AT
 }
 
@@ -1073,6 +1086,10 @@ static void a_log_goes_on_by_another_plan(void **state) {
     assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
     assert_int_equal(run.nentry, 2);
     assert_int_equal(run.nline, 3);
+    fw_recipe_asrun_total total; /* what was planned is of the plan of each line */
+    assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
+    assert_true(run.entry[0].as_set->booked_s < 0.75 * run.entry[0].step->booked_s);
+    assert_near(total.planned_s, run.entry[0].as_set->booked_s + run.entry[1].step->booked_s, 1e-6);
     assert_int_equal(run.nreplan, 1);
     assert_int_equal(run.replan[0].line, 3);
     assert_true(run.entry[0].former && !run.entry[1].former);
@@ -1700,6 +1717,56 @@ static void left_in_the_bath(void **state) {
     }
 }
 
+/* A step in parts is logged by the clock, with its pauses: what they leave of an entry that reaches the first look may be too short,
+   which is asked, and the end by the clock answers it. What is scheduled is asked nothing. */
+static void pauses_between_parts(void **state) {
+    (void)state;
+    silicon();
+    const fw_process_step *s = NULL;
+    for (const fw_process_step *k = flow->step; k < flow->step + flow->nstep; k++)
+        if (strcmp(k->id, "S18") == 0) s = k;
+    assert_non_null(s);
+    assert_near(fw_process_step_own_s(s, 110 * 60.0), 90 * 60.0, 1e-9); /* 30 min, 10 min, 30, 10, 30 */
+    assert_near(fw_process_step_own_s(s, 35 * 60.0), 30 * 60.0, 1e-9);
+    const struct {
+        double took_s;
+        const char *judged;
+        int told;
+    } of[] = {{s->time.first_look_s - 60.0, "short", 0}, {s->time.first_look_s + 120.0, "unclear", 1}, {s->booked_s + 1.0, "in window", 0}};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        fw_recipe_asrun run;
+        fw_text table = fw_text_new(arena);
+        const int t = (int)of[i].took_s;
+        const char *text = with(begun(), fw_arena_printf(arena, "S18; start=2026-11-20T10:00:00; end=2026-11-20T%02d:%02d:%02d; by=AB; second=CD; wafer=1", 10 + t / 3600, t / 60 % 60, t % 60), 0);
+        assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+        assert_string_equal(fw_recipe_asrun_in_time(&run, run.entry), of[i].judged);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, run.entry, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(told_of(732), of[i].told);
+        assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
+        assert_int_equal(holds(&table, "; or was that without them?"), of[i].told);
+    }
+}
+
+/* a step that is done once for a lot, logged for its wafers, took its time once, as a load does */
+static void a_step_of_the_lot_counts_once(void **state) {
+    (void)state;
+    silicon();
+    lot_wafers = "1,2";
+    for (int one = 0; one < 2; one++) {
+        fw_recipe_asrun run;
+        fw_recipe_asrun_total t;
+        const char *text = begun();
+        for (int w = 0; w < (one ? 1 : 2); w++)
+            text = with(text, fw_arena_printf(arena, "S17; start=2026-11-20T10:00; end=2026-11-20T10:20; by=AB; second=CD%s", one ? "" : w ? "; wafer=2" : "; wafer=1"), 0);
+        assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
+        assert_true(fw_process_step_is_of_lot(run.entry->step));
+        assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &t), FW_OK);
+        assert_near(t.actual_s + t.unplanned_s, 1200.0, 1e-6);
+        assert_near(t.planned_s, run.entry->step->booked_s, 1e-6);
+        assert_string_equal(fw_recipe_asrun_in_time(&run, run.entry), "in window");
+    }
+}
+
 /* slots that were etched for longer than their run took; a mask of which more or less was lost than is gone */
 static void entries_that_contradict_themselves(void **state) {
     (void)state;
@@ -1959,6 +2026,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(differences_are_taken, setup, teardown),
         cmocka_unit_test_setup_teardown(fillings_serve_so_many, setup, teardown),
         cmocka_unit_test_setup_teardown(left_in_the_bath, setup, teardown),
+        cmocka_unit_test_setup_teardown(pauses_between_parts, setup, teardown),
+        cmocka_unit_test_setup_teardown(a_step_of_the_lot_counts_once, setup, teardown),
         cmocka_unit_test_setup_teardown(entries_that_contradict_themselves, setup, teardown),
         cmocka_unit_test_setup_teardown(writers_wait_for_each_other, setup, teardown),
         cmocka_unit_test_setup_teardown(no_room, setup, teardown),

@@ -224,6 +224,61 @@ static void refused(void **state) {
     }
 }
 
+static bool is_run_of(const fw_schedule *s, int run, const char *step) {
+    return strcmp(s->shop->task[s->run[run].task].id, step) == 0;
+}
+
+/* A bath that keeps for an hour is mixed for two wafers at a time, and these are in it within the hour; one that keeps for less than
+   what lies between has no schedule, which names it. Without that it is mixed once. What is mixed at the bench is told. */
+static void baths_keep(void **state) {
+    (void)state;
+    static const double keeps_s[] = {0.0, 3600.0, 300.0};
+    for (int i = 0; i < 3; i++) {
+        fw_process_flow *f = computed_pack("copper-on-porous-silicon", NULL, NULL);
+        measured(f, "bath.serves", 2.0, 0.0);
+        measured(f, "bath.keeps", keeps_s[i], 0.0);
+        ((fw_quantity *)fw_process_flow_quantity(f, "bath.keeps"))->unknown = i == 0;
+        assert_int_equal(fw_process_flow_compute(arena, f, &plain_facts, &diags), FW_OK);
+        const fw_schedule_options options = {.wafers = 5, .operators = 2, .effort = 20};
+        const fw_schedule *s;
+        assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
+        assert_int_equal(s->feasible, i < 2);
+        if (i == 2) {
+            assert_non_null(strstr(s->why, "a filling of anodising bath, mixed in C03, keeps no longer (bath.keeps)"));
+            continue;
+        }
+        int mixed = 0, used = 0;
+        for (int k = 0; k < s->nrun; k++) {
+            mixed += is_run_of(s, k, "C03");
+            if (!is_run_of(s, k, "C05")) continue;
+            used++;
+            for (int m = 0; m < s->nrun; m++) {
+                const fw_schedule_run *r = &s->run[m];
+                if (!is_run_of(s, m, "C03") || s->run[k].first < r->first || s->run[k].first >= r->first + r->count) continue;
+                assert_true(s->run[k].start_s >= r->end_s);
+                if (i == 1) assert_true(s->run[k].start_s - r->end_s <= 3600.0 + 1e-6);
+            }
+        }
+        assert_int_equal(used, 5);
+        assert_int_equal(mixed, i == 1 ? 3 : 1);
+        assert_null(said_of(739, ""));
+    }
+    fw_process_flow *f = computed_pack("copper-on-porous-silicon", NULL, NULL);
+    measured(f, "bath.keeps", 60.0, 0.0);
+    measured(f, "cu.bath-serves", 4.0, 0.0);
+    for (int i = 0; i < f->nbath; i++) { /* that one is made to keep, in place of the other */
+        fw_process_bath *bath = (fw_process_bath *)&f->bath[i];
+        const bool plating = strcmp(bath->id, "plating") == 0, anodising = strcmp(bath->id, "anodising") == 0;
+        if (anodising) bath->keeps = NULL;
+        if (plating) bath->keeps = fw_process_flow_quantity(f, "bath.keeps");
+    }
+    const fw_schedule_options options = {.wafers = 2, .effort = 20};
+    const fw_schedule *s;
+    assert_int_equal(fw_schedule_make(arena, f, &options, &diags, &s), FW_OK);
+    assert_true(s->feasible);
+    assert_non_null(said_of(739, "a filling of plating bath keeps for 60 s (bath.keeps), and this schedule has wafer 2 in it, in C22, "));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(earliest_fit, setup, teardown),
@@ -232,6 +287,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(worked, setup, teardown),
         cmocka_unit_test_setup_teardown(hours_that_never_meet, setup, teardown),
         cmocka_unit_test_setup_teardown(refused, setup, teardown),
+        cmocka_unit_test_setup_teardown(baths_keep, setup, teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
