@@ -495,7 +495,10 @@ static fw_status tally(void *context, const fw_study_sample *sample) {
     for (int k = 0; k < study->nresponse; k++) {
         fw_study_extreme *e = &result->extreme[k];
         double value = sample->response[k];
-        if (isnan(value)) continue;
+        if (isnan(value)) {
+            FW_TRY(fw_study_without_take(study, sample, &e->without));
+            continue;
+        }
         if (e->n++ == 0)
             e->first = e->least = e->largest = value, e->least_at = e->largest_at = sample->i;
         if (value < e->least) e->least = value, e->least_at = sample->i;
@@ -512,8 +515,11 @@ fw_status fw_study_run(fw_study *study) {
     FW_NEED(result->extreme =
                 fw_arena_array(study->arena, fw_study_extreme, (size_t)study->nresponse));
     for (int k = 0; k < study->nresponse; k++)
-        result->extreme[k] = (fw_study_extreme){
-            .least = (double)NAN, .largest = (double)NAN, .least_at = -1, .largest_at = -1};
+        result->extreme[k] = (fw_study_extreme){.least = (double)NAN,
+                                                .largest = (double)NAN,
+                                                .least_at = -1,
+                                                .largest_at = -1,
+                                                .without.at = -1};
     if (study->options.shards > 0) FW_TRY(fw_study_check_apart(study));
     if (study->options.output && !study->store) {
         bool made;

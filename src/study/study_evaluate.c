@@ -149,6 +149,19 @@ fw_status fw_study_input_check(fw_study *study, int k) {
     return FW_OK;
 }
 
+fw_status fw_study_settings_write(const fw_study *study, const fw_study_sample *sample, int digits,
+                                  char (*text)[FW_STUDY_TEXT]) {
+    for (int v = 0; v < study->nvary; v++) {
+        double shown;
+        if (study->input[v].ntext > 0)
+            memcpy(text[v], sample->text[v], FW_STUDY_TEXT);
+        else
+            FW_TRY(
+                fw_study_input_write(&study->input[v], sample->value[v], digits, text[v], &shown));
+    }
+    return FW_OK;
+}
+
 /* ---- samples: are they due, kept, within their limits ---- */
 
 bool fw_study_is_due(const fw_study *study, long i) {

@@ -312,6 +312,37 @@ class Study(unittest.TestCase):
         self.assertEqual([r["flexure[C]/@width"] for r in failed], ["300 um"] * 2)
         self.assertTrue(all(r["why"] and not r["U"] for r in failed))
 
+    def test_devices_without_a_value_are_told_beside_the_ends_of_the_others(self):
+        """a leaf that is too stout for its formulas is not judged: with it at the end of a range, that the others have a largest value is
+        not the worst case"""
+        path = self.write(ONE_LEAF, "one.xml")
+        rows = ('<vary what="width" from="8 um" to="120 um"/><respond name="U" value="governing.utilisation" {}/>')
+        for kind, goal, more in (("worst-case", "", {"samples": 3}), ("size", 'goal="minimise"', {"samples": 20}),
+                                 ("sensitivity", "", {"samples": 128})):
+            file = self.write(study("s", kind, rows.format(goal), path, **{"as": "drawn" if goal else "hinges"}, **more))
+            done = run("study", file, "-o", self.place / kind)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads((self.place / kind / "study.json").read_text())
+            samples, response = result["samples"], result["responses"][0]
+            devices, without = samples["run"] + samples["failed"], response["without"]
+            self.assertGreater(without["failed"], 0)
+            self.assertEqual(without["devices"], devices - response["values"])
+            self.assertEqual(without["devices"], sum(without[k] for k in ("accepted", "rejected", "inconclusive", "failed")))
+            first = next(r for r in self.rows(kind) if r["U"] == "")
+            self.assertEqual((without["first_at"], without["first_state"]), (int(first["i"]), first["state"]))
+            self.assertAlmostEqual(float(without["set"][0]["value"].split()[0]), 1e6 * float(first["width"]), delta=1e-6)
+            told = (f"{without['devices']} of {devices} devices have no value of U: {without['failed']} could not be judged; number "
+                    f"{first['i']} (failed) is the first of them: --set \"width={without['set'][0]['value']}\"")
+            self.assertIn(told, done.stdout)
+            self.assertIn(told.replace('"', "&quot;"), (self.place / kind / "study.html").read_text())
+            if kind == "worst-case":
+                self.assertRegex(done.stdout, rf"U +largest of the {response['values']} that have one ")
+                self.assertNotIn("found", done.stdout)
+                self.assertEqual(without["set"], [{"path": "width", "value": "120 um"}])  # its corner
+            if kind == "sensitivity":
+                self.assertLess(response["index_groups"], response["index_groups_of"])
+                self.assertIn(f"of the {response['index_groups']} of {response['index_groups_of']} groups", done.stdout)
+
     def test_hinges_alone_are_said(self):
         """in a directory that is made with those above it"""
         rows = ('<vary what="arc" values="230 deg; 240 deg"/>'
@@ -695,6 +726,16 @@ class Study(unittest.TestCase):
         file = self.write(study("y", "yield", table, path, samples=few(300)))
         least, most = self.run_study(file, "table")["yields"][0]["sampling_interval"]
         self.assertTrue(least - 5e-3 <= 0.4 <= most + 5e-3, (least, most))
+
+    def test_a_table_has_units_of_several_symbols(self):
+        """joined by a blank, '.', '*' or '/', as those of all values"""
+        turned = ONE_LEAF.replace("push\" value=\"20 uN\"", "push\" value=\"1e-8 N m\"").replace(
+            '<force on="bar" fx="push"', '<torque on="bar" value="push"')
+        path = self.write(turned, "turned.xml")
+        for unit in ("N m", "N.m", "N*m", "uN  mm", "kg m^2/s^2"):
+            table = f'<uncertain what="push" spread="table" table="1e-8 {unit} 0;1.7e-8 {unit}  0.4 ; 2e-8 {unit} 1"/>'
+            plan = run("study", self.write(study("y", "yield", table, path, samples=200)), "--plan", *FLOW)
+            self.assertEqual(plan.returncode, 0, plan.stderr)
 
     def test_what_is_only_assumed_makes_a_range(self):
         """its ends are the yields of the two values themselves: the same devices, and never counted together"""

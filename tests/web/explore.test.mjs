@@ -6,7 +6,8 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { answered, axeSource, close, finish, open, program, ready, serve, setText, source, text, view, SMALL } from "./helper.mjs";
-import { stretches, told } from "../../web/src/exploring.js";
+import { endOf, stretches, told } from "../../web/src/exploring.js";
+import { kindOf, sizeOf } from "../../web/src/quantities.js";
 
 after(finish);
 
@@ -32,6 +33,19 @@ test("what is told as accepted lies within what was accepted", () => {
     assert.deepEqual(list.map((r) => [r.state, r.from, r.to]), [["reject", "6", "6.981"], ["accept", "6.981", "11.96"], ["reject", "11.96", "20"]]);
     const all = [{ x: 0, state: "accept" }, { x: 1 / 3, state: "accept" }];
     assert.deepEqual(told(stretches(all, true), all).map((r) => [r.from, r.to]), [["0", "0.3333"]]);
+});
+
+test("a unit may have several symbols, joined by a blank, '.', '*' or '/'", () => {
+    const units = { N: 1, uN: 1e-6, m: 1, mm: 1e-3, um: 1e-6, kg: 1, s: 1, rad: 1 };
+    for (const [unit, size] of [["um", 1e-6], ["N m", 1], ["uN mm", 1e-9], ["uN.mm", 1e-9], ["uN*mm", 1e-9], ["kg m^2/s^2", 1], ["mm^2", 1e-6]]) {
+        assert.ok(Math.abs(sizeOf(unit, units) / size - 1) < 1e-12, unit);
+        assert.deepEqual(kindOf(`2.5 ${unit}`, units, () => false), { kind: "number", unit });
+    }
+    for (const none of ["", "foo", "um w", "um*w"]) assert.equal(sizeOf(none, units), undefined, none);
+    assert.equal(kindOf("2 um*w", units, () => false).kind, "formula");
+    assert.ok(Math.abs(endOf("3e-8 N m", "uN mm", units) / 30 - 1) < 1e-12);
+    assert.equal(endOf("30", "uN mm", units), 30);
+    assert.ok(Number.isNaN(endOf("30 foo", "uN mm", units)));
 });
 
 describe("a range", () => {

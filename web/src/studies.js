@@ -241,7 +241,8 @@ export class Studies {
             ...(r.yields ?? []).map((y) => h("p", {}, `${y.flow ?? "As drawn"}: ${y.least ? `${percent(y.least.yield)} to ${percent(y.most.yield)}, as is what is only assumed,` : percent(y.yield)} hold every limit (${percent(y.sampling_interval?.[0])} to ${percent(y.sampling_interval?.[1])} by sampling alone; with the model's own band ${percent(y.yield_range?.[0])} to ${percent(y.yield_range?.[1])}).`)),
             ...(r.found ?? []).map((f, i) => this.#device(r.found.length > 1 ? `Device ${i + 1} of the front` : "Best device", f, r)),
             r.kind === "size" && !r.found?.length && r.nearest ? this.#device("No device holds every limit; the nearest", r.nearest, r) : null,
-            ...(r.responses ?? []).flatMap((x) => [["least", x.worst_least], ["largest", x.worst_largest]].filter(([, w]) => w?.set).map(([word, w]) => this.#device(`${x.name}, ${word}: ${valueOf(x, w.value)}`, w, r))),
+            ...(r.responses ?? []).flatMap((x) => [["least", x.worst_least], ["largest", x.worst_largest]].filter(([, w]) => w?.set).map(([word, w]) => this.#device(`${x.name}, ${word}${x.without ? ` of the ${x.values} that have a value` : ""}: ${valueOf(x, w.value)}`, w, r))),
+            ...(r.responses ?? []).filter((x) => x.without).map((x) => this.#device(withoutValue(x, r), { set: x.without.set }, r)),
             ...(r.responses ?? []).filter((x) => x.by).map((x) => effects(x)),
             r.how ? h("p", { class: "doc" }, r.how) : null,
             h("div", { class: "study-pictures" }, (job.files ?? []).filter((f) => /^pictures\/.*\.svg$/.test(f.path)).slice(0, PICTURES_MOST).map((f) => h("a", { href: fileOf(job, f.path), target: "_blank", rel: "noopener" }, h("img", { src: fileOf(job, f.path), alt: f.path.replace(/^pictures\/|\.svg$/g, "").replaceAll("-", " ") })))),
@@ -260,6 +261,15 @@ export class Studies {
 
 /** A value of a response as people read it: shares of a limit in %, as the verdict has them. */
 const valueOf = (response, value) => (response?.share ? percent(value) : response?.unit ? si(value, response.unit, 4) : number(value, 4));
+
+/** How many devices have no value of a response, what they are, and what that leaves of the answer. */
+function withoutValue(x, result) {
+    const w = x.without;
+    const others = w.devices - w.accepted - w.rejected - w.inconclusive - w.failed;
+    const parts = [[w.accepted, "accepted"], [w.rejected, "rejected"], [w.inconclusive, "inconclusive"], [w.failed, "could not be judged"], [others, "not judged"]];
+    const worst = result.kind === "worst-case" && x.values ? "The worst case of the ranges may well be among them. " : "";
+    return `${w.devices} of ${result.samples.run + result.samples.failed} devices have no value of ${x.name}: ${parts.filter(([n]) => n).map(([n, word]) => `${n} ${word}`).join(", ")}. ${worst}Number ${w.first_at} (${w.first_state}) is the first of them`;
+}
 
 /** A difference of two values of a response. */
 const changeOf = (response, change) => (response.share && Math.abs(change) < 10 ? percent(change).replace(" %", " points") : valueOf(response, change));
