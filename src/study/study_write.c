@@ -76,8 +76,8 @@ static fw_status save_table(fw_study *study, const char *path) {
     if (status == FW_OK) return FW_OK;
     unlink(aside);
     if (status != FW_IO || study->diags.errors > 0) return status;
-    return fw_diag_error(&study->diags, 222, (fw_place){.file = path}, "could not be written: %s",
-                         strerror(why)) == FW_NOMEM
+    return fw_diag_error(fw_diags_because(&study->diags, why), 222, (fw_place){.file = path},
+                         "could not be written: %s", strerror(why)) == FW_NOMEM
                ? FW_NOMEM
                : FW_IO;
 }
