@@ -310,9 +310,20 @@ describe("studies", () => {
         const same = JSON.parse(execFileSync(program, ["study", saved, "-o", directory, "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
         assert.deepEqual(result.found, same.found); // to the last bit what the command finds in one run
         assert.equal(result.samples.run, same.samples.run);
-        // what a terminal has left beside the file is opened, and nothing is judged again
+        // what a terminal has left beside the file is opened, and nothing is judged again; what is of another study is not offered
+        const other = `${server.directory}/terminal/other.xml`;
+        writeFileSync(other, (await text(page)).replace(/<study name="size"[^]*?<\/study>/, '<study name="other" kind="sweep" as="hinges"><vary what="flexure[C]/@width" from="8 um" to="9 um" steps="2"/><respond name="used" value="governing.utilisation"/></study>'));
+        execFileSync(program, ["study", other, "-o", `${server.directory}/by-another`, "-q"], { cwd: source, stdio: "ignore" });
+        spawnSync(program, ["study", saved, "-o", `${server.directory}/less-accurate`, "--accuracy", "1e-2", "--time-limit", "1", "-q"], { cwd: source });
         await view(page, "motion");
         await view(page, "explore");
+        await page.waitForSelector(`${card} select[aria-label="Open results of size"]`);
+        assert.deepEqual(await page.locator(`${card} select option`).allTextContents(), ["Open results…", "by-itself", "less-accurate"]);
+        // of its name, and of other options: that is told in words that can be followed here, and the study stays as it was
+        await page.selectOption(`${card} select[aria-label="Open results of size"]`, "less-accurate");
+        await page.waitForSelector('.notice:has-text("The samples in less-accurate are of study \'size\' with another description, other options")', { timeout: LONG });
+        assert.doesNotMatch((await page.locator(".notice").allTextContents()).join(), /FW-D495| -o|--resume/);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result.found), same.found);
         await page.selectOption(`${card} select[aria-label="Open results of size"]`, "by-itself");
         await page.waitForFunction(() => { const k = globalThis.flexwright.parts.explore.studies.kept.get("size"); return k && !k.control; }, null, { timeout: LONG });
         const opened = await page.evaluate(() => { const { job, why } = globalThis.flexwright.parts.explore.studies.kept.get("size"); return { found: job?.result?.found, run: job?.result?.samples.run, seconds: job?.seconds, why }; });
@@ -371,6 +382,15 @@ describe("studies", () => {
         assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present");
         assert.equal(await page.locator(`${card} [data-act^="resume"]`).count(), 0);
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result.found), found);
+        // and so has another page, which has not begun it
+        const second = await page.context().newPage();
+        await second.goto(page.url());
+        await ready(second);
+        await view(second, "explore");
+        await second.waitForSelector(`${card} [data-act="apply"]`);
+        assert.equal(await second.getAttribute(`${card} .study-body`, "data-of"), "present");
+        assert.doesNotMatch(await second.textContent(`${card} .study-said`), /former/);
+        await second.close();
     });
 
     test("of devices that could not be judged one is told with its reason", async () => {
@@ -379,6 +399,8 @@ describe("studies", () => {
         await page.selectOption('select[aria-label="Kind of study"]', "sweep");
         await page.click("#study-add");
         const sweep = '.study[data-name="sweep"]';
+        await page.waitForSelector(sweep);
+        assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present", "another study in the text is none of its input");
         await page.click(`${sweep} [data-act="run"]:not([disabled])`);
         await page.waitForSelector(`${sweep} .study-body p`, { timeout: LONG });
         const { samples } = await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("sweep").job.result);
