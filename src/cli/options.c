@@ -393,7 +393,9 @@ static const fw_cli_option_row table[] = {
     {"effects", 0, "WHICH",
      "auto (leaves out what provably changes less than the accuracy wanted), all, none, or a "
      "list like inertia,gravity,joint-damping (without inertia: a quasi-static sequence of "
-     "equilibria); whatever the choice, stiffness, springs, stops within reach, loads, tendons, "
+     "equilibria, unless there is none: where an actuator follows a law, with initial velocities, "
+     "friction or a snap inertia acts all the same, and the list of effects says why); whatever "
+     "the choice, stiffness, springs, stops within reach, loads, tendons, "
      "comb drives and initial velocities stay, and weight and the motion of the base where "
      "nothing else moves the device: without them there would be nothing to judge",
      FW_OPT_PLAN, take_effects},

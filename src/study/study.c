@@ -8,6 +8,7 @@
 #include "xml/xml.h"
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { FILE_MOST = 8 << 20 };
 
@@ -583,9 +584,14 @@ fw_status fw_study_open_merge(const fw_study_options *options, const char *direc
 
 fw_status fw_study_merge(fw_study *study, const char *const *directory, int n) {
     bool made;
+    FW_TRY(fw_study_check_shards(study, directory, n));
     FW_TRY(fw_output_directory(study->arena, study->options.output, &made));
-    FW_TRY(fw_study_store_open(study, &study->store));
-    FW_TRY(fw_study_store_merge(study->store, directory, n));
+    fw_status status = fw_study_store_open(study, &study->store);
+    const bool open = status == FW_OK; /* else it may be somebody else's */
+    if (open) status = fw_study_store_merge(study->store, directory, n);
     study->stored_only = true;
-    return fw_study_run(study);
+    if (status == FW_OK) status = fw_study_run(study);
+    if (open && status != FW_OK) fw_study_store_abandon(study->store);
+    if (made && status != FW_OK) (void)rmdir(study->options.output);
+    return status;
 }

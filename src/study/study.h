@@ -272,6 +272,8 @@ fw_status fw_study_store_finish(fw_study_store *store);
 /* the rows of the shards' stores into this one: FW-D497 where one is of another study, missing, twice
    or not complete */
 fw_status fw_study_store_merge(fw_study_store *store, const char *const *directory, int n);
+/* closed, and the file goes: half of a merge is of no use */
+void fw_study_store_abandon(fw_study_store *store);
 /* what a store says of itself under a key ("file"), for merging; *value NULL: nothing */
 fw_status fw_study_store_said(fw_arena *arena, fw_diags *diags, const char *directory,
                               const char *key, const char **value);

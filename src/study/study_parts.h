@@ -87,6 +87,7 @@ fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char *
    1e-6", "" where it does not say */
 struct sqlite3;
 typedef const char *fw_study_says(fw_arena *arena, struct sqlite3 *db, const char *key);
+fw_study_says fw_study_store_says; /* of *db; NULL: nothing, or it is no store (study_store.c) */
 fw_status fw_study_find_hash(fw_study *study);
 fw_status fw_study_difference(fw_study *study, fw_study_says *says, struct sqlite3 *db,
                               const char **words);
@@ -300,7 +301,8 @@ void fw_study_parts_take(const fw_study *study, const fw_verdict *verdict, fw_st
    counted; 1 rejected) and parts. *numbers: hinges and requirements of the plan's verdict are those of the die. */
 fw_status fw_study_die_take(const fw_study *study, fw_plan *plan, fw_study_sample *sample,
                             bool *numbers);
-
+/* before anything is written, are these the shards of this study? FW-D497 (study_slurm.c) */
+fw_status fw_study_check_shards(fw_study *study, const char *const *directory, int n);
 /* has each device values of its own of what is uncertain? */
 bool fw_study_draws(const fw_study *study);
 /* ---- study_scatter.c: what differs from device to device, on which level, and where ---- */
