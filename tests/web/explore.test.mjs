@@ -314,14 +314,15 @@ describe("studies", () => {
         const other = `${server.directory}/terminal/other.xml`;
         writeFileSync(other, (await text(page)).replace(/<study name="size"[^]*?<\/study>/, '<study name="other" kind="sweep" as="hinges"><vary what="flexure[C]/@width" from="8 um" to="9 um" steps="2"/><respond name="used" value="governing.utilisation"/></study>'));
         execFileSync(program, ["study", other, "-o", `${server.directory}/by-another`, "-q"], { cwd: source, stdio: "ignore" });
-        spawnSync(program, ["study", saved, "-o", `${server.directory}/less-accurate`, "--accuracy", "1e-2", "--time-limit", "1", "-q"], { cwd: source });
+        writeFileSync(other, (await text(page)).replace('<study name="size" kind="size"', '<study name="size" kind="size" samples="3"'));
+        spawnSync(program, ["study", other, "-o", `${server.directory}/of-few`, "-q"], { cwd: source });
         await view(page, "motion");
         await view(page, "explore");
         await page.waitForSelector(`${card} select[aria-label="Open results of size"]`);
-        assert.deepEqual(await page.locator(`${card} select option`).allTextContents(), ["Open results…", "by-itself", "less-accurate"]);
-        // of its name, and of other options: that is told in words that can be followed here, and the study stays as it was
-        await page.selectOption(`${card} select[aria-label="Open results of size"]`, "less-accurate");
-        await page.waitForSelector('.notice:has-text("The samples in less-accurate are of study \'size\' with another description, other options")', { timeout: LONG });
+        assert.deepEqual(await page.locator(`${card} select option`).allTextContents(), ["Open results…", "by-itself", "of-few"]);
+        // of its name, and asked for something else: that is told in words that can be followed here, and the study stays as it was
+        await page.selectOption(`${card} select[aria-label="Open results of size"]`, "of-few");
+        await page.waitForSelector('.notice:has-text("The samples in of-few are of study \'size\' with another description, other options")', { timeout: LONG });
         assert.doesNotMatch((await page.locator(".notice").allTextContents()).join(), /FW-D495| -o|--resume/);
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result.found), same.found);
         await page.selectOption(`${card} select[aria-label="Open results of size"]`, "by-itself");
