@@ -343,6 +343,8 @@ typedef struct fw_diagnostic {
     int32_t line;        /* from 1; 0: the file as a whole */
     int32_t column;      /* in bytes, from 1; 0: the line as a whole */
     const char *message; /* what is wrong, the limit and its source, what to do */
+    /* errno of the call of the system that failed (ENOENT: there is no such file), of an error of a file; 0: none did */
+    int32_t system_error;
 } fw_diagnostic;
 
 /* How many there are so far; 0 for NULL. At most 100 are kept: of one call the first, errors before warnings and notes. Where

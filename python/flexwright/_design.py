@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _arguments
 from ._library import TOLD, ArrayStruct, OptionsStruct, lib
-from .errors import BY_STATUS, Cancelled, Diagnostic, FlexwrightError, MemoryLimitError, Severity
+from .errors import Cancelled, Diagnostic, MemoryLimitError, Severity, error_of
 
 OK = 0
 REAL, WHOLE, TEXT, COMPLEX, TRUTH = range(5)
@@ -177,7 +177,7 @@ class Design:
         if status == OK:
             return
         name = _text(lib.fw_status_name(status))
-        raise BY_STATUS.get(status, FlexwrightError)(f"{what}: {name}", self._of_the_last_call())
+        raise error_of(status, f"{what}: {name}", self._of_the_last_call())
 
     def _of_the_last_call(self) -> List[Diagnostic]:
         """What the last call of the library said."""
@@ -186,7 +186,7 @@ class Design:
                        lib.fw_design_diagnostics(self._pointer)):
             d = lib.fw_design_diagnostic(self._pointer, i).contents
             out.append(Diagnostic(d.number, Severity(d.severity), _text(d.file), d.line, d.column,
-                                  _text(d.message) or ""))
+                                  _text(d.message) or "", d.system_error))
         return out
 
     def _in_thread(self, function: Callable[..., int], arguments: tuple) -> int:

@@ -46,7 +46,7 @@ class DiagnosticStruct(Structure):
     """fw_diagnostic."""
 
     _fields_ = [("number", c_int32), ("severity", c_int32), ("file", c_char_p), ("line", c_int32),
-                ("column", c_int32), ("message", c_char_p)]
+                ("column", c_int32), ("message", c_char_p), ("system_error", c_int32)]
 
 
 class ArrayStruct(Structure):

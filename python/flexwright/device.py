@@ -14,7 +14,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 from . import _arguments, results
 from ._arguments import Value
 from ._design import DOCUMENTS, Design, Progress, ProgressCallback, Question
-from .errors import Diagnostic, FileError, FlexwrightError, MissingFileError, Severity
+from .errors import Diagnostic, FileError, FlexwrightError, Severity, error_of
 from .tables import Table, table
 
 #: what `Device.write` writes, as FW_DESIGN_... of flexwright.h
@@ -57,10 +57,9 @@ class Device:
             with open(path, "rb") as file:
                 text = file.read()
         except OSError as error:
-            kind = MissingFileError if isinstance(error, FileNotFoundError) else FileError
             what = "cannot be read: %s" % error.strerror
-            raise kind(f"{path} {what}", [Diagnostic(220, Severity.ERROR, path, 0, 0, what)],
-                       error.errno, error.strerror) from error
+            said = [Diagnostic(220, Severity.ERROR, path, 0, 0, what, error.errno or 0)]
+            raise error_of(FileError.status, f"{path} {what}", said) from error
         self._begin(text, path, os.path.dirname(path) or ".", set, options, parameters)
 
     @classmethod

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import enum
+import errno
+import os
 from typing import Optional, Sequence, Tuple
 
 
@@ -25,6 +27,8 @@ class Diagnostic:
     line: int  #: from 1; 0: the file as a whole
     column: int  #: in bytes, from 1; 0: the line as a whole
     message: str  #: what is wrong, the limit and its source, what to do
+    #: errno of the system where it refused a file (errno.ENOENT: there is none of that name); 0: it did not
+    system_error: int = 0
 
     @property
     def code(self) -> str:
@@ -118,22 +122,21 @@ class GeometryError(FlexwrightError, ValueError):
 
 
 class FileError(FlexwrightError, OSError):
-    """A file could not be read or written. `filename` is that of the first error; `errno` and `strerror` are the system's where
-    Python asked it, and None where the library did: its message says why."""
+    """A file could not be read or written. `filename`, `errno` and `strerror` are those of the first error, as of any OSError; where
+    the system had nothing against it (a directory holds something else), `errno` and `strerror` are None: the message says why."""
 
     status = 4
 
-    def __init__(self, what: str, diagnostics: Sequence[Diagnostic] = (), errno: Optional[int] = None,
-                 strerror: Optional[str] = None) -> None:
+    def __init__(self, what: str, diagnostics: Sequence[Diagnostic] = ()) -> None:
         super().__init__(what, diagnostics)
-        self.errno, self.strerror, self.filename = errno, strerror, self.file
-
-    def __reduce__(self):
-        return type(self), (self.what, self.diagnostics, self.errno, self.strerror)
+        reason = self.first.system_error if self.first else 0
+        self.errno: Optional[int] = reason or None
+        self.strerror: Optional[str] = os.strerror(reason) if reason else None
+        self.filename = self.file
 
 
 class MissingFileError(FileError, FileNotFoundError):
-    """There is no file of that name."""
+    """There is no file or directory of that name."""
 
 
 class MemoryLimitError(FlexwrightError, MemoryError):
@@ -169,3 +172,10 @@ class InternalError(FlexwrightError, RuntimeError):
 BY_STATUS = {kind.status: kind for kind in (UsageError, InputError, GeometryError, FileError,
                                             MemoryLimitError, LimitError, SolverError, Cancelled,
                                             InternalError)}
+
+
+def error_of(status: int, what: str, diagnostics: Sequence[Diagnostic]) -> FlexwrightError:
+    """The error of a status of the library: of a file that is not there MissingFileError, whoever looked for it."""
+    kind = BY_STATUS.get(status, FlexwrightError)
+    missing = kind is FileError and next((d.system_error for d in diagnostics if d.severity is Severity.ERROR), 0) == errno.ENOENT
+    return (MissingFileError if missing else kind)(what, diagnostics)

@@ -95,6 +95,8 @@ void fw_diags_put(fw_diags *diags, fw_diag ready) {
 /* kind: all but the message */
 static void add(fw_diags *diags, fw_diag kind, const char *format, va_list arguments) {
     kind.once = kind.once || kind.number == diags->once;
+    if (kind.severity == FW_ERROR && diags->reason) kind.reason = diags->reason;
+    diags->reason = 0;
     if (!has_place(diags, &kind)) return;
     if (diags->count == diags->capacity) {
         size_t more = diags->capacity ? 2 * diags->capacity : 8;
@@ -125,6 +127,11 @@ fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char 
         arguments);
     va_end(arguments);
     return diags->failed ? FW_NOMEM : FW_INPUT;
+}
+
+fw_diags *fw_diags_because(fw_diags *diags, int reason) {
+    diags->reason = reason;
+    return diags;
 }
 
 fw_status fw_diag_formula_ended(fw_diags *diags, int number, fw_diag_ended ended, fw_place place,
@@ -174,7 +181,8 @@ void fw_diags_add(fw_diags *diags, const fw_diag *d, fw_severity severity) {
                     .place = d->place,
                     .ended = severity == d->severity ? d->ended : FW_ENDED_NOT,
                     .unreliable = d->unreliable && severity == d->severity,
-                    .once = d->once};
+                    .once = d->once,
+                    .reason = d->reason};
     add_text(diags, kind, "%s", d->message);
 }
 

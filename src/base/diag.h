@@ -39,8 +39,10 @@ typedef struct fw_diag {
     fw_place place;
     const char *message;
     fw_diag_ended ended;
-    bool unreliable; /* a warning after which the result is not to be relied on, or a finding of a log */
-    bool once;       /* said of a place once, however many flows have it */
+    bool
+        unreliable; /* a warning after which the result is not to be relied on, or a finding of a log */
+    bool once;      /* said of a place once, however many flows have it */
+    int reason;     /* of an error, errno of the call of the system that failed; 0: none did */
 } fw_diag;
 
 typedef struct fw_diags {
@@ -52,6 +54,7 @@ typedef struct fw_diags {
     size_t before;  /* of the items: said before the call that is at work */
     int failed;     /* memory was short while collecting */
     int once;       /* number of what is to be said once of a place; 0: of nothing */
+    int reason;     /* of the error that is said next; 0: none */
 } fw_diags;
 
 enum { FW_DIAG_MOST = 100 };
@@ -66,6 +69,9 @@ void fw_diags_call(fw_diags *diags);
    errors, so that `return fw_diag_error(...)` reads well. */
 fw_status fw_diag_error(fw_diags *diags, int number, fw_place place, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
+/* The list, where the error that is said next is for this reason of the system (errno), which callers of the library are told
+   as a number beside the words: fw_diag_error(fw_diags_because(diags, errno), 220, ...). Test: test_diag.c */
+fw_diags *fw_diags_because(fw_diags *diags, int reason);
 /* of a run that came to where a formula does not hold */
 fw_status fw_diag_formula_ended(fw_diags *diags, int number, fw_diag_ended ended, fw_place place,
                                 const char *format, ...) __attribute__((format(printf, 5, 6)));

@@ -28,18 +28,20 @@ static const char *not_a_file(mode_t mode) {
     return "it is a device";
 }
 
-/* the descriptor, or -1 with *why */
-static int open_file(const char *path, const char **why) {
+/* the descriptor, or -1 with *why and the system's *reason (errno; 0: it has none) */
+static int open_file(const char *path, const char **why, int *reason) {
     int fd;
     do
         fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     while (fd < 0 && errno == EINTR);
     struct stat info;
-    *why = fd < 0 || fstat(fd, &info) != 0 ? strerror(errno) : not_a_file(info.st_mode);
+    const bool refused = fd < 0 || fstat(fd, &info) != 0;
+    *reason = refused ? errno : S_ISDIR(info.st_mode) ? EISDIR : 0;
+    *why = refused ? strerror(*reason) : not_a_file(info.st_mode);
     if (fd >= 0 && *why) {
         close(fd);
         fd = -1;
-    } else if (errno == ENXIO && fd < 0)
+    } else if (*reason == ENXIO && fd < 0)
         *why = "it is a socket";
     return fd;
 }
@@ -57,9 +59,9 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
     int standard = strcmp(path, "-") == 0;
     fw_place place = {.file = standard ? "standard input" : path};
     const char *why;
-    int fd = standard ? STDIN_FILENO : open_file(path, &why);
+    int reason = 0, fd = standard ? STDIN_FILENO : open_file(path, &why, &reason);
     if (fd < 0) {
-        fw_diag_error(diags, 220, place, "cannot be read: %s", why);
+        fw_diag_error(fw_diags_because(diags, reason), 220, place, "cannot be read: %s", why);
         return FW_IO;
     }
     size_t capacity = room_for(fd, most), length = 0;
@@ -69,7 +71,8 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
         ssize_t got = read(fd, buffer + length, capacity - length);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) {
-            fw_diag_error(diags, 220, place, "cannot be read: %s", strerror(errno));
+            fw_diag_error(fw_diags_because(diags, errno), 220, place, "cannot be read: %s",
+                          strerror(errno));
             status = FW_IO;
         }
         if (got <= 0) break;
@@ -96,7 +99,8 @@ fw_status fw_input_read(fw_arena *arena, const char *path, size_t most, fw_diags
 
 static fw_status append_failed(const fw_append *file, int number, const char *what) {
     fw_place place = {file->path, 0, 0};
-    fw_diag_error(file->diags, number, place, "%s: %s", what, strerror(errno));
+    fw_diag_error(fw_diags_because(file->diags, errno), number, place, "%s: %s", what,
+                  strerror(errno));
     return FW_IO;
 }
 

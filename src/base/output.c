@@ -18,8 +18,8 @@
 
 /* FW_D222 with the reason in errno: FW_IO */
 static fw_status failed(fw_diags *diags, const char *path, const char *what) {
-    fw_diag_error(diags, 222, (fw_place){.file = path}, "cannot %s: %s; nothing was changed", what,
-                  strerror(errno));
+    fw_diag_error(fw_diags_because(diags, errno), 222, (fw_place){.file = path},
+                  "cannot %s: %s; nothing was changed", what, strerror(errno));
     return FW_IO;
 }
 
@@ -212,7 +212,7 @@ static bool write_members(const fw_output_member *file, placed *p, size_t count,
         while (i-- > 0)
             if (!take_back(&p[i])) {
                 p[i].there = false;
-                fw_diag_error(diags, 222, (fw_place){.file = p[i].path},
+                fw_diag_error(fw_diags_because(diags, errno), 222, (fw_place){.file = p[i].path},
                               "is the new one and could not be taken back: %s; the earlier one is "
                               "%s",
                               strerror(errno), p[i].replaced ? p[i].build : "none");

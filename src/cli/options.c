@@ -393,9 +393,9 @@ static const fw_cli_option_row table[] = {
     {"effects", 0, "WHICH",
      "auto (leaves out what provably changes less than the accuracy wanted), all, none, or a "
      "list like inertia,gravity,joint-damping (without inertia: a quasi-static sequence of "
-     "equilibria); whatever the choice, stiffness, springs, stops within reach, loads, tendons, "
-     "comb drives and initial velocities stay, and weight and the motion of the base where "
-     "nothing else moves the device: without them there would be nothing to judge",
+     "equilibria; an actuator's law, initial velocities, friction and snaps keep it); whatever "
+     "the choice, stiffness, springs, stops within reach, loads, tendons, comb drives and initial "
+     "velocities stay, and weight and base motion where nothing else moves the device",
      FW_OPT_PLAN, take_effects},
     {"corners", 0, "WHICH",
      "auto: the verdict holds for what each flow may make of the device, at the corners of its "

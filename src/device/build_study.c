@@ -148,9 +148,10 @@ static bool is_same_input(const char *what, const char *flow, const fw_device_un
     return strcmp(what, u->what) == 0 && !flow == !u->flow && (!flow || strcmp(flow, u->flow) == 0);
 }
 
-/* "8 um 0.3": a value, its dimension that of the first, and a share */
-static bool read_entry(const char *text, const char **unit_text, fw_quantity_dimension *dimension,
-                       bool first, double *x, double *p) {
+/* "1e-8 N m 0.3": a value, whose unit may have blanks within and is (*nunit) long, its dimension that of the first, and a
+   share */
+static bool read_entry(const char *text, const char **unit_text, size_t *nunit,
+                       fw_quantity_dimension *dimension, bool first, double *x, double *p) {
     size_t n = strlen(text), at = n, length = strcspn(text, " \t\n");
     fw_quantity_unit unit = {.factor = 1};
     double number;
@@ -165,7 +166,7 @@ static bool read_entry(const char *text, const char **unit_text, fw_quantity_dim
         kept--;
     if (kept > 0 && !fw_quantity_unit_parse(rest, kept, &unit, NULL, NULL)) return false;
     if (first)
-        *dimension = unit.dimension, *unit_text = rest;
+        *dimension = unit.dimension, *unit_text = rest, *nunit = kept;
     else if (!fw_quantity_dimension_equal(*dimension, unit.dimension))
         return false;
     *x = fw_quantity_unit_to_si(&unit, number);
@@ -176,6 +177,7 @@ static fw_status build_table(fw_xml_reader *r, const fw_xml_record *record,
                              fw_device_uncertain *u) {
     const char *text = fw_xml_text_of(record, "table"), **part, *what = NULL, *unit = "";
     char label[FW_LABEL];
+    size_t nunit = 0;
     int n;
     if (!text) return FW_OK;
     FW_TRY(split(r->arena, text, &part, &n));
@@ -184,9 +186,11 @@ static fw_status build_table(fw_xml_reader *r, const fw_xml_record *record,
     u->ntable = n;
     if (n < 2) what = "a table has two values at least, the first with 0 and the last with 1";
     for (int i = 0; i < n && !what; i++) {
-        if (!read_entry(part[i], &unit, &u->dimension, i == 0, &u->x[i], &u->p[i]))
+        if (!read_entry(part[i], &unit, &nunit, &u->dimension, i == 0, &u->x[i], &u->p[i]))
             what = fw_arena_printf(
-                r->arena, "'%s' is no value with a share: \"8 um 0.3\", all of one dimension",
+                r->arena,
+                "'%s' is no value with a share: a number with its unit, a blank and a share, as in "
+                "\"8 um 0.3\" or \"1e-8 N m 0.3\", all of one dimension",
                 part[i]);
         else if (i > 0 && !(u->x[i] > u->x[i - 1] && u->p[i] >= u->p[i - 1]))
             what = "values rise, and so do shares";
@@ -198,7 +202,7 @@ static fw_status build_table(fw_xml_reader *r, const fw_xml_record *record,
                    ? FW_NOMEM
                    : FW_OK;
     u->from = u->x[0], u->to = u->x[n - 1];
-    FW_NEED(u->unit = fw_arena_strndup(r->arena, unit, strcspn(unit, " \t\n")));
+    FW_NEED(u->unit = fw_arena_strndup(r->arena, unit, nunit));
     static const fw_quantity_dimension pure = {0};
     if (fw_quantity_dimension_equal(u->dimension, pure)) u->unit = "";
     return FW_OK;

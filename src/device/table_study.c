@@ -70,7 +70,8 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
              "How each device is judged: as drawn, or also as its flows make it; or only the "     \
              "hinges and requirements of the drawing, and nothing of clearances, plates and "      \
              "adhesion; of a sweep also as one die, with a value of its own of all that its "      \
-             "flow and <uncertain> make differ, by what it uses of its limits, without bands."},   \
+             "flow and <uncertain> make differ, by what it uses of its limits, without bands. "    \
+             "A yield is of devices as they are made, and takes no other."},                       \
         {"samples",                                                                                \
          D_PURE,                                                                                   \
          WHOLE,                                                                                    \

@@ -444,7 +444,8 @@ const fw_diagnostic *fw_design_diagnostic(fw_design *design, size_t i) {
                                             .file = d->place.file,
                                             .line = d->place.line,
                                             .column = d->place.column,
-                                            .message = d->message};
+                                            .message = d->message,
+                                            .system_error = d->reason};
     return &design->diagnostic[i];
 }
 

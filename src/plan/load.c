@@ -453,13 +453,25 @@ static const char *flow_names(fw_plan *plan) {
     fw_text_add(&names, "it has");
     for (int i = 0; i < plan->device->nflow; i++)
         fw_text_printf(&names, "%s %s", i ? "," : "", plan->device->flow[i].ref);
-    return names.failed || !plan->device->nflow ? "it has none" : names.data;
+    if (plan->device->nflow == 0)
+        fw_text_add(&names, " none; leave the option out, or add a <flow>");
+    return names.failed ? "it has others" : names.data;
+}
+
+/* what is asked for is not among those of the device, which may have none at all */
+static fw_status no_such_flow(fw_plan *plan) {
+    const char *meant = "";
+    if (plan->device->nflow > 0) FW_TRY(flow_meant(plan, plan->options.flow, &meant));
+    return fw_diag_error(&plan->diags, 228, (fw_place){.file = plan->device->file},
+                         "the device has no flow '%s': %s%s", plan->options.flow, flow_names(plan),
+                         meant);
 }
 
 static fw_status load_flows(fw_plan *plan) {
     const fw_device *d = plan->device;
     int most = d->nflow > 0 ? d->nflow : 1;
     FW_NEED(plan->flow = fw_arena_array(plan->arena, fw_plan_flow, (size_t)most));
+    if (d->nflow == 0 && plan->options.flow) return no_such_flow(plan);
     if (d->nflow == 0 && !d->material_ref) {
         plan->nflow = 1;
         plan->flow[0].variant = mechanism_alone();
@@ -476,12 +488,7 @@ static fw_status load_flows(fw_plan *plan) {
         FW_TRY(load_flow(plan, pf));
         FW_TRY(make_variant(plan, pf));
     }
-    if (plan->nflow > 0) return FW_OK;
-    const char *meant;
-    FW_TRY(flow_meant(plan, plan->options.flow, &meant));
-    return fw_diag_error(&plan->diags, 228, (fw_place){.file = d->file},
-                         "the device has no flow '%s': %s%s", plan->options.flow, flow_names(plan),
-                         meant);
+    return plan->nflow > 0 ? FW_OK : no_such_flow(plan);
 }
 
 fw_status fw_plan_fabricated_of(fw_arena *arena, const fw_plan_flow *pf,

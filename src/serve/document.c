@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "recipe/asrun.h"
 #include "serve/jobs.h"
+#include "study/study.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -38,7 +39,8 @@ static fw_status resolve(fw_arena *arena, fw_serve_file_watch *w, const char *pa
                          fw_diags *diags) {
     char *whole = realpath(path, NULL); /* saving must not replace a link by a file */
     if (!whole) {
-        fw_diag_error(diags, 220, (fw_place){.file = path}, "cannot be read: %s", strerror(errno));
+        fw_diag_error(fw_diags_because(diags, errno), 220, (fw_place){.file = path},
+                      "cannot be read: %s", strerror(errno));
         return FW_IO;
     }
     w->path = fw_arena_strdup(arena, whole);
@@ -55,7 +57,8 @@ static int open_regular(const char *path, fw_diags *diags) {
     int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     struct stat info;
     if (fd < 0)
-        fw_diag_error(diags, 220, (fw_place){.file = path}, "cannot be read: %s", strerror(errno));
+        fw_diag_error(fw_diags_because(diags, errno), 220, (fw_place){.file = path},
+                      "cannot be read: %s", strerror(errno));
     else if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
         fw_diag_error(diags, 220, (fw_place){.file = path},
                       "cannot be read: it is no ordinary file");
@@ -532,6 +535,36 @@ static void names(fw_json *json, const char *key, const char *const *list, size_
     fw_json_end(json);
 }
 
+/* Whose samples these are, as their store says. Nothing is known where a study runs there, or of what is no store. */
+static fw_status owner(fw_serve_request *r, const fw_serve_beside *beside, const char *study,
+                       fw_json *json) {
+    static const char *const key[] = {"study", "kind", "device"};
+    const char *path = fw_arena_printf(r->arena, "%s%s", beside->directory, study);
+    fw_diags quiet = fw_diags_new(r->arena);
+    fw_status status = FW_OK;
+    FW_NEED(path);
+    const int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool rests = fd >= 0 && flock(fd, LOCK_SH | LOCK_NB) == 0;
+    fw_json_object(json, NULL);
+    fw_json_text(json, "directory", study);
+    for (size_t i = 0; i < sizeof key / sizeof key[0] && status != FW_NOMEM; i++) {
+        const char *value = NULL;
+        if (rests) status = fw_study_store_said(r->arena, &quiet, path, key[i], &value);
+        fw_json_text(json, key[i], status == FW_OK ? value : NULL);
+    }
+    fw_json_end(json);
+    if (fd >= 0) close(fd);
+    return status == FW_NOMEM ? FW_NOMEM : FW_OK;
+}
+
+static fw_status owners(fw_serve_request *r, const fw_serve_beside *beside, fw_json *json) {
+    fw_json_list(json, "results");
+    for (size_t i = 0; i < beside->nstudy; i++)
+        FW_TRY(owner(r, beside, beside->study[i], json));
+    fw_json_end(json);
+    return FW_OK;
+}
+
 void fw_serve_beside_get(fw_serve_request *r, const char *file, const char *name) {
     fw_serve_beside beside;
     if (fw_serve_beside_look(r->arena, file, &beside) != FW_OK)
@@ -548,7 +581,11 @@ void fw_serve_beside_get(fw_serve_request *r, const char *file, const char *name
         fw_json_text(&json, "directory", beside.directory);
         names(&json, "logs", beside.log, beside.nlog);
         names(&json, "studies", beside.study, beside.nstudy);
+        const fw_status status = owners(r, &beside, &json);
         fw_json_end(&json);
-        fw_serve_reply_document(r, 200, &json, &text);
+        if (status == FW_OK)
+            fw_serve_reply_document(r, 200, &json, &text);
+        else
+            fw_serve_reply_no_memory(r);
     }
 }

@@ -408,9 +408,16 @@ const fw_serve_job *fw_serve_jobs_after(const fw_serve_jobs *jobs, unsigned id) 
 }
 
 /* what the request says of it beside its command */
-static fw_status take_order(fw_serve_job *job, const json_t *request) {
+static fw_status take_order(fw_serve_job *job, fw_serve_job_order *order) {
+    const json_t *request = order->request, *of = json_object_get(request, "of");
     const char *study =
         json_string_value(json_object_get(json_object_get(request, "options"), "study"));
+    if (of && (!json_is_string(of) || json_string_length(of) > FW_JOB_MOST_OF)) {
+        snprintf(order->why, sizeof order->why, "\"of\" is a text of at most %d bytes",
+                 (int)FW_JOB_MOST_OF);
+        return FW_INPUT;
+    }
+    if (of) FW_NEED(job->of = fw_arena_strdup(job->arena, json_string_value(of)));
     job->keeps = strcmp(job->kind, "study") == 0;
     job->automatic = json_is_true(json_object_get(request, "automatic"));
     job->asked_ms = fw_serve_now_ms();
@@ -434,7 +441,7 @@ fw_status fw_serve_jobs_add(fw_serve_jobs *jobs, fw_serve_job_order *order,
     if (status == FW_INPUT) snprintf(order->why, sizeof order->why, "%s", why);
     if (status == FW_OK) {
         jobs->last_id++;
-        status = take_order(job, order->request);
+        status = take_order(job, order);
         if (status == FW_OK) status = prepare(jobs, job, order, from);
     }
     if (status != FW_OK) fw_serve_job_forget(jobs, job);

@@ -26,6 +26,7 @@ enum {
     FW_JOB_MOST_LINES = 400, /* of messages */
     FW_JOB_MOST_LINE = 2000, /* bytes */
     FW_JOB_MOST_FILES = 4000,
+    FW_JOB_MOST_OF = 200,         /* bytes of what a page says that a job is of */
     FW_JOB_MOST_RESULT = 16 << 20 /* bytes of the printed document */
 };
 
@@ -39,6 +40,7 @@ typedef struct fw_serve_job {
     fw_arena *arena;
     const char *kind, *name;
     const char *study; /* the study's name; NULL: no study, or none was named */
+    const char *of;    /* what the page that began it says that it is of; NULL: nothing */
     bool keeps;        /* a study: what it has done stays when it is cancelled */
     bool automatic;    /* nobody has asked for it: it ends when no page looks at it any more */
     const char *directory, *path; /* below the scratch; from the root */
@@ -71,7 +73,7 @@ bool fw_serve_jobs_busy(const fw_serve_jobs *jobs);
 size_t fw_serve_jobs_poll(const fw_serve_jobs *jobs, struct pollfd *poll, size_t most);
 typedef struct fw_serve_job_order { /* what is asked for */
     const json_t
-        *request; /* {"kind", "set", "options", "files", "resume", "results", "automatic"} */
+        *request; /* {"kind", "set", "options", "files", "resume", "results", "automatic", "of"} */
     const char *file, *text; /* name and (n) bytes of the description */
     size_t n;
     const struct fw_serve_beside

@@ -257,6 +257,7 @@ static void describe(fw_serve_request *r, const fw_serve_job *job) {
     fw_json_object(&json, NULL);
     fw_json_whole(&json, "id", job->id);
     fw_json_text(&json, "kind", job->kind);
+    fw_json_text(&json, "of", job->of);
     fw_json_text(&json, "state", fw_serve_job_state_name(job->state));
     if (job->exit_status >= 0)
         fw_json_whole(&json, "exit_status", job->exit_status);
@@ -311,6 +312,7 @@ static void get_jobs(fw_serve_request *r) {
         fw_json_whole(&json, "id", job->id);
         fw_json_text(&json, "kind", job->kind);
         fw_json_text(&json, "study", job->study);
+        fw_json_text(&json, "of", job->of);
         fw_json_truth(&json, "automatic", job->automatic);
         fw_json_text(&json, "state", fw_serve_job_state_name(job->state));
         fw_json_fixed(&json, "seconds", fw_serve_job_seconds(job), 3);

@@ -276,6 +276,8 @@ static fw_status take_indices(fw_study *study, fw_study_result *result,
         result->index[k] =
             (fw_study_index){out->first[k].value, out->first[k].low, out->first[k].high,
                              out->total[k].value, out->total[k].low, out->total[k].high};
+    FW_NEED(result->index_rows = fw_arena_grow(study->arena, out->rows, n, n, sizeof *out->rows));
+    result->index_rows_all = out->evaluations / (inputs + 2);
     return FW_OK;
 }
 

@@ -13,7 +13,8 @@
 #include <string.h>
 
 enum { SOBOL_USUAL = 256, SWEEP_MOST = 100000000, SOBOL_DIGITS = 9, SETTING_DIGITS = 12 };
-enum { DIES = 2 }; /* of the seed: numbers that nothing else uses */
+enum { SEED_USUAL = 1 }; /* of a study that states none */
+enum { DIES = 2 };       /* of the seed: numbers that nothing else uses */
 
 typedef struct sweep {
     const fw_study *study;
@@ -229,6 +230,9 @@ fw_status fw_study_say_idle(fw_study *study) {
         FW_TRY(idle(study, a->place, "samples=\"...\"",
                     "a grid or a list has as many devices as the values of its inputs make; take "
                     "points=\"sobol\" for so many"));
+    if (a->seed != SEED_USUAL && chosen && a->points != FW_POINTS_SOBOL && a->judge != FW_JUDGE_DIE)
+        FW_TRY(
+            idle(study, a->place, "seed=\"...\"", "nothing of a grid or a list is left to chance"));
     const bool intervals = a->kind == FW_STUDY_IS_sensitivity || a->kind == FW_STUDY_IS_yield ||
                            (a->kind == FW_STUDY_IS_size && a->yield > 0);
     if (a->confident && !intervals)

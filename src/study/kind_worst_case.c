@@ -5,6 +5,7 @@
    them is tried with its inputs at their ends, of three at most in every combination, and the search goes on from the best of
    these. Every shard judges what the searches begin from, and a share of the searches. An end is the most extreme of all
    devices that were judged, whatever search came to it: a value that a device has; that none lies beyond it is not proved.
+   Devices without a value (beyond pull-in, not drawable) are often the worst: fw_study_without_say tells of them.
    Test: tests/cli/test_study.py */
 #include "chance/random.h"
 #include "study/study_parts.h"
@@ -206,14 +207,7 @@ static fw_status take_row(void *context, const fw_study_sample *sample) {
             FW_NEED(end->text =
                         fw_arena_alloc(study->arena, (size_t)study->ninput, sizeof *end->text));
         end->value = value, end->known = true;
-        for (int v = 0; v < study->ninput; v++) {
-            double shown;
-            if (study->input[v].ntext > 0)
-                memcpy(end->text[v], sample->text[v], FW_STUDY_TEXT);
-            else
-                FW_TRY(fw_study_input_write(&study->input[v], sample->value[v], DIGITS,
-                                            end->text[v], &shown));
-        }
+        FW_TRY(fw_study_settings_write(study, sample, DIGITS, end->text));
     }
     return FW_OK;
 }
@@ -296,7 +290,8 @@ fw_status fw_study_kind_worst_case(fw_study *study, fw_study_result *result) {
                                 "%ld corners, the middle and %ld points between, then for each "
                                 "end a local search (COBYLA), its best with inputs at ends of "
                                 "their ranges, and on from there, at most %d devices; each value "
-                                "is the most extreme of all devices that were judged: that none "
+                                "is the most extreme of all devices that were judged and have "
+                                "one: that none "
                                 "lies beyond it where none was, as at a resonance narrower than "
                                 "points are apart, is not proved",
                                 w.corners, w.n - w.corners - 1, most));

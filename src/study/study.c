@@ -8,6 +8,7 @@
 #include "xml/xml.h"
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { FILE_MOST = 8 << 20 };
 
@@ -495,7 +496,10 @@ static fw_status tally(void *context, const fw_study_sample *sample) {
     for (int k = 0; k < study->nresponse; k++) {
         fw_study_extreme *e = &result->extreme[k];
         double value = sample->response[k];
-        if (isnan(value)) continue;
+        if (isnan(value)) {
+            FW_TRY(fw_study_without_take(study, sample, &e->without));
+            continue;
+        }
         if (e->n++ == 0)
             e->first = e->least = e->largest = value, e->least_at = e->largest_at = sample->i;
         if (value < e->least) e->least = value, e->least_at = sample->i;
@@ -512,8 +516,11 @@ fw_status fw_study_run(fw_study *study) {
     FW_NEED(result->extreme =
                 fw_arena_array(study->arena, fw_study_extreme, (size_t)study->nresponse));
     for (int k = 0; k < study->nresponse; k++)
-        result->extreme[k] = (fw_study_extreme){
-            .least = (double)NAN, .largest = (double)NAN, .least_at = -1, .largest_at = -1};
+        result->extreme[k] = (fw_study_extreme){.least = (double)NAN,
+                                                .largest = (double)NAN,
+                                                .least_at = -1,
+                                                .largest_at = -1,
+                                                .without.at = -1};
     if (study->options.shards > 0) FW_TRY(fw_study_check_apart(study));
     if (study->options.output && !study->store) {
         bool made;
@@ -577,9 +584,14 @@ fw_status fw_study_open_merge(const fw_study_options *options, const char *direc
 
 fw_status fw_study_merge(fw_study *study, const char *const *directory, int n) {
     bool made;
+    FW_TRY(fw_study_check_shards(study, directory, n));
     FW_TRY(fw_output_directory(study->arena, study->options.output, &made));
-    FW_TRY(fw_study_store_open(study, &study->store));
-    FW_TRY(fw_study_store_merge(study->store, directory, n));
+    fw_status status = fw_study_store_open(study, &study->store);
+    const bool open = status == FW_OK; /* else it may be somebody else's */
+    if (open) status = fw_study_store_merge(study->store, directory, n);
     study->stored_only = true;
-    return fw_study_run(study);
+    if (status == FW_OK) status = fw_study_run(study);
+    if (open && status != FW_OK) fw_study_store_abandon(study->store);
+    if (made && status != FW_OK) (void)rmdir(study->options.output);
+    return status;
 }

@@ -89,6 +89,22 @@ typedef struct fw_study_sample {
     char why[FW_STUDY_WHY];
 } fw_study_sample;
 
+typedef struct fw_study_without { /* devices that have no value of a response, by what they are */
+    long accepted, rejected, inconclusive, failed, n; /* n: all of them, also those only run */
+    long at;                     /* number of the first; -1: every device has a value */
+    const char *state;           /* of the first, as a store has it, and its settings (nvary) */
+    char (*text)[FW_STUDY_TEXT]; /* as --set takes them */
+} fw_study_without;
+
+typedef struct fw_study_extreme { /* of one response over all samples that were run */
+    double least, largest;
+    long least_at, largest_at; /* numbers of their samples; -1: none */
+    long n;                    /* samples with a value */
+    fw_study_without without;  /* samples without one */
+    double sum, square;        /* of the values less the first one, for mean and deviation */
+    double first;
+} fw_study_extreme;
+
 struct fw_study_store;
 struct fw_study_result;
 
@@ -256,6 +272,8 @@ fw_status fw_study_store_finish(fw_study_store *store);
 /* the rows of the shards' stores into this one: FW-D497 where one is of another study, missing, twice
    or not complete */
 fw_status fw_study_store_merge(fw_study_store *store, const char *const *directory, int n);
+/* closed, and the file goes: half of a merge is of no use */
+void fw_study_store_abandon(fw_study_store *store);
 /* what a store says of itself under a key ("file"), for merging; *value NULL: nothing */
 fw_status fw_study_store_said(fw_arena *arena, fw_diags *diags, const char *directory,
                               const char *key, const char **value);

@@ -149,6 +149,19 @@ fw_status fw_study_input_check(fw_study *study, int k) {
     return FW_OK;
 }
 
+fw_status fw_study_settings_write(const fw_study *study, const fw_study_sample *sample, int digits,
+                                  char (*text)[FW_STUDY_TEXT]) {
+    for (int v = 0; v < study->nvary; v++) {
+        double shown;
+        if (study->input[v].ntext > 0)
+            memcpy(text[v], sample->text[v], FW_STUDY_TEXT);
+        else
+            FW_TRY(
+                fw_study_input_write(&study->input[v], sample->value[v], digits, text[v], &shown));
+    }
+    return FW_OK;
+}
+
 /* ---- samples: are they due, kept, within their limits ---- */
 
 bool fw_study_is_due(const fw_study *study, long i) {
@@ -266,7 +279,7 @@ struct fw_study_failure {
     pthread_mutex_t lock;
     int number; /* of the first error of a file, or of memory, whose design is gone; 0: there was none */
     char file[256], message[512];
-    int line, column;
+    int line, column, reason;
 };
 
 fw_status fw_study_failure_open(fw_study *study) {
@@ -293,6 +306,7 @@ void fw_study_note_error(const fw_study *study, fw_design *design, int status) {
         const fw_diag *d = &from->item[i];
         if (d->severity != FW_ERROR) continue;
         e->number = d->number, e->line = d->place.line, e->column = d->place.column;
+        e->reason = d->reason;
         snprintf(e->file, sizeof e->file, "%s", d->place.file ? d->place.file : "");
         snprintf(e->message, sizeof e->message, "%s", d->message);
     }
@@ -304,8 +318,10 @@ fw_status fw_study_said(fw_study *study, fw_status status) {
     const struct fw_study_failure *e = study->failure;
     if (e->number == 0) return status;
     const fw_place place = {e->file[0] ? e->file : NULL, e->line, e->column};
-    return fw_diag_error(&study->diags, e->number, place, "%s", e->message) == FW_NOMEM ? FW_NOMEM
-                                                                                        : status;
+    return fw_diag_error(fw_diags_because(&study->diags, e->reason), e->number, place, "%s",
+                         e->message) == FW_NOMEM
+               ? FW_NOMEM
+               : status;
 }
 
 fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,

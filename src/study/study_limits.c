@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is in the way of a device that a study of sizes found: limits that it is at or misses, in sentences. Each is said once,
-   and at most eight are. Test: tests/cli/test_sizing.py, Lever */
+/* What limits the answer of a study. Of a device that a study of sizes found: limits that it is at or misses, in sentences;
+   each is said once, and at most eight are. Of a response: devices that have no value of it, of which no least and no largest
+   one tells. Test: tests/cli/test_sizing.py, Lever; tests/cli/test_inputs.py, WithoutAValue */
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include <math.h>
@@ -122,4 +123,83 @@ fw_status fw_study_tell_limits(fw_study *study, fw_study_found *f) {
     FW_TRY(told);
     FW_TRY(tell_responses(study, f));
     return f->decision == FW_ACCEPT ? tell_ranges(study, f) : FW_OK;
+}
+
+/* ---- devices without a value of a response ---- */
+
+enum { FIRST_DIGITS = 13 /* of the settings of the device that is named: it can be asked for */ };
+
+fw_status fw_study_without_take(fw_study *study, const fw_study_sample *sample,
+                                fw_study_without *without) {
+    without->n++;
+    without->failed += !sample->run;
+    without->accepted += sample->run && sample->decision == 0;
+    without->rejected += sample->run && sample->decision == 1;
+    without->inconclusive += sample->run && sample->decision == 4;
+    if (without->at >= 0) return FW_OK;
+    without->at = sample->i;
+    without->state = fw_study_state_text(sample->run, sample->decision);
+    FW_NEED(without->text =
+                fw_arena_alloc(study->arena, (size_t)study->nvary + 1, sizeof *without->text));
+    return fw_study_settings_write(study, sample, FIRST_DIGITS, without->text);
+}
+
+/* "13 rejected, 11 inconclusive" */
+static void say_states(fw_text *out, const fw_study_without *w) {
+    const struct {
+        long n;
+        const char *words;
+    } row[] = {{w->accepted, "accepted"},
+               {w->rejected, "rejected"},
+               {w->inconclusive, "inconclusive"},
+               {w->failed, "could not be judged"},
+               {w->n - w->accepted - w->rejected - w->inconclusive - w->failed, "not judged"}};
+    for (size_t k = 0, said = 0; k < sizeof row / sizeof row[0]; k++)
+        if (row[k].n > 0)
+            fw_text_printf(out, "%s%ld %s", said++ ? ", " : "", row[k].n, row[k].words);
+}
+
+/* what that leaves of the answer */
+static void say_consequence(fw_text *out, const fw_study *study, int r) {
+    const fw_study_result *result = study->result;
+    const long others = result->extreme[r].n;
+    if (others == 0) return;
+    switch (study->asked->kind) {
+    case FW_STUDY_IS_worst_case:
+        fw_text_printf(out,
+                       "; the worst case of the ranges may well be among them, and both ends "
+                       "above are only those of the other %ld",
+                       others);
+        break;
+    case FW_STUDY_IS_sensitivity:
+        if (result->index_rows && result->index_rows[r] < result->index_rows_all)
+            fw_text_printf(out,
+                           "; shares of its variance are of the %zu of %zu groups of devices in "
+                           "which each has one, and not of all of the ranges",
+                           result->index_rows[r], result->index_rows_all);
+        break;
+    case FW_STUDY_IS_size:
+        fw_text_printf(out, "; what was found is the best of the other %ld at most", others);
+        break;
+    case FW_STUDY_IS_sweep:
+    case FW_STUDY_IS_yield: /* has no responses */
+    case FW_STUDY_KINDS:
+        break;
+    }
+}
+
+void fw_study_without_say(fw_text *out, const fw_study *study) {
+    const fw_study_result *result = study->result;
+    for (int r = 0; r < study->nresponse; r++) {
+        const fw_study_without *w = &result->extreme[r].without;
+        if (w->at < 0) continue;
+        fw_text_printf(out, "  %ld of %ld devices have no value of %s: ", w->n,
+                       result->run + result->failed, study->response[r].asked->name);
+        say_states(out, w);
+        fw_text_printf(out, "; number %ld (%s) is the first of them:", w->at, w->state);
+        for (int k = 0; k < study->nvary; k++)
+            fw_text_printf(out, " --set \"%s=%s\"", study->input[k].what, w->text[k]);
+        say_consequence(out, study, r);
+        fw_text_add(out, "\n");
+    }
 }

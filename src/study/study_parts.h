@@ -16,7 +16,6 @@ enum { FW_STUDY_STAGE_JUDGE = 1, FW_STUDY_STAGE_FABRICATE = 2, FW_STUDY_STAGE_SI
 enum { FW_STUDY_STAGE_STATICS = 8, FW_STUDY_STAGE_MODES = 16, FW_STUDY_STAGE_WORKSPACE = 32 };
 
 /* ---- study_response.c: numbers of documents ---- */
-
 typedef struct fw_study_document {
     const char *name;
     int document;    /* FW_DOCUMENT_... */
@@ -37,10 +36,12 @@ bool fw_study_response_find(const fw_study_response *response, const json_t *roo
                             const char **unit, char *why, size_t n);
 
 /* ---- study_evaluate.c: values of inputs as text and back ---- */
-
 /* the text of a value (SI), so many digits in the input's unit, and its value */
 fw_status fw_study_input_write(const fw_study_input *input, double value, int digits,
                                char text[FW_STUDY_TEXT], double *shown);
+/* settings (nvary) of a sample that a store has given, whose texts are there only where values are listed */
+fw_status fw_study_settings_write(const fw_study *study, const fw_study_sample *sample, int digits,
+                                  char (*text)[FW_STUDY_TEXT]);
 /* a number that was told and not judged, in as many digits as that may have */
 double fw_study_rounded(double value);
 /* step k of an input: listed, or between from and to */
@@ -86,6 +87,7 @@ fw_status fw_study_files_hash(fw_arena *arena, const fw_plan *plan, const char *
    1e-6", "" where it does not say */
 struct sqlite3;
 typedef const char *fw_study_says(fw_arena *arena, struct sqlite3 *db, const char *key);
+fw_study_says fw_study_store_says; /* of *db; NULL: nothing, or it is no store (study_store.c) */
 fw_status fw_study_find_hash(fw_study *study);
 fw_status fw_study_difference(fw_study *study, fw_study_says *says, struct sqlite3 *db,
                               const char **words);
@@ -299,11 +301,11 @@ void fw_study_parts_take(const fw_study *study, const fw_verdict *verdict, fw_st
    counted; 1 rejected) and parts. *numbers: hinges and requirements of the plan's verdict are those of the die. */
 fw_status fw_study_die_take(const fw_study *study, fw_plan *plan, fw_study_sample *sample,
                             bool *numbers);
-
+/* before anything is written, are these the shards of this study? FW-D497 (study_slurm.c) */
+fw_status fw_study_check_shards(fw_study *study, const char *const *directory, int n);
 /* has each device values of its own of what is uncertain? */
 bool fw_study_draws(const fw_study *study);
 /* ---- study_scatter.c: what differs from device to device, on which level, and where ---- */
-
 typedef struct fw_study_group { /* an input: the rows that say how it differs add up */
     const char *what, *unit;
     const fw_device_uncertain *asked; /* its first row; NULL: a quantity of the flow */
@@ -348,7 +350,6 @@ void fw_study_scatter_point(const fw_study_scatter *s, const double *u, const do
                             const fw_chance_place *place, double *x, double *point);
 
 /* ---- study_scatter.c: simulated wafers ---- */
-
 typedef struct fw_study_levels {
     fw_chance_nested used; /* of the logarithm of the largest share of a limit that is used */
     fw_chance_nested held; /* of 1 where a die holds every limit, else 0 */
@@ -367,7 +368,6 @@ fw_status fw_study_levels_run(fw_study *study, const fw_study_scatter *scatter, 
                               fw_study_levels *out);
 
 /* ---- study_made.c: devices that a flow may make, as a limit state ---- */
-
 enum { FW_STUDY_FLOW_PART = 100000000, FW_STUDY_DIES_USUAL = 4000, FW_STUDY_DIES_RARE = 3000 };
 
 typedef struct fw_study_cached {
@@ -499,13 +499,10 @@ fw_status fw_study_html(const fw_study *study, const fw_study_picture *picture, 
 /* ---- what the samples of a study say together, by kind ----
    Numbers are in SI; NaN: none. */
 
-typedef struct fw_study_extreme { /* of one response over all samples that were run */
-    double least, largest;
-    long least_at, largest_at; /* numbers of their samples; -1: none */
-    long n;                    /* samples with a value */
-    double sum, square;        /* of the values less the first one, for mean and deviation */
-    double first;
-} fw_study_extreme;
+/* study_limits.c: a sample without a value is counted; what is said of them on a terminal */
+fw_status fw_study_without_take(fw_study *study, const fw_study_sample *sample,
+                                fw_study_without *without);
+void fw_study_without_say(fw_text *out, const fw_study *study);
 
 /* of a response by an input, at the description as it stands; SI over SI */
 typedef struct fw_study_derivative {
@@ -585,7 +582,10 @@ typedef struct fw_study_result {
     long example_at;
     fw_study_derivative *derivative; /* (nresponse x ninput) sensitivity */
     fw_study_index *index;           /* (nresponse x ninput) sensitivity; NULL: not asked for */
-    fw_study_end *end;               /* (nresponse x 2) worst case: least, largest */
+    /* (nresponse) groups of devices that indices are of, each of which has a value, of so many; NULL as index */
+    const size_t *index_rows;
+    size_t index_rows_all;
+    fw_study_end *end; /* (nresponse x 2) worst case: least, largest */
     /* (nfound) size: the best; of two goals the Pareto front, by the first */
     fw_study_found *found;
     int nfound;

@@ -9,11 +9,54 @@
 #include "study/study_parts.h"
 #include <errno.h>
 #include <spawn.h>
+#include <sqlite3.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+/* ---- shards that are to be put together ---- */
+
+static fw_status shard_of(fw_study *study, const char *directory, sqlite3 *db, int n, bool *seen) {
+    const char *hash = fw_study_store_says(study->arena, db, "hash"),
+               *shard = fw_study_store_says(study->arena, db, "shard"),
+               *shards = fw_study_store_says(study->arena, db, "shards"), *words;
+    fw_place place = {.file = directory};
+    int i = shard ? atoi(shard) : 0, of = shards ? atoi(shards) : 0;
+    if (!hash || strcmp(hash, study->hash) != 0) {
+        FW_TRY(fw_study_difference(study, fw_study_store_says, db, &words));
+        return fw_diag_error(&study->diags, 497, place,
+                             "its store is of another study, inputs, options or version of the "
+                             "program than %s is now%s; merge takes the options of the shards",
+                             study->options.file, words);
+    }
+    if (of != n || i < 1 || i > n)
+        return fw_diag_error(&study->diags, 497, place,
+                             "its store is shard %d of %d, and %d directories were named; name "
+                             "those of all shards, each once",
+                             i, of, n);
+    if (seen[i - 1])
+        return fw_diag_error(&study->diags, 497, place, "shard %d of %d is named twice", i, n);
+    seen[i - 1] = true;
+    return FW_OK;
+}
+
+fw_status fw_study_check_shards(fw_study *study, const char *const *directory, int n) {
+    bool *seen = fw_arena_array(study->arena, bool, (size_t)n);
+    FW_NEED(seen);
+    for (int i = 0; i < n; i++) {
+        const char *path = fw_arena_printf(study->arena, "%s/study.sqlite", directory[i]), *value;
+        sqlite3 *db = NULL;
+        FW_NEED(path);
+        FW_TRY(fw_study_store_said(study->arena, &study->diags, directory[i], "hash", &value));
+        const bool open = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK;
+        const fw_status status = open ? shard_of(study, directory[i], db, n, seen) : FW_IO;
+        sqlite3_close(db);
+        FW_TRY(status);
+    }
+    return FW_OK;
+}
 
 /* ---- words of a shell ---- */
 
@@ -167,7 +210,7 @@ static fw_status submit(fw_study *study, const char *name, const char *array, co
     pid_t child;
     int from, state = 0;
     if (!start(words, &from, &child))
-        return fw_diag_error(&study->diags, 555, place,
+        return fw_diag_error(fw_diags_because(&study->diags, errno), 555, place,
                              "sbatch could not be started: %s; on a machine without Slurm "
                              "--no-submit writes the scripts only%s",
                              strerror(errno), rest);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/study.h"
 #include "base/output.h"
-#include "base/text.h"
 #include "study/study_parts.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -47,10 +46,11 @@ static int reason_of(const fw_study_store *store) {
 static fw_status failed(const fw_study_store *store, const char *doing) {
     if (!store->db || sqlite3_errcode(store->db) == SQLITE_NOMEM) return FW_NOMEM;
     const int number = reason_of(store);
-    const char *kept = "; what was kept before is whole, and --resume goes on from it";
-    if (access(store->path, F_OK) != 0) kept = "";
+    const bool there = access(store->path, F_OK) == 0;
+    const char *kept = there ? "; what was kept before is whole, and --resume goes on from it" : "";
+    fw_diags *diags = fw_diags_because(&store->study->diags, number);
     const fw_status status = fw_diag_error(
-        &store->study->diags, 496, (fw_place){.file = store->path}, "%s: %s%s%s%s", doing,
+        diags, 496, (fw_place){.file = store->path}, "%s: %s%s%s%s", doing,
         sqlite3_errmsg(store->db), number ? ": " : "", number ? strerror(number) : "", kept);
     return status == FW_NOMEM ? FW_NOMEM : FW_IO;
 }
@@ -58,8 +58,8 @@ static fw_status failed(const fw_study_store *store, const char *doing) {
 /* of a call of the system, whose errno is as it left it */
 static fw_status not_done(const fw_study_store *store, const char *doing) {
     const fw_status status =
-        fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path}, "%s: %s", doing,
-                      strerror(errno));
+        fw_diag_error(fw_diags_because(&store->study->diags, errno), 496,
+                      (fw_place){.file = store->path}, "%s: %s", doing, strerror(errno));
     return status == FW_NOMEM ? status : FW_IO;
 }
 
@@ -146,7 +146,7 @@ static sqlite3_stmt *first_row(sqlite3 *db, const char *sql, const char *key) {
 }
 
 /* what the store says under a key, of *db; NULL: nothing, or it is no store */
-static const char *said(fw_arena *arena, sqlite3 *db, const char *key) {
+const char *fw_study_store_says(fw_arena *arena, sqlite3 *db, const char *key) {
     sqlite3_stmt *s = first_row(db, "SELECT value FROM study WHERE key = ?", key);
     const char *value = s ? fw_arena_strdup(arena, (const char *)sqlite3_column_text(s, 0)) : NULL;
     sqlite3_finalize(s);
@@ -175,7 +175,7 @@ fw_status fw_study_store_said(fw_arena *arena, fw_diags *diags, const char *dire
     FW_NEED(path);
     *value = NULL;
     bool there = open_database(path, SQLITE_OPEN_READONLY, &db) && is_ours(db);
-    if (there) *value = said(arena, db, key);
+    if (there) *value = fw_study_store_says(arena, db, key);
     const fw_status status =
         there ? FW_OK
               : fw_diag_error(diags, 497, (fw_place){.file = path}, "it is no store of a study: %s",
@@ -208,10 +208,10 @@ static fw_status prepare_all(fw_study_store *store) {
 
 /* a store that is there: of this study, or the message says of which */
 static fw_status check_same(const fw_study_store *store) {
-    const char *hash = said(store->study->arena, store->db, "hash"), *words;
-    const char *name = said(store->study->arena, store->db, "study");
+    const char *hash = fw_study_store_says(store->study->arena, store->db, "hash"), *words;
+    const char *name = fw_study_store_says(store->study->arena, store->db, "study");
     if (hash && strcmp(hash, store->study->hash) == 0) return FW_OK;
-    FW_TRY(fw_study_difference(store->study, said, store->db, &words));
+    FW_TRY(fw_study_difference(store->study, fw_study_store_says, store->db, &words));
     return fw_diag_error(&store->study->diags, 495, (fw_place){.file = store->path},
                          "it holds the samples of study '%s' of other inputs, options or another "
                          "version of the program, not those of '%s' as it is now%s; name another "
@@ -309,7 +309,7 @@ static fw_status open_file(fw_study_store *store, bool resume) {
     if (access(store->path, F_OK) == 0) {
         bool open = open_database(store->path, SQLITE_OPEN_READWRITE, &store->db);
         bool ours = open && is_ours(store->db), empty = open && !ours && is_empty(store);
-        resume = resume && ours && said(store->study->arena, store->db, "hash");
+        resume = resume && ours && fw_study_store_says(store->study->arena, store->db, "hash");
         const int code = sqlite3_errcode(store->db);
         if (!ours && !empty &&
             (code == SQLITE_CANTOPEN || code == SQLITE_IOERR || code == SQLITE_NOMEM))
@@ -364,6 +364,13 @@ void fw_study_store_close(fw_study_store *store) {
     let_go(store);
     if (store->directory >= 0) close(store->directory);
     store->directory = -1;
+}
+
+void fw_study_store_abandon(fw_study_store *store) {
+    bool gone;
+    let_go(store);
+    unlink(store->path);
+    (void)remove_logs(store, &gone);
 }
 
 /* ---- rows ---- */
@@ -515,29 +522,6 @@ fw_status fw_study_store_finish(fw_study_store *store) {
 
 /* ---- shards ---- */
 
-static fw_status shard_of(fw_study *study, const char *directory, sqlite3 *db, int n, bool *seen) {
-    const char *hash = said(study->arena, db, "hash"), *shard = said(study->arena, db, "shard"),
-               *shards = said(study->arena, db, "shards"), *words;
-    fw_place place = {.file = directory};
-    int i = shard ? atoi(shard) : 0, of = shards ? atoi(shards) : 0;
-    if (!hash || strcmp(hash, study->hash) != 0) {
-        FW_TRY(fw_study_difference(study, said, db, &words));
-        return fw_diag_error(&study->diags, 497, place,
-                             "its store is of another study, inputs, options or version of the "
-                             "program than %s is now%s; merge takes the options of the shards",
-                             study->options.file, words);
-    }
-    if (of != n || i < 1 || i > n)
-        return fw_diag_error(&study->diags, 497, place,
-                             "its store is shard %d of %d, and %d directories were named; name "
-                             "those of all shards, each once",
-                             i, of, n);
-    if (seen[i - 1])
-        return fw_diag_error(&study->diags, 497, place, "shard %d of %d is named twice", i, n);
-    seen[i - 1] = true;
-    return FW_OK;
-}
-
 /* samples that this store has as well are the same there; `shard` is attached */
 static fw_status agree(fw_study_store *store, const char *directory) {
     sqlite3_stmt *s = NULL;
@@ -558,19 +542,11 @@ static fw_status agree(fw_study_store *store, const char *directory) {
                          i);
 }
 
-static fw_status merge_one(fw_study_store *store, const char *directory, int n, bool *seen) {
-    fw_study *study = store->study;
+static fw_status merge_one(fw_study_store *store, const char *directory) {
+    const fw_study *study = store->study;
     const char *path = fw_arena_printf(study->arena, "%s/study.sqlite", directory);
-    const char *value;
-    sqlite3 *db = NULL;
     sqlite3_stmt *attach = NULL;
     FW_NEED(path);
-    FW_TRY(fw_study_store_said(study->arena, &study->diags, directory, "hash", &value));
-    fw_status status = sqlite3_open_v2(path, &db, SQLITE_OPEN_READONLY, NULL) == SQLITE_OK
-                           ? shard_of(study, directory, db, n, seen)
-                           : FW_IO;
-    sqlite3_close(db);
-    FW_TRY(status);
     FW_TRY(commit(store));
     if (sqlite3_prepare_v2(store->db, "ATTACH ? AS shard", -1, &attach, NULL) != SQLITE_OK)
         return failed(store, "a shard could not be read");
@@ -581,7 +557,7 @@ static fw_status merge_one(fw_study_store *store, const char *directory, int n, 
     /* what chooses later samples every shard has judged, to the same bits */
     bool apart = (study->asked->kind == FW_STUDY_IS_sweep && !(study->asked->fitted > 0)) ||
                  study->asked->kind == FW_STUDY_IS_sensitivity;
-    if (!apart) status = agree(store, directory);
+    fw_status status = apart ? FW_OK : agree(store, directory);
     if (status == FW_OK)
         status = run(store,
                      apart ? "INSERT INTO main.sample SELECT * FROM shard.sample"
@@ -592,9 +568,7 @@ static fw_status merge_one(fw_study_store *store, const char *directory, int n, 
 }
 
 fw_status fw_study_store_merge(fw_study_store *store, const char *const *directory, int n) {
-    bool *seen = fw_arena_array(store->study->arena, bool, (size_t)n);
-    FW_NEED(seen);
     for (int i = 0; i < n; i++)
-        FW_TRY(merge_one(store, directory[i], n, seen));
+        FW_TRY(merge_one(store, directory[i]));
     return FW_OK;
 }

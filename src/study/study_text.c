@@ -254,13 +254,17 @@ static void say_ends(fw_text *out, const fw_study *study) {
     for (int r = 0; r < study->nresponse; r++)
         for (int e = 0; e < 2; e++) {
             const fw_study_end *end = &study->result->end[2 * r + e];
+            const fw_study_extreme *all = &study->result->extreme[r];
             fw_text_printf(out, "  %-24s %s ", study->response[r].asked->name,
                            e == 0 ? "least" : "largest");
             if (!end->known) {
                 fw_text_add(out, "not known: no value in any device\n");
                 continue;
             }
-            fw_text_add(out, "found ");
+            if (all->without.at < 0)
+                fw_text_add(out, "found ");
+            else
+                fw_text_printf(out, "of the %ld that have one ", all->n);
             fw_study_response_text(out, &study->response[r], end->value);
             fw_text_add(out, " at");
             settings(out, study, end->text);
@@ -314,9 +318,13 @@ static void say_derivative(fw_text *out, const fw_study *study, int k, const fw_
         input_value(out, in, d->over);
         return;
     }
+    if (isnan(d->value)) {
+        fw_text_add(out,
+                    "its derivative is not known: a device that it is taken from has no value");
+        return;
+    }
     fw_text_add(out, "half its range changes it by ");
     fw_study_change_text(out, q, d->spread);
-    if (isnan(d->value)) return;
     fw_text_add(out, " (to within ");
     fw_text_number(out, fw_study_response_drawn(q, d->error * half), 2);
     fw_text_add(out, ")");
@@ -579,6 +587,7 @@ fw_status fw_study_text(const fw_study *study, fw_text *out) {
     case FW_STUDY_KINDS:
         break;
     }
+    fw_study_without_say(out, study);
     if (study->result->how) fw_text_printf(out, "%s\n", study->result->how);
     return fw_text_end(out);
 }

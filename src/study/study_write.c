@@ -76,8 +76,8 @@ static fw_status save_table(fw_study *study, const char *path) {
     if (status == FW_OK) return FW_OK;
     unlink(aside);
     if (status != FW_IO || study->diags.errors > 0) return status;
-    return fw_diag_error(&study->diags, 222, (fw_place){.file = path}, "could not be written: %s",
-                         strerror(why)) == FW_NOMEM
+    return fw_diag_error(fw_diags_because(&study->diags, why), 222, (fw_place){.file = path},
+                         "could not be written: %s", strerror(why)) == FW_NOMEM
                ? FW_NOMEM
                : FW_IO;
 }
@@ -188,6 +188,24 @@ static void ends(fw_json *j, const fw_study *study, int r) {
     }
 }
 
+/* devices of which the numbers above tell nothing, and the first of them */
+static void without(fw_json *j, const fw_study *study, const fw_study_without *w) {
+    if (w->at < 0) {
+        fw_json_null(j, "without");
+        return;
+    }
+    fw_json_object(j, "without");
+    fw_json_whole(j, "devices", w->n);
+    fw_json_whole(j, "accepted", w->accepted);
+    fw_json_whole(j, "rejected", w->rejected);
+    fw_json_whole(j, "inconclusive", w->inconclusive);
+    fw_json_whole(j, "failed", w->failed);
+    fw_json_whole(j, "first_at", w->at);
+    fw_json_text(j, "first_state", w->state);
+    settings(j, study, w->text);
+    fw_json_end(j);
+}
+
 static void responses_json(fw_json *j, const fw_study *study) {
     fw_json_list(j, "responses");
     for (int r = 0; r < study->nresponse; r++) {
@@ -202,6 +220,11 @@ static void responses_json(fw_json *j, const fw_study *study) {
         fw_json_real(j, "now", q->now);
         if (study->result->fitted) fw_json_real(j, "told_within", study->result->fitted->off[r]);
         extreme(j, &study->result->extreme[r]);
+        without(j, study, &study->result->extreme[r].without);
+        if (study->result->index_rows) {
+            fw_json_whole(j, "index_groups", (long)study->result->index_rows[r]);
+            fw_json_whole(j, "index_groups_of", (long)study->result->index_rows_all);
+        }
         derivatives(j, study, r);
         ends(j, study, r);
         fw_json_end(j);
@@ -460,7 +483,7 @@ static void response_table(const fw_study *study, fw_text *out) {
     fw_text_add(out, "<h2>Responses</h2>\n<div "
                      "class=\"wide\"><table><tr><th>name</th><th>value</th><th>now</th><th>least</"
                      "th><th>largest</th>"
-                     "<th>at least</th><th>at most</th></tr>\n");
+                     "<th>at least</th><th>at most</th><th>devices without a value</th></tr>\n");
     for (int r = 0; r < study->nresponse; r++) {
         const fw_study_response *q = &study->response[r];
         const fw_study_extreme *e = &study->result->extreme[r];
@@ -471,7 +494,7 @@ static void response_table(const fw_study *study, fw_text *out) {
         number(out, q, e->largest);
         number(out, q, q->min);
         number(out, q, q->max);
-        fw_text_add(out, "</tr>\n");
+        fw_text_printf(out, "<td>%ld</td></tr>\n", e->without.n);
     }
     fw_text_add(out, "</table></div>\n");
 }

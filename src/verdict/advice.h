@@ -57,9 +57,10 @@ typedef struct fw_verdict_trial {
     fw_verdict_suspects *suspect; /* (nvariant) */
     double *share;                /* (device->nscene) of each scene's loads that is left */
     fw_verdict_decision decision;
-    int round;  /* of a change that is repeated; its caller's */
-    bool ended; /* a change of one kind was, before it was done */
-    bool drawn;
+    int round;      /* of a change that is repeated; its caller's */
+    bool ended;     /* a change of one kind was, before it was done */
+    bool drawn;     /* or nothing is drawn of the device as described either: */
+    bool shapeless; /* its bodies have no shapes, and a change is accepted without */
     int fabricated; /* flows whose making of it the last run looked at, too */
     bool all_made;  /* all that have ranges */
     /* (ncheck) of the last run, in an order that no change of a value alters: trial.c */

@@ -560,10 +560,9 @@ static fw_status conclude(advice *a, const char *why) {
     }
     FW_NEED(v->advice_note = fw_arena_printf(
                 arena,
-                "no change was found with which the design is accepted and can be drawn; tried "
-                "were %s: %s%s%s",
-                a->tried.data, left, *left ? "; " : "",
-                why ? why : "reconsider hinge points, thickness or material"));
+                "no change was found with which the design is accepted%s; tried were %s: %s%s%s",
+                a->trial->shapeless ? "" : " and can be drawn", a->tried.data, left,
+                *left ? "; " : "", why ? why : "reconsider hinge points, thickness or material"));
     return FW_OK;
 }
 

@@ -441,11 +441,12 @@ static fw_status report(const parameter_search *h, const sample *best,
     }
     if (!best->accepted) {
         out->found = FW_PARAMETER_NONE;
-        FW_NEED(out->text = fw_arena_printf(
-                    arena,
-                    "%s: no value from %s to %s was found with which the design is accepted and "
-                    "can be drawn; now %s%s",
-                    out->name, low, high, now, nearest));
+        FW_NEED(out->text =
+                    fw_arena_printf(arena,
+                                    "%s: no value from %s to %s was found with which the design is "
+                                    "accepted%s; now %s%s",
+                                    out->name, low, high,
+                                    h->trial->shapeless ? "" : " and can be drawn", now, nearest));
         return FW_OK;
     }
     out->found = FW_PARAMETER_ACCEPTS;

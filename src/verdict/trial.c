@@ -296,6 +296,11 @@ static void remember(fw_verdict_trial *trial, const fw_verdict *verdict, const f
     }
 }
 
+/* is it drawn, where the device as described is? Of bodies without shapes nothing is drawn whatever is changed */
+static bool may_stand(const fw_verdict_trial *trial, const fw_layout *layout) {
+    return layout && (layout->drawn || (trial->shapeless && layout->nfault == 0));
+}
+
 fw_status fw_verdict_trial_reset(fw_verdict_trial *trial) {
     for (int i = 0; i < trial->device->nscene; i++)
         trial->share[i] = 1;
@@ -315,6 +320,8 @@ fw_status fw_verdict_trial_start(fw_arena *arena, const fw_device *device,
     FW_NEED(trial->share = fw_arena_array(arena, double, (size_t)device->nscene));
     FW_TRY(checks_new(arena, trial));
     FW_TRY(fw_verdict_trial_reset(trial));
+    const fw_layout *described = verdict->layout;
+    trial->shapeless = described && !described->drawn && described->nfault == 0;
     remember(trial, verdict, verdict->layout);
     keep_suspects(trial, verdict->variant);
     trial->excess_as_described = fw_verdict_trial_excess(trial);
@@ -399,7 +406,7 @@ static fw_status restate(fw_verdict_trial *trial, fw_arena *scratch, const fw_de
     FW_TRY(fw_verdict_run(scratch, device, options, &diags, &again, &layout));
     remember(trial, &again, layout);
     keep_suspects(trial, again.variant);
-    trial->drawn = layout && layout->drawn;
+    trial->drawn = may_stand(trial, layout);
     return FW_OK;
 }
 
@@ -494,7 +501,7 @@ fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look) {
         status = take_suspects(trial, scratch, i, &again.variant[i]);
     if (status == FW_OK)
         status = fw_verdict_run(scratch, trial->changed, &o, &diags, &again, &layout);
-    trial->drawn = status == FW_OK && layout && layout->drawn;
+    trial->drawn = status == FW_OK && may_stand(trial, layout);
     if (status == FW_OK) {
         remember(trial, &again, layout);
         keep_suspects(trial, again.variant);

@@ -361,10 +361,11 @@ static fw_status keep_computed(fw_arena *arena, const fw_verdict *verdict,
     return FW_OK;
 }
 
-/* no motion makes it accepted: it, or a part of it, cannot be drawn */
+/* no motion makes it accepted: it, or a part of it, cannot be drawn. Bodies without shapes are never drawn, and that decides
+   nothing */
 static bool decided_by_drawing(const fw_device *device, const fw_layout *layout,
                                const fw_verdict *verdict) {
-    if (!layout || !layout->drawn || layout->nfault > 0) return true;
+    if (!layout || layout->nfault > 0) return true;
     for (int i = 0; i < layout->nmissing; i++)
         for (int k = 0; k < verdict->nvariant; k++) {
             const char *flow = verdict->variant[k].variant->flow;

@@ -63,6 +63,29 @@ class Parameters(unittest.TestCase):
         self.assertEqual([p["found"] for p in said], sorted(p["found"] for p in said))
         return {p["set"]: p for p in said}
 
+    def test_a_device_of_which_nothing_is_drawn_is_advised_all_the_same(self):
+        """it cannot be drawn whatever is changed, and that its changes could not be either was the reason why none was proposed"""
+        with tempfile.TemporaryDirectory() as here:
+            device = pathlib.Path(here, "device.xml")
+            device.write_text("""<device xmlns="urn:flexwright:device:1" name="rot">
+  <parameter name="push" value="2e-8 N m" min="1e-9 N m" max="1e-7 N m"/>
+  <material ref="silicon-100" thickness="50 um"/>
+  <limits safety-factor="1"/>
+  <flexure id="leaf" kind="leaf" length="600 um" width="8 um"/>
+  <mechanism>
+    <body id="arm" mass="0.02 mg" inertia="0.01 mg mm^2" x="0 mm" y="0 mm"/>
+    <revolute id="A" a="ground" b="arm" hinge="leaf" axis="0 deg" damping="2e-12 N m s/rad"/>
+  </mechanism>
+  <scene name="shake" duration="6 ms"><torque on="arm" value="push" law="sine" frequency="1000 Hz"/></scene>
+  <probe id="turn" kind="angle" on="arm"/>
+  <require probe="turn" measure="peak" max="0.02 rad" scene="shake"/>
+</device>
+""")
+            said = self.follow(device)
+            self.assertEqual({what: p["found"] for what, p in said.items()}, {"push": "accepts"})
+            none = run("check", device, "--set", "push=1e-7 N m", "--set", "limits/@safety-factor=1000")
+            self.assertNotIn("can be drawn", none.stdout)
+
     def test_what_cannot_be_made_is_another_matter(self):
         """of a device that its flow cannot make, for a layer that no parameter changes: each proposal says so, and is accepted by its
         motion when it is followed"""

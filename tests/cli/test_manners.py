@@ -133,6 +133,14 @@ class Manners(unittest.TestCase):
         done = run("check", SIX_BAR, "--flow", "al-maskd-rie")
         self.assertEqual(done.returncode, 3)
         self.assertIn("did you mean 'al-masked-rie'?", done.stderr)
+        # a device without any, a flow that there is and one that there is not
+        bare = re.sub(r'\s*<flow [^>]*/>|\s+flow="[^"]*"', "", pathlib.Path(SIX_BAR).read_text())
+        self.assertNotIn("<flow", bare)
+        for command, name in (("check", "nope"), ("check", "al-masked-rie"), ("modes", "nope"), ("simulate", "nope")):
+            done = run(command, "-", "--flow", name, input=bare)
+            self.assertEqual(done.returncode, 3, command)
+            self.assertIn(f"the device has no flow '{name}': it has none", done.stderr)
+            self.assertIn("FW-D228", done.stderr)
         text = pathlib.Path(SIX_BAR).read_text().replace('ref="al-masked-rie"', 'ref="al-mask-rie"')
         self.assertIn("did you mean 'al-masked-rie'?", run("check", "-", input=text).stderr)
         text = pathlib.Path(SIX_BAR).read_text().replace('ref="al-masked-rie"', 'ref="xyz"')

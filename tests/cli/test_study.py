@@ -24,6 +24,13 @@ from common import ALL, GALLERY, PROGRAM, TURNED_LEAF, only_all, run
 FLOW = ("--flow", "al-masked-rie")
 
 
+def flow_of(path):
+    """the six-bar is made by several flows; a device without any takes no --flow (FW-D228)"""
+    text = path.read_text()
+    device = re.search(r'<study [^>]*device="([^"]+)"', text)
+    return FLOW if "<flow" in ((path.parent / device[1]).read_text() if device else text) else ()
+
+
 def study(name, kind, rows, device=GALLERY, **attributes):
     more = "".join(f' {k.replace("_", "-")}="{v}"' for k, v in attributes.items())
     return (f'<study xmlns="urn:flexwright:study:1" name="{name}" kind="{kind}" device="{device}"{more}>\n'
@@ -105,7 +112,7 @@ class Study(unittest.TestCase):
         return path
 
     def run_study(self, path, out, *more, status=0):
-        done = run("study", path, "-o", self.place / out, *FLOW, *more)
+        done = run("study", path, "-o", self.place / out, *flow_of(path), *more)
         self.assertEqual(done.returncode, status, done.stderr)
         return json.loads((self.place / out / "study.json").read_text()) if status == 0 else done
 
@@ -221,6 +228,7 @@ class Study(unittest.TestCase):
         done = run(*merge)
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("lab.xml was read then and is not now (the same --lab", done.stderr)
+        self.assertFalse((self.place / "merged").exists())  # nothing is left of what failed
         lab.write_text(lab.read_text().replace("0.01", "0.02"))
         done = run(*merge, "--lab", lab)
         self.assertIn("lab.xml was another file; merge takes", done.stderr)
@@ -311,6 +319,37 @@ class Study(unittest.TestCase):
         failed = [r for r in self.rows("out") if r["state"] == "failed"]
         self.assertEqual([r["flexure[C]/@width"] for r in failed], ["300 um"] * 2)
         self.assertTrue(all(r["why"] and not r["U"] for r in failed))
+
+    def test_devices_without_a_value_are_told_beside_the_ends_of_the_others(self):
+        """a leaf that is too stout for its formulas is not judged: with it at the end of a range, that the others have a largest value is
+        not the worst case"""
+        path = self.write(ONE_LEAF, "one.xml")
+        rows = ('<vary what="width" from="8 um" to="120 um"/><respond name="U" value="governing.utilisation" {}/>')
+        for kind, goal, more in (("worst-case", "", {"samples": 3}), ("size", 'goal="minimise"', {"samples": 20}),
+                                 ("sensitivity", "", {"samples": 128})):
+            file = self.write(study("s", kind, rows.format(goal), path, **{"as": "drawn" if goal else "hinges"}, **more))
+            done = run("study", file, "-o", self.place / kind)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            result = json.loads((self.place / kind / "study.json").read_text())
+            samples, response = result["samples"], result["responses"][0]
+            devices, without = samples["run"] + samples["failed"], response["without"]
+            self.assertGreater(without["failed"], 0)
+            self.assertEqual(without["devices"], devices - response["values"])
+            self.assertEqual(without["devices"], sum(without[k] for k in ("accepted", "rejected", "inconclusive", "failed")))
+            first = next(r for r in self.rows(kind) if r["U"] == "")
+            self.assertEqual((without["first_at"], without["first_state"]), (int(first["i"]), first["state"]))
+            self.assertAlmostEqual(float(without["set"][0]["value"].split()[0]), 1e6 * float(first["width"]), delta=1e-6)
+            told = (f"{without['devices']} of {devices} devices have no value of U: {without['failed']} could not be judged; number "
+                    f"{first['i']} (failed) is the first of them: --set \"width={without['set'][0]['value']}\"")
+            self.assertIn(told, done.stdout)
+            self.assertIn(told.replace('"', "&quot;"), (self.place / kind / "study.html").read_text())
+            if kind == "worst-case":
+                self.assertRegex(done.stdout, rf"U +largest of the {response['values']} that have one ")
+                self.assertNotIn("found", done.stdout)
+                self.assertEqual(without["set"], [{"path": "width", "value": "120 um"}])  # its corner
+            if kind == "sensitivity":
+                self.assertLess(response["index_groups"], response["index_groups_of"])
+                self.assertIn(f"of the {response['index_groups']} of {response['index_groups_of']} groups", done.stdout)
 
     def test_hinges_alone_are_said(self):
         """in a directory that is made with those above it"""
@@ -483,6 +522,8 @@ class Study(unittest.TestCase):
                 ({"points": "sobol", "samples": 4}, width.format(' steps="2"'), 'steps="..." has no effect'),
                 ({"samples": 3}, width.format(' steps="5"'), 'samples="..." has no effect'),
                 ({"confidence": 0.9}, width.format(""), 'confidence="..." has no effect'),
+                ({"seed": 7}, width.format(' steps="2"'), 'seed="..." has no effect'),
+                ({"seed": 7, "points": "sobol", "samples": 4}, width.format(""), None),
                 ({}, width.format(' steps="2"') + direct.replace("@width", "@length").replace("7 um", "300 um").replace("9 um", "400 um"), None),
                 ({"points": "sobol", "samples": 4}, width.format(""), None)):
             done = run("study", self.write(study("s", "sweep", rows + ask, path, **{"as": "hinges"}, **more)), "--plan")
@@ -546,10 +587,10 @@ class Study(unittest.TestCase):
             self.run_study(file, f"{kind}-one")
             shards = [self.place / f"{kind}-{i}" for i in (1, 2)]
             for i, out in enumerate(shards, 1):
-                self.assertEqual(run("study", file, "-o", out, *FLOW, "--shard", f"{i}/2").returncode, 0)
-            missing = run("study", "merge", shards[0], shards[0], "-o", self.place / "twice", *FLOW)
+                self.assertEqual(run("study", file, "-o", out, "--shard", f"{i}/2").returncode, 0)
+            missing = run("study", "merge", shards[0], shards[0], "-o", self.place / "twice")
             self.assertEqual(missing.returncode, 3)
-            merged = run("study", "merge", *shards, "-o", self.place / f"{kind}-merged", *FLOW)
+            merged = run("study", "merge", *shards, "-o", self.place / f"{kind}-merged")
             self.assertEqual(merged.returncode, 0, merged.stderr)
             self.assertEqual(self.bytes_of(f"{kind}-merged"), self.bytes_of(f"{kind}-one"))
             counts = [sqlite3.connect(out / "study.sqlite").execute("SELECT count(*) FROM sample").fetchone()[0]
@@ -577,7 +618,7 @@ class Study(unittest.TestCase):
             at = [f"--set={s['path']}={s['value']}" for s in used["worst_largest"]["set"]]
             said = json.loads(run("check", self.place / "ridge.xml", "--json", "--corners", "none", "--advice", "none", *at).stdout)
             self.assertAlmostEqual(said["hinges"][0]["utilisation"], used["worst_largest"]["value"], places=12)
-        done = run("study", file, "-o", self.place / "again", *FLOW)
+        done = run("study", file, "-o", self.place / "again")
         self.assertIn("largest found", done.stdout)
         self.assertIn("that none lies beyond it where none was", " ".join(done.stdout.split()))
 
@@ -696,6 +737,16 @@ class Study(unittest.TestCase):
         least, most = self.run_study(file, "table")["yields"][0]["sampling_interval"]
         self.assertTrue(least - 5e-3 <= 0.4 <= most + 5e-3, (least, most))
 
+    def test_a_table_has_units_of_several_symbols(self):
+        """joined by a blank, '.', '*' or '/', as those of all values"""
+        turned = ONE_LEAF.replace("push\" value=\"20 uN\"", "push\" value=\"1e-8 N m\"").replace(
+            '<force on="bar" fx="push"', '<torque on="bar" value="push"')
+        path = self.write(turned, "turned.xml")
+        for unit in ("N m", "N.m", "N*m", "uN  mm", "kg m^2/s^2"):
+            table = f'<uncertain what="push" spread="table" table="1e-8 {unit} 0;1.7e-8 {unit}  0.4 ; 2e-8 {unit} 1"/>'
+            plan = run("study", self.write(study("y", "yield", table, path, samples=200)), "--plan")
+            self.assertEqual(plan.returncode, 0, plan.stderr)
+
     def test_what_is_only_assumed_makes_a_range(self):
         """its ends are the yields of the two values themselves: the same devices, and never counted together"""
         path = self.write(ONE_LEAF, "leaf.xml")
@@ -806,7 +857,7 @@ class Study(unittest.TestCase):
         self.run_study(self.write(study("y", "yield", rows.format("hinge"), path, samples=few(200))), "h")
         self.run_study(self.write(study("y", "yield", rows.format("lot"), path, samples=few(200)), "lot.xml"), "l")
         # what few dies tell is told with its interval, shares and deviations, on the terminal and as JSON
-        done = run("study", self.place / "lot.xml", "-o", self.place / "again", *FLOW)
+        done = run("study", self.place / "lot.xml", "-o", self.place / "again")
         of = json.loads((self.place / "again/study.json").read_text())["yields"][0]["levels"]
         least, most = (round(100 * v) for v in of["shares"]["wafer"]["interval"])
         self.assertRegex(done.stdout, rf"devices use, \d+ % \(\d+ to \d+ %\) is from lot to lot, \d+ % \({least} to {most} %\) is from wafer to wafer")
@@ -882,7 +933,7 @@ class Study(unittest.TestCase):
         rows = ('<vary what="push" from="50 uN" to="60 uN"/><uncertain what="push" sd="2 uN"/>'
                 '<respond name="turned" value="hinges[A].peak_angle_rad" goal="minimise"/>')
         text = study("s", "size", rows, self.write(ONE_LEAF, "one.xml"), samples=6, **{"as": "drawn", "yield": 0.9})
-        again = run("study", self.write(text), "-o", self.place / "few", *FLOW)
+        again = run("study", self.write(text), "-o", self.place / "few")
         self.assertEqual(again.returncode, 0, again.stderr)
         result = json.loads((self.place / "few/study.json").read_text())
         self.assertNotIn("is the most for one estimate", again.stdout)  # it is not of the dies

@@ -50,10 +50,10 @@ CASES = {
     "simulate_film": "simulate tests/data/effects/closing-film.xml --samples 201 -o OUT",
     "check_gripper": f"check {PADDLE} --corners none --verbose",
     "check_stage": f"check docs/gallery/straight-stage/device.xml {QUICK} --verbose",
-    "study_sweep": "study tests/data/said/sweep.xml --flow al-masked-rie --jobs 1 -o OUT",
-    "study_line": "study tests/data/said/line.xml --flow al-masked-rie --jobs 1 -o OUT",
-    "study_worst": "study tests/data/said/worst.xml --flow al-masked-rie --jobs 1 -o OUT",
-    "study_survive": "study tests/data/said/survive.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_sweep": "study tests/data/said/sweep.xml --jobs 1 -o OUT",
+    "study_line": "study tests/data/said/line.xml --jobs 1 -o OUT",
+    "study_worst": "study tests/data/said/worst.xml --jobs 1 -o OUT",
+    "study_survive": "study tests/data/said/survive.xml --jobs 1 -o OUT",
     "plan_gripper": f"plan {PADDLE} {QUICK} -o OUT",
     "plan_stage": f"plan docs/gallery/straight-stage/device.xml {QUICK} -o OUT",
     "plan_combs": f"plan docs/gallery/comb-stage/device.xml {QUICK} -o OUT",
@@ -68,8 +68,8 @@ CASES = {
     "mask_formats": f"mask tests/data/said/drying.xml {QUICK} --mask-format all -o OUT",
     "mask_no_flow": "mask tests/data/said/leaf.xml -o OUT",
     "hinge_json": "hinge docs/gallery/leaf-four-bar/device.xml --json",
-    "study_size": "study tests/data/said/size.xml --flow al-masked-rie --jobs 1 -o OUT",
-    "study_front": "study tests/data/said/front.xml --flow al-masked-rie --jobs 1 -o OUT",
+    "study_size": "study tests/data/said/size.xml --jobs 1 -o OUT",
+    "study_front": "study tests/data/said/front.xml --jobs 1 -o OUT",
 }
 # kept byte for byte by gallery.sh, of other devices
 GALLERY = re.compile(r"^masks/(?!.*\.outlines|.*-map)|^recipes/(?!.*\.(schedule|release))")

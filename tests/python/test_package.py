@@ -4,6 +4,7 @@
 import base64
 import copy
 import csv
+import errno
 import faulthandler
 import gc
 import io
@@ -555,6 +556,24 @@ class Mistakes(unittest.TestCase):
         error = self.fails(FileNotFoundError, lambda: flexwright.Device("there-is-none.xml"))
         for one in (error, pickle.loads(pickle.dumps(error))):
             self.assertEqual((one.errno, one.filename, one.strerror), (2, "there-is-none.xml", os.strerror(2)))
+        with tempfile.TemporaryDirectory() as here:  # the library looked for these
+            out, there = os.path.join(here, "out"), os.path.join(here, "there")
+            study = os.path.join(here, "study.xml")
+            pathlib.Path(study).write_text('<study xmlns="urn:flexwright:study:1" name="s" kind="sweep" device="gone.xml">'
+                                           '<vary what="a" from="1" to="2"/><respond name="U" value="governing.utilisation"/></study>')
+            cases = ((lambda: flexwright.run_study("none.xml", out), "none.xml"),
+                     (lambda: flexwright.run_study(study, out), os.path.join(here, "gone.xml")),
+                     (lambda: flexwright.Device(SIX_BAR).check(laboratory="none.xml"), "none.xml"))
+            for call, name in cases:
+                other = self.fails(FileNotFoundError, call)
+                for one in (other, pickle.loads(pickle.dumps(other))):
+                    self.assertIs(type(one), flexwright.MissingFileError)
+                    self.assertEqual((one.errno, one.strerror, one.code), (2, os.strerror(2), "FW-D220"))
+                    self.assertEqual(one.filename, name)
+            os.mkdir(there)
+            other = self.fails(flexwright.FileError, lambda: flexwright.run_study(there, out))
+            self.assertEqual((type(other), other.errno), (flexwright.FileError, errno.EISDIR))
+            self.assertEqual(self.fails(flexwright.FileError, lambda: flexwright.Device(there)).errno, errno.EISDIR)
         self.assertRegex(repr(error), r"^MissingFileError\('there-is-none.xml: error: .*\[FW-D220\]'\)$")
         many = self.fails(flexwright.InputError, lambda: flexwright.Device.from_text(
             pathlib.Path(SIX_BAR).read_text().replace("8 um", "8 umm")))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """talk.py PROGRAM [Talk.test_...]: a page's whole talk with the server, a second in all: every row of what it can be asked, what
 comes back, and what is there afterwards. What means harm, load and kills are hostile.py, doors.py and robust.py."""
+import contextlib
 import hashlib
 import http.client
 import io
@@ -9,6 +10,7 @@ import json
 import os
 import pathlib
 import re
+import sqlite3
 import sys
 import tempfile
 import time
@@ -175,6 +177,14 @@ class Talk(unittest.TestCase):
         (study / "study.sqlite").write_bytes(b"")
         found = self.server.json("GET", "/api/beside")
         self.assertEqual(found["studies"], ["out/widths"])
+        # whose they are: of what is no store nothing is known
+        self.assertEqual(found["results"], [{"directory": "out/widths", "study": None, "kind": None, "device": None}])
+        with contextlib.closing(sqlite3.connect(study / "study.sqlite")) as db, db:
+            db.execute(f"PRAGMA application_id = {0x46775374}")
+            db.execute("CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT)")
+            db.executemany("INSERT INTO study VALUES (?, ?)", [("study", "widths"), ("kind", "sweep"), ("device", "jaws")])
+        found = self.server.json("GET", "/api/beside")
+        self.assertEqual(found["results"], [{"directory": "out/widths", "study": "widths", "kind": "sweep", "device": "jaws"}])
         self.assertEqual((found["logs"], pathlib.Path(found["directory"]).resolve()), (["lot7.log"], self.place.resolve()))
         self.assertEqual(self.server.ask("GET", "/api/beside/lot7.log")[2], log.encode())
         for name in ("other.txt", "../jaws.xml", "jaws.xml", "note.log", "none.log"):
@@ -257,7 +267,7 @@ class Talk(unittest.TestCase):
         listed = {j["id"]: j for j in self.server.json("GET", "/api/jobs")["jobs"]}
         self.assertEqual((listed[asked]["kind"], listed[asked]["study"], listed[asked]["automatic"]), ("study", "many", False))
         self.assertEqual((listed[mine]["kind"], listed[mine]["study"], listed[mine]["automatic"]), ("check", None, True))
-        self.assertEqual(set(listed[mine]), {"id", "kind", "study", "automatic", "state", "seconds", "stage"})
+        self.assertEqual(set(listed[mine]), {"id", "kind", "study", "of", "automatic", "state", "seconds", "stage"})
         self.assertEqual(list(listed), sorted(listed))
         # another page ends both
         for number in (asked, mine):
@@ -271,9 +281,11 @@ class Talk(unittest.TestCase):
                      {"kind": "plan", "text": TEXT, "set": {"a=b": "1"}}, {"kind": "plan", "text": TEXT, "options": {"lab": "/etc/passwd"}},
                      {"kind": "plan", "text": TEXT, "files": {"../a.xml": "x"}}, {"kind": "plan", "text": TEXT, "files": {"device.xml": 3}},
                      {"kind": "log", "text": TEXT, "options": {"run": "../x.log"}}, {"kind": "study", "text": TEXT, "resume": 12345},
+                     {"kind": "study", "text": TEXT, "of": 7}, {"kind": "study", "text": TEXT, "of": "x" * 201},
                      {"kind": "study", "text": TEXT, "results": "../x"}, {"kind": "plan", "text": TEXT, "options": {"scene\x00": 1, "flow": "a" * 2001}}):
             self.fails(400, "POST", "/api/jobs", body)
-        failed = self.ends(self.begin({"kind": "check", "text": "<device"}))
+        failed = self.ends(self.begin({"kind": "check", "text": "<device", "of": "what a page knows it by"}))
+        self.assertEqual(failed["of"], "what a page knows it by")
         self.assertEqual((failed["state"], failed["exit_status"], failed["files"]), ("failed", 3, []))
         self.assertTrue(any("jaws.xml:1" in m for m in failed["messages"]), failed["messages"])
 

@@ -6,7 +6,8 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { answered, axeSource, close, finish, open, program, ready, serve, setText, source, text, view, SMALL } from "./helper.mjs";
-import { stretches, told } from "../../web/src/exploring.js";
+import { endOf, stretches, told } from "../../web/src/exploring.js";
+import { kindOf, sizeOf } from "../../web/src/quantities.js";
 
 after(finish);
 
@@ -32,6 +33,19 @@ test("what is told as accepted lies within what was accepted", () => {
     assert.deepEqual(list.map((r) => [r.state, r.from, r.to]), [["reject", "6", "6.981"], ["accept", "6.981", "11.96"], ["reject", "11.96", "20"]]);
     const all = [{ x: 0, state: "accept" }, { x: 1 / 3, state: "accept" }];
     assert.deepEqual(told(stretches(all, true), all).map((r) => [r.from, r.to]), [["0", "0.3333"]]);
+});
+
+test("a unit may have several symbols, joined by a blank, '.', '*' or '/'", () => {
+    const units = { N: 1, uN: 1e-6, m: 1, mm: 1e-3, um: 1e-6, kg: 1, s: 1, rad: 1 };
+    for (const [unit, size] of [["um", 1e-6], ["N m", 1], ["uN mm", 1e-9], ["uN.mm", 1e-9], ["uN*mm", 1e-9], ["kg m^2/s^2", 1], ["mm^2", 1e-6]]) {
+        assert.ok(Math.abs(sizeOf(unit, units) / size - 1) < 1e-12, unit);
+        assert.deepEqual(kindOf(`2.5 ${unit}`, units, () => false), { kind: "number", unit });
+    }
+    for (const none of ["", "foo", "um w", "um*w"]) assert.equal(sizeOf(none, units), undefined, none);
+    assert.equal(kindOf("2 um*w", units, () => false).kind, "formula");
+    assert.ok(Math.abs(endOf("3e-8 N m", "uN mm", units) / 30 - 1) < 1e-12);
+    assert.equal(endOf("30", "uN mm", units), 30);
+    assert.ok(Number.isNaN(endOf("30 foo", "uN mm", units)));
 });
 
 describe("a range", () => {
@@ -296,9 +310,21 @@ describe("studies", () => {
         const same = JSON.parse(execFileSync(program, ["study", saved, "-o", directory, "--json"], { cwd: source, stdio: ["ignore", "pipe", "ignore"] }));
         assert.deepEqual(result.found, same.found); // to the last bit what the command finds in one run
         assert.equal(result.samples.run, same.samples.run);
-        // what a terminal has left beside the file is opened, and nothing is judged again
+        // what a terminal has left beside the file is opened, and nothing is judged again; what is of another study is not offered
+        const other = `${server.directory}/terminal/other.xml`;
+        writeFileSync(other, (await text(page)).replace(/<study name="size"[^]*?<\/study>/, '<study name="other" kind="sweep" as="hinges"><vary what="flexure[C]/@width" from="8 um" to="9 um" steps="2"/><respond name="used" value="governing.utilisation"/></study>'));
+        execFileSync(program, ["study", other, "-o", `${server.directory}/by-another`, "-q"], { cwd: source, stdio: "ignore" });
+        writeFileSync(other, (await text(page)).replace('<study name="size" kind="size"', '<study name="size" kind="size" samples="3"'));
+        spawnSync(program, ["study", other, "-o", `${server.directory}/of-few`, "-q"], { cwd: source });
         await view(page, "motion");
         await view(page, "explore");
+        await page.waitForSelector(`${card} select[aria-label="Open results of size"]`);
+        assert.deepEqual(await page.locator(`${card} select option`).allTextContents(), ["Open results…", "by-itself", "of-few"]);
+        // of its name, and asked for something else: that is told in words that can be followed here, and the study stays as it was
+        await page.selectOption(`${card} select[aria-label="Open results of size"]`, "of-few");
+        await page.waitForSelector('.notice:has-text("The samples in of-few are of study \'size\' with another description, other options")', { timeout: LONG });
+        assert.doesNotMatch((await page.locator(".notice").allTextContents()).join(), /FW-D495| -o|--resume/);
+        assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result.found), same.found);
         await page.selectOption(`${card} select[aria-label="Open results of size"]`, "by-itself");
         await page.waitForFunction(() => { const k = globalThis.flexwright.parts.explore.studies.kept.get("size"); return k && !k.control; }, null, { timeout: LONG });
         const opened = await page.evaluate(() => { const { job, why } = globalThis.flexwright.parts.explore.studies.kept.get("size"); return { found: job?.result?.found, run: job?.result?.samples.run, seconds: job?.seconds, why }; });
@@ -357,6 +383,15 @@ describe("studies", () => {
         assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present");
         assert.equal(await page.locator(`${card} [data-act^="resume"]`).count(), 0);
         assert.deepEqual(await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("size").job.result.found), found);
+        // and so has another page, which has not begun it
+        const second = await page.context().newPage();
+        await second.goto(page.url());
+        await ready(second);
+        await view(second, "explore");
+        await second.waitForSelector(`${card} [data-act="apply"]`);
+        assert.equal(await second.getAttribute(`${card} .study-body`, "data-of"), "present");
+        assert.doesNotMatch(await second.textContent(`${card} .study-said`), /former/);
+        await second.close();
     });
 
     test("of devices that could not be judged one is told with its reason", async () => {
@@ -365,6 +400,8 @@ describe("studies", () => {
         await page.selectOption('select[aria-label="Kind of study"]', "sweep");
         await page.click("#study-add");
         const sweep = '.study[data-name="sweep"]';
+        await page.waitForSelector(sweep);
+        assert.equal(await page.getAttribute(`${card} .study-body`, "data-of"), "present", "another study in the text is none of its input");
         await page.click(`${sweep} [data-act="run"]:not([disabled])`);
         await page.waitForSelector(`${sweep} .study-body p`, { timeout: LONG });
         const { samples } = await page.evaluate(() => globalThis.flexwright.parts.explore.studies.kept.get("sweep").job.result);

@@ -51,16 +51,43 @@ const firsts = new Map(); // such a text without all that -> number of the first
 /** Number of the whole text, which a result depends on as a rule. */
 const wholeText = () => numberOf(state.text);
 
-/** Of a result that goes by the device that is described alone. */
-export function deviceText() {
+/** What is read of the text: without comments, blanks between elements, and all studies but the one of that name. */
+function whatIsRead(study) {
+    if (/<!(?:\[CDATA|DOCTYPE)/.test(state.text)) return state.text;
+    const named = (element) => /\sname\s*=\s*(?:"([^"]*)"|'([^']*)')/.exec(element.slice(0, element.indexOf(">")));
+    const keeps = (element) => study !== undefined && (named(element)?.[1] ?? named(element)?.[2]) === study;
+    return state.text.replace(COMMENT, "").replace(STUDY, (element) => (keeps(element) ? element : "")).replace(/>\s+</g, "><").trim();
+}
+
+function firstOf(read) {
     const own = numberOf(state.text);
-    if (/<!(?:\[CDATA|DOCTYPE)/.test(state.text)) return own;
-    const read = state.text.replace(COMMENT, "").replace(STUDY, "").replace(/>\s+</g, "><").trim();
     const first = firsts.get(read) ?? own;
     firsts.delete(read);
     firsts.set(read, first);
     if (firsts.size > TEXTS_MOST) firsts.delete(firsts.keys().next().value);
     return first;
+}
+
+/** Of a result that goes by the device that is described alone. */
+export const deviceText = () => firstOf(whatIsRead());
+
+/** Of the result of a study: what other studies say does not change it. */
+export const studyText = (name) => () => firstOf(whatIsRead(name));
+
+/** A short text that is another for another input of a study, the same on every page: 106 bits of it (cyrb53, twice). */
+export function stampOf(study, options) {
+    const words = JSON.stringify([whatIsRead(study), ordered(state.set), ordered(options), ordered(state.lab)]);
+    return [0, 1].map((seed) => {
+        let [a, b] = [0xdeadbeef ^ seed, 0x41c6ce57 ^ seed];
+        for (let i = 0; i < words.length; i++) {
+            const c = words.charCodeAt(i);
+            a = Math.imul(a ^ c, 2654435761);
+            b = Math.imul(b ^ c, 1597334677);
+        }
+        a = Math.imul(a ^ (a >>> 16), 2246822507) ^ Math.imul(b ^ (b >>> 13), 3266489909);
+        b = Math.imul(b ^ (b >>> 16), 2246822507) ^ Math.imul(a ^ (a >>> 13), 3266489909);
+        return (4294967296 * (2097151 & b) + (a >>> 0)).toString(16);
+    }).join("-");
 }
 
 /** What a request of now is of, or of which parts of the state a result depends: with other options, of a job; reads():

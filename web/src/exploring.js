@@ -2,7 +2,7 @@
 // What can be explored of a text, and at which points: inputs with their present values and usual ranges, numbers of the
 // verdict that can be looked at, and the order in which points are asked for, coarse ones first.
 import { number, prefixOf, splitQuantity } from "./format.js";
-import { evaluate, kindOf } from "./quantities.js";
+import { evaluate, kindOf, sizeOf } from "./quantities.js";
 import { state } from "./store.js";
 
 const USUAL = 0.3; // of its value either way, where a range is not stated
@@ -63,7 +63,7 @@ export function inputsOf(root, row, table, parameters = []) {
             const si = evaluate(text, units, valueOf);
             if (!Number.isFinite(si)) continue;
             const unit = kind.kind === "number" ? kind.unit : (a.unit ?? "");
-            const now = Number((si / (units[unit] ?? 1)).toPrecision(9));
+            const now = Number((si / (sizeOf(unit, units) ?? 1)).toPrecision(9));
             const path = `${e.path}/@${a.name}`.replace(/^[^/]+\//, "");
             out.push({ what: path, label: path.replaceAll("/@", " ").replaceAll("/", " › "), group: e.name, unit, now, ...usualRange(now), formula: kind.kind === "number" ? null : text });
         }
@@ -83,9 +83,9 @@ function* inner(element) {
 /** An end of a range as somebody types it: in the unit of the input, or NaN. */
 export function endOf(text, unit, units) {
     const q = splitQuantity(text);
-    if (!q) return NaN;
-    if (q.unit === "" || q.unit === unit) return q.value;
-    return units[q.unit] && units[unit] ? (q.value * units[q.unit]) / units[unit] : NaN;
+    if (q && (q.unit === "" || q.unit === unit)) return q.value;
+    const written = kindOf(text, units, () => false);
+    return written.kind === "number" && written.unit ? evaluate(text, units, () => NaN) / (sizeOf(unit, units) ?? NaN) : NaN;
 }
 
 // ---- numbers to look at ----

@@ -37,7 +37,7 @@ const news = (id) => new Promise((resolve) => {
 });
 
 /** Starts a job and waits for its end; onprogress(job); files: name -> text, that options name; resume: the number of a
- *  study that is gone on with, results: the directory of one beside the file; packs: with the numbers of the laboratory.
+ *  study that is gone on with, results: the directory of one beside the file; of: what the server tells of the job to whoever asks; packs: with the numbers of the laboratory.
  *  Throws when it could not be started. byItself: what is typed in a field is left alone; automatic: nobody has asked for it, and it
  *  ends with the page. */
 export async function run(kind, { byItself = false, ...asked } = {}) {
@@ -45,12 +45,12 @@ export async function run(kind, { byItself = false, ...asked } = {}) {
     return begun(kind, asked);
 }
 
-async function begun(kind, { text = state.text, options = {}, files, resume, results, packs: used = kind !== "calibrate", automatic = false, onprogress, signal }) {
+async function begun(kind, { text = state.text, options = {}, files, resume, results, of, packs: used = kind !== "calibrate", automatic = false, onprogress, signal }) {
     const packs = used ? Object.keys(state.lab) : [];
     const all = { ...files, ...(packs.length ? state.lab : {}) };
     const { id } = await post("/api/jobs", {
         kind, text, set: { ...state.set }, options: packs.length ? { ...options, lab: packs.join(",") } : options,
-        ...(Object.keys(all).length ? { files: all } : {}), ...(resume ? { resume } : {}), ...(results ? { results } : {}), ...(automatic ? { automatic } : {}),
+        ...(Object.keys(all).length ? { files: all } : {}), ...(resume ? { resume } : {}), ...(results ? { results } : {}), ...(of ? { of } : {}), ...(automatic ? { automatic } : {}),
     });
     const job = { id, kind, automatic, state: "queued", seconds: 0, stage: null };
     jobs.set(id, job);

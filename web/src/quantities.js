@@ -43,8 +43,9 @@ class Reader {
             const before = this.at;
             this.#space();
             if (!first) {
-                sign = this.text[this.at] === "/" ? -1 : 1;
-                if (sign < 0) this.at++;
+                const joined = this.text[this.at] ?? "";
+                sign = joined === "/" ? -1 : 1;
+                if (joined && "/.*".includes(joined)) this.at++;
                 this.#space();
             }
             const symbol = this.#match(SYMBOL);
@@ -102,6 +103,13 @@ class Reader {
         }
     }
 
+    /** The factor of all of the text as a unit; undefined: it is none. */
+    unitAlone() {
+        const factor = this.#unit();
+        this.#space();
+        return this.at > 0 && this.at === this.text.length ? factor : undefined;
+    }
+
     all() {
         const v = this.#sum();
         this.#space();
@@ -112,13 +120,17 @@ class Reader {
 /** In SI. units: symbol -> factor; value(name): of a parameter. */
 export const evaluate = (text, units, value) => new Reader(String(text), units, (name) => (name === "pi" ? Math.PI : value(name))).all();
 
-const PLAIN = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z%\u00b5\u03bc][^\s*()+]*)?\s*$/;
+/** The factor of a unit, also of several symbols joined by a blank, '.', '*' or '/' ("N m", "kg m^2/s^2"); undefined: it
+ *  is none. */
+export const sizeOf = (unit, units) => units[unit] ?? new Reader(unit, units, () => NaN).unitAlone();
+
+const PLAIN = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([A-Za-z%\u00b5\u03bc][^()+]*?)?\s*$/;
 const ALONE = /^\s*([+-]?)\s*([A-Za-z_][A-Za-z0-9_]*)\s*$/;
 
 /** What stands in an attribute: {kind: "number", unit}, {kind: "parameter", name, sign} or {kind: "formula"}. */
 export function kindOf(text, units, isParameter) {
     const plain = PLAIN.exec(text);
-    if (plain && (plain[2] === undefined || units[plain[2]] !== undefined)) return { kind: "number", unit: plain[2] ?? "" };
+    if (plain && (plain[2] === undefined || sizeOf(plain[2], units) !== undefined)) return { kind: "number", unit: plain[2] ?? "" };
     const alone = ALONE.exec(text);
     if (alone && isParameter(alone[2])) return { kind: "parameter", name: alone[2], sign: alone[1] === "-" ? -1 : 1 };
     return { kind: "formula" };
@@ -130,8 +142,8 @@ const FINEST_ANGLE = Math.PI / 180e3;
 /** A number in a unit as it is written into the text, rounded to a nanometre or a thousandth of a degree; other
  *  quantities to six digits. */
 export function written(value, unit, units) {
-    const factor = units[unit] ?? 1;
-    const finest = /^[kdcmu\u00b5\u03bcnp]?m$/.test(unit) ? FINEST : /rad$|deg$/.test(unit) ? FINEST_ANGLE : 0;
+    const factor = sizeOf(unit, units) ?? 1;
+    const finest = /^[kdcmu\u00b5\u03bcnp]?m$/.test(unit) ? FINEST : /^[a-z\u00b5\u03bc]*(?:rad|deg)$/.test(unit) ? FINEST_ANGLE : 0;
     const x = value / factor;
     const digits = finest ? Math.max(0, Math.min(12, Math.round(-Math.log10(finest / factor)))) : null;
     const rounded = digits === null ? Number(x.toPrecision(6)) : Number(x.toFixed(digits));

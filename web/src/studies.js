@@ -2,7 +2,7 @@
 // The studies of the description: run, stopped, gone on with, looked at; and the best device of one put into the text. A
 // study is a job of the server, the command `flexwright study`; what it has judged stays when it is stopped.
 import { get, remove } from "./api.js";
-import { begin, inputKey, mayChange, ofAnother, requestKey, Shown } from "./belong.js";
+import { begin, inputKey, mayChange, ofAnother, requestKey, Shown, stampOf, studyText } from "./belong.js";
 import { edit, taken } from "./design.js";
 import { announce, button, h, icon, say, select } from "./dom.js";
 import { duration, number, percent, si } from "./format.js";
@@ -18,23 +18,22 @@ const KINDS = { // what a new one is made of: rows beside its inputs
 };
 const PICTURES_MOST = 8;
 const ELSEWHERE_MS = 1000; // between two looks at what others have begun
-const BEGUN = "studies"; // of the browser's store of this tab: of which input the studies are that it has begun
+const BEGUN = "studies"; // of the browser's store of this tab: numbers of the studies that it has begun, which it may forget
 
-/** number of a job -> its input */
-const begunHere = () => keptOfTab(BEGUN);
+const begunHere = () => Object.keys(keptOfTab(BEGUN)).map(Number);
 
-function rememberBegun(id, input) {
-    const all = Object.entries(begunHere()).slice(-7); // the server keeps some as well
-    keepOfTab(BEGUN, Object.fromEntries([...all, [id, input]]));
+function rememberBegun(id) {
+    const all = begunHere().slice(-7); // the server keeps some as well
+    keepOfTab(BEGUN, Object.fromEntries([...all, id].map((x) => [x, true])));
 }
 
 export class Studies {
     /** chosen(): the inputs that are explored at the moment, with their ranges as texts: [{what, from, to}] */
     constructor(holder, chosen) {
         this.chosen = chosen;
-        this.kept = new Map(); // name -> {job, of: key of its input, control, stage, why, done}
+        this.kept = new Map(); // name -> {job, of: key of its input, whole: that of all of the text, control, stage, why, done}
         this.list = h("div", { class: "study-list" });
-        this.there = []; // directories of samples beside the file
+        this.there = []; // samples beside the file: {directory, study, kind, device}
         this.others = new Map(); // name -> job of a study that another page has begun, or this one before it was loaded anew
         this.kind = select("Kind of study", Object.entries(KINDS).map(([k, x]) => [k, `${k}: ${x.words}`]), "size", () => {});
         this.add = button("Add to the description", { icon: "plus", id: "study-add" }, () => this.#add());
@@ -52,7 +51,7 @@ export class Studies {
         this.#show();
         this.#lookElsewhere();
         get("/api/beside").then((beside) => {
-            this.there = beside.studies;
+            this.there = beside.results;
             this.#show();
         }).catch(() => {}); // then none are offered
     }
@@ -75,18 +74,17 @@ export class Studies {
         }, ELSEWHERE_MS);
     }
 
-    /** What a study is of that begins now, in words that outlive the page. */
-    #input(name) {
-        return JSON.stringify([state.text, state.set, this.#options(name), state.lab]);
+    /** What a study is of that begins now: the server keeps it with the job, for whichever page comes next. */
+    #stamp(name) {
+        return stampOf(name, this.#options(name));
     }
 
-    /** A study that has ended is opened: of the present input where this tab began it with that, else of a former one. */
+    /** A study that has ended is opened: of the present input where it was begun with that, on whichever page, else of a former one. */
     async #takeUp(name, id) {
         if (this.kept.has(name) || !this.#here.some((x) => x.name === name)) return;
         const job = await takeUp(id);
         if (!job.result || this.kept.has(name)) return;
-        const mine = begunHere()[id];
-        this.kept.set(name, { job, control: null, done: true, lent: mine === undefined, of: mine === this.#input(name) ? this.#key(name, requestKey) : "of another page" });
+        this.kept.set(name, { job, control: null, done: true, lent: !begunHere().includes(id), of: job.of === this.#stamp(name) ? this.#key(name, requestKey) : "of another input" });
         this.others.delete(name);
     }
 
@@ -100,8 +98,14 @@ export class Studies {
         return { study: name, ...Object.fromEntries(Object.entries({ accuracy, effects, hinge_model }).filter(([, v]) => v !== undefined)) };
     }
 
+    /** What its result depends on: not what other studies of the text say. */
     #key(name, make = inputKey) {
-        return make(this.#options(name));
+        return make(this.#options(name), studyText(name));
+    }
+
+    /** And what it can be gone on with: the program compares whole files. */
+    #whole(name) {
+        return requestKey(this.#options(name));
     }
 
     // ---- a new one ----
@@ -130,9 +134,9 @@ export class Studies {
     async #run(name, { resume, results } = {}) {
         const key = this.#key(name, requestKey);
         const before = this.kept.get(name);
-        if (!resume && before?.job && !before.lent) forget(before.job); // the page that began it shows it, too
+        if (!resume && !results && before?.job && !before.lent) forget(before.job); // the page that began it shows it, too
         const control = new AbortController();
-        const mine = { control, of: key, stage: "waiting", job: null };
+        const mine = { control, of: key, whole: this.#whole(name), stage: "waiting", job: null };
         this.kept.set(name, mine);
         this.#show();
         const end = begin({ words: `Study ${name}`, cancel: () => control.abort() });
@@ -140,26 +144,36 @@ export class Studies {
         try {
             await taken();
             mine.of = this.#key(name, requestKey);
-            const input = this.#input(name);
-            const job = await run("study", { options: this.#options(name), resume, results, signal: control.signal, onprogress: (j) => {
+            mine.whole = this.#whole(name);
+            const job = await run("study", { options: this.#options(name), resume, results, of: this.#stamp(name), signal: control.signal, onprogress: (j) => {
                 mine.far = /\d+ of (?:at most )?\d+ devices/.exec(j.stage ?? "")?.[0] ?? mine.far;
                 mine.stage = `${j.stage ?? j.state} · ${((performance.now() - begun) / 1e3).toFixed(1)} s`;
-                if (mine.job?.id !== j.id) rememberBegun(j.id, input);
+                if (mine.job?.id !== j.id) rememberBegun(j.id);
                 mine.job = j;
                 this.#show();
             } });
             mine.job = job;
             if (job.state === "done" && job.result) mine.done = true;
             else if (job.state === "cancelled") mine.stopped = true;
-            else mine.why = (job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)).join(" ") || `ended with status ${job.exit_status ?? "?"}`;
+            else mine.why = whyNot(job, results);
+            if (results && !mine.why && before?.job && !before.lent) forget(before.job);
             announce(`Study ${name}: ${mine.done ? `done in ${duration(job.seconds)}` : mine.stopped ? "stopped" : mine.why}`);
         } catch (error) {
             mine.why = error.message;
         } finally {
             mine.control = null;
+            if (mine.why && results) this.#notOpened(name, mine, before);
             end();
             this.#show();
         }
+    }
+
+    /** What was chosen is not of this study as it is now: that says nothing of the study, which stays as it was. */
+    #notOpened(name, mine, before) {
+        if (mine.job) forget(mine.job);
+        if (before) this.kept.set(name, before);
+        else this.kept.delete(name);
+        emit("notice", { kind: "warn", text: mine.why });
     }
 
     // ---- what is shown ----
@@ -195,12 +209,14 @@ export class Studies {
         const other = mine?.control ? undefined : this.others.get(name); // begun by another page
         const runs = other && ["queued", "running"].includes(other.state);
         const inputs = element.children.filter((c) => c.name === "vary" || c.name === "uncertain").map((c) => c.attributes.get("what")?.value).filter(Boolean);
-        const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${mine.far ? ` after ${mine.far}` : ""}${present ? "" : "; the input has changed since"}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
+        const goOn = Boolean(mine?.stopped && present && mine.job && mine.whole === this.#whole(name));
+        const changed = !mine?.stopped || goOn ? "" : present ? "; the text has another study or remark since, so that it begins anew" : "; the input has changed since";
+        const said = mine?.control ? mine.stage : mine?.why ? mine.why : mine?.stopped ? `stopped${mine.far ? ` after ${mine.far}` : ""}${changed}` : mine?.done ? `${mine.job.result.samples.run} devices in ${duration(mine.job.seconds)}${present ? "" : "; of the former input"}` : "";
         const theirs = runs ? `another page runs it: ${other.state === "queued" ? "waiting" : `${other.stage ?? "working"} · ${duration(other.seconds)}`}` : other && !mine ? "another page has run it: what it has judged can be gone on with" : "";
         const part = mine?.control && /(\d+) of (?:at most )?(\d+) devices/.exec(mine.stage);
-        const goOn = Boolean(mine?.stopped && present && mine.job);
+        const there = this.there.filter((x) => x.study === null || (x.study === name && x.kind === kind)); // samples of others cannot be gone on with
         // buttons stay while a field is left whose edit changes the words: a click is not lost between its two halves
-        const key = JSON.stringify([kind, inputs, mine?.control ? said : "", Boolean(mine), Boolean(mine?.control), mine?.job?.id, mine?.done, Boolean(mine?.why), goOn, this.there, other?.id, runs]);
+        const key = JSON.stringify([kind, inputs, mine?.control ? said : "", Boolean(mine), Boolean(mine?.control), mine?.job?.id, mine?.done, Boolean(mine?.why), goOn, there, other?.id, runs]);
         if (card.dataset.key === key) return say(card.querySelector(".study-said"), theirs || said);
         card.dataset.key = key;
         card.head.replaceChildren(
@@ -215,7 +231,7 @@ export class Studies {
                 }) : null,
                 goOn ? button("Go on", { icon: "play", class: "small primary", "data-act": "resume" }, () => this.#run(name, { resume: mine.job.id })) : null,
                 button(mine ? "Run anew" : "Run", { icon: "target", class: `small${mine ? "" : " primary"}`, "data-act": "run" }, () => this.#run(name)),
-                this.there.length ? select(`Open results of ${name}`, [["", "Open results…"], ...this.there.map((x) => [x, x])], "", (results) => results && this.#run(name, { results })) : null,
+                there.length ? select(`Open results of ${name}`, [["", "Open results…"], ...there.map((x) => [x.directory, x.study === null ? `${x.directory} (whose it is cannot be told)` : x.directory])], "", (results) => results && this.#run(name, { results })) : null,
             ]).filter(Boolean),
             h("p", { class: mine?.why ? "job-errors study-said" : "job-message study-said", role: "status" }, theirs || said));
         if (!mine?.done) {
@@ -241,7 +257,8 @@ export class Studies {
             ...(r.yields ?? []).map((y) => h("p", {}, `${y.flow ?? "As drawn"}: ${y.least ? `${percent(y.least.yield)} to ${percent(y.most.yield)}, as is what is only assumed,` : percent(y.yield)} hold every limit (${percent(y.sampling_interval?.[0])} to ${percent(y.sampling_interval?.[1])} by sampling alone; with the model's own band ${percent(y.yield_range?.[0])} to ${percent(y.yield_range?.[1])}).`)),
             ...(r.found ?? []).map((f, i) => this.#device(r.found.length > 1 ? `Device ${i + 1} of the front` : "Best device", f, r)),
             r.kind === "size" && !r.found?.length && r.nearest ? this.#device("No device holds every limit; the nearest", r.nearest, r) : null,
-            ...(r.responses ?? []).flatMap((x) => [["least", x.worst_least], ["largest", x.worst_largest]].filter(([, w]) => w?.set).map(([word, w]) => this.#device(`${x.name}, ${word}: ${valueOf(x, w.value)}`, w, r))),
+            ...(r.responses ?? []).flatMap((x) => [["least", x.worst_least], ["largest", x.worst_largest]].filter(([, w]) => w?.set).map(([word, w]) => this.#device(`${x.name}, ${word}${x.without ? ` of the ${x.values} that have a value` : ""}: ${valueOf(x, w.value)}`, w, r))),
+            ...(r.responses ?? []).filter((x) => x.without).map((x) => this.#device(withoutValue(x, r), { set: x.without.set }, r)),
             ...(r.responses ?? []).filter((x) => x.by).map((x) => effects(x)),
             r.how ? h("p", { class: "doc" }, r.how) : null,
             h("div", { class: "study-pictures" }, (job.files ?? []).filter((f) => /^pictures\/.*\.svg$/.test(f.path)).slice(0, PICTURES_MOST).map((f) => h("a", { href: fileOf(job, f.path), target: "_blank", rel: "noopener" }, h("img", { src: fileOf(job, f.path), alt: f.path.replace(/^pictures\/|\.svg$/g, "").replaceAll("-", " ") })))),
@@ -258,8 +275,26 @@ export class Studies {
     }
 }
 
+/** Why a study has no result, in words of the page: what the program says of its own options cannot be done here. */
+function whyNot(job, results) {
+    const said = (job.messages ?? []).filter((m) => !/^\s*\d*\s*\|/.test(m)).join(" ") || `ended with status ${job.exit_status ?? "?"}`;
+    const other = /it holds the samples of study '(.*?)' of other inputs, options or another version of the program, not those of '.*?' as it is now(.*); name another directory/.exec(said);
+    if (!other) return said;
+    const whose = results ? `The samples in ${results} are` : "What was judged is";
+    return `${whose} of study '${other[1]}' with another description, other options or another version of the program${other[2]}. ${results ? "They stay where they are; " : ""}Run${results ? "" : " anew"} judges devices of the present description.`;
+}
+
 /** A value of a response as people read it: shares of a limit in %, as the verdict has them. */
 const valueOf = (response, value) => (response?.share ? percent(value) : response?.unit ? si(value, response.unit, 4) : number(value, 4));
+
+/** How many devices have no value of a response, what they are, and what that leaves of the answer. */
+function withoutValue(x, result) {
+    const w = x.without;
+    const others = w.devices - w.accepted - w.rejected - w.inconclusive - w.failed;
+    const parts = [[w.accepted, "accepted"], [w.rejected, "rejected"], [w.inconclusive, "inconclusive"], [w.failed, "could not be judged"], [others, "not judged"]];
+    const worst = result.kind === "worst-case" && x.values ? "The worst case of the ranges may well be among them. " : "";
+    return `${w.devices} of ${result.samples.run + result.samples.failed} devices have no value of ${x.name}: ${parts.filter(([n]) => n).map(([n, word]) => `${n} ${word}`).join(", ")}. ${worst}Number ${w.first_at} (${w.first_state}) is the first of them`;
+}
 
 /** A difference of two values of a response. */
 const changeOf = (response, change) => (response.share && Math.abs(change) < 10 ? percent(change).replace(" %", " points") : valueOf(response, change));

@@ -24,6 +24,23 @@ static void printed_in_file_order_with_caret(void **state) {
     fw_arena_free(arena);
 }
 
+/* of the error that is said next, and of it where another list takes it over */
+static void reasons_of_the_system_are_numbers(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena), other = fw_diags_new(arena);
+    fw_diag_error(fw_diags_because(&diags, 2), 220, (fw_place){.file = "f.xml"}, "none");
+    fw_diag_error(&diags, 41, (fw_place){"f.xml", 1, 1}, "wrong");
+    fw_diag_warning(fw_diags_because(&diags, 2), 41, (fw_place){"f.xml", 1, 1}, "odd");
+    fw_diag_error(&diags, 41, (fw_place){"f.xml", 2, 1}, "wrong");
+    fw_diags_take(&other, &diags);
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(diags.item[i].reason, i == 0 ? 2 : 0);
+        assert_int_equal(other.item[i].reason, i == 0 ? 2 : 0);
+    }
+    fw_arena_free(arena);
+}
+
 static void only_the_first_hundred(void **state) {
     (void)state;
     fw_arena *arena = fw_arena_new(0);
@@ -172,6 +189,7 @@ static void once_of_a_place(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(printed_in_file_order_with_caret),
+        cmocka_unit_test(reasons_of_the_system_are_numbers),
         cmocka_unit_test(only_the_first_hundred),
         cmocka_unit_test(errors_are_kept),
         cmocka_unit_test(a_later_call_finds_room),
