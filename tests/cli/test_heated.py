@@ -337,7 +337,7 @@ ONE_JAW = """<device xmlns="urn:flexwright:device:1" name="heated-jaw">
 <mechanism><body id="jaw" x="0 mm" y="1 mm"><plate x="0 mm" y="0 mm" width="200 um" height="1.6 mm"/></body>
 <revolute id="A" a="ground" b="jaw" b-y="-1 mm" hinge="leaf" axis="0 deg"/></mechanism>
 <probe id="press" kind="force" of="wall"/><require probe="press" measure="final" max="1 mN" scene="warm"/>
-<scene name="warm" duration="20 ms"><temperature change="40 K" law="ramp" rise="10 ms"/>
+<scene name="warm" duration="20 ms"><temperature change="40 K" expansion="16.7 ppm/K" substrate-expansion="2.57 ppm/K" law="ramp" rise="10 ms"/>
 <contact id="wall" a="jaw" a-y="0.8 mm" a-face="90 deg" b="ground" b-x="0 mm" b-y="1.80 mm + 20.5 um" side="outside" distance="20 um" stiffness="50 N/m" damping="0.0001 N s/m" undrawn="placed"/>
 <material-damping loss-factor="0.05"/></scene></device>"""
 
