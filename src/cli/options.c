@@ -587,7 +587,7 @@ static const fw_cli_option_row table[] = {
      "no text of a result (of check its first lines), no messages but errors and what is not to be "
      "relied on; --json and files stay",
      FW_OPT_COMMON, take_quiet},
-    {"verbose", 'v', NULL, "a line per stage, and every note", FW_OPT_COMMON, take_verbose},
+    {"verbose", 'v', NULL, "stages, how far they are, and every note", FW_OPT_COMMON, take_verbose},
     {"color", 0, "WHEN", "auto, always or never", FW_OPT_COMMON, take_colour},
     {"no-progress", 0, NULL, "no progress on a terminal", FW_OPT_COMMON, take_no_progress},
     {"help", 'h', NULL, "this text", FW_OPT_COMMON, take_help},

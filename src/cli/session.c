@@ -27,7 +27,8 @@ int fw_cli_session_no_memory(void) {
     return fw_status_exit(FW_NOMEM);
 }
 
-/* ---- progress on a terminal: a line that is written over, from the second on ---- */
+/* ---- progress on a terminal: a line that is written over, from the second on; elsewhere with -v a line of its own every
+   ten seconds ---- */
 
 static double now_s(void) {
     struct timespec t;
@@ -37,17 +38,19 @@ static double now_s(void) {
 
 static struct {
     double start_s, said_s; /* 0: nothing was said yet */
-    const char *what;       /* of which the share below is */
-    double what_s;          /* when that began */
+    bool lines;
+    const char *what; /* of which the share below is */
+    double what_s;    /* when that began */
 } shown;
 
 static int show(void *context, const char *what, double done, double of, const char *unit) {
     (void)context;
     const double now = now_s();
     if (shown.what != what) shown.what = what, shown.what_s = now;
-    if (now - shown.start_s < 1.0 || now - shown.said_s < 0.1) return 0;
+    const double first_s = shown.lines ? 10.0 : 1.0, every_s = shown.lines ? 10.0 : 0.1;
+    if (now - shown.start_s < first_s || now - shown.said_s < every_s) return 0;
     shown.said_s = now;
-    fprintf(stderr, "\r\033[K%s", what);
+    fprintf(stderr, "%s%s", shown.lines ? "flexwright: " : "\r\033[K", what);
     const double since = now - shown.what_s, all = fabs(of);
     const double left = all > 0 && done > 0 ? since * (all / done - 1.0) : 0.0;
     if (all > 0)
@@ -58,20 +61,22 @@ static int show(void *context, const char *what, double done, double of, const c
         fprintf(stderr, ", %s %.0f s left", of < 0 ? "at most" : "about", left);
     else if (!(all > 0) && since >= 1.0)
         fprintf(stderr, ", %.0f s", since); /* nobody knows how many there will be */
+    if (shown.lines) fprintf(stderr, " (%.0f s so far)\n", now - shown.start_s);
     fflush(stderr);
     return 0;
 }
 
 static void show_progress(fw_design *design, const fw_cli_options *options) {
     const char *term = getenv("TERM");
-    if (options->no_progress || options->quiet || !isatty(STDERR_FILENO)) return;
-    if (!term || !*term || strcmp(term, "dumb") == 0) return;
+    const bool written_over = isatty(STDERR_FILENO) && term && *term && strcmp(term, "dumb") != 0;
+    if (options->no_progress || options->quiet || !(written_over || options->verbose)) return;
+    shown.lines = !written_over;
     shown.start_s = now_s();
     fw_design_progress(design, show, NULL);
 }
 
 static void clear_progress(void) {
-    if (shown.said_s > 0) fputs("\r\033[K", stderr);
+    if (shown.said_s > 0 && !shown.lines) fputs("\r\033[K", stderr);
     shown.said_s = 0;
 }
 

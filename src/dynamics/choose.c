@@ -8,8 +8,7 @@
 
 enum { ROUNDS = 12 };
 
-/* a dense method's time goes with the cube of the bodies */
-static const int fw_dense_most = 60;
+static const int fw_dense_most = 60; /* bodies: a dense method's time goes with their cube */
 static const double fw_uneven_most = 1e3;
 
 /* ---- the method ---- */
@@ -86,11 +85,10 @@ static void product(const fw_dynamics_problem *problem, double t, const double *
         out[i] = (out[i] - more[i]) / (2 * e);
 }
 
-/* largest |eigenvalue| of the right-hand side's Jacobian J at (t, y), scaled: power iteration
-   with J^2, whose dominant eigenvalues are real for oscillations too. A lower bound that is within
-   a few per cent when the spectrum has a gap; a choice needs no more. Cost 48 evaluations. Source:
-   Golub and Van Loan, ch. 7. Test: test_choose.c. shape (nq): its velocities; NULL: not asked
-   for */
+/* largest |eigenvalue| of the right-hand side's Jacobian J at (t, y), scaled: power iteration with J^2, whose dominant
+   eigenvalues are real for oscillations too. A lower bound that is within a few per cent when the spectrum has a gap; a choice
+   needs no more. Cost 48 evaluations. Source: Golub and Van Loan, ch. 7. Test: test_choose.c. shape (nq): its velocities;
+   NULL: not asked for */
 static fw_status fastest(const fw_dynamics_problem *problem, double t, const double *y,
                          double reach, double *rate, double *shape) {
     const fw_multibody_model *m = problem->model;
@@ -140,13 +138,15 @@ static bool is_out_of_reach(const fw_dynamics_problem *problem, const fw_effects
 
 /* the same with all switches of elements on: a stiff contact may be open at the start. 0: none is off, or all that are stay
    out of reach. Where the formula of one means nothing there (two points that coincide have no direction), the rate depends
-   on how far it is looked at; then what they state counts. */
-static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double before, double *rate) {
+   on how far it is looked at; then what they state counts. *own: of the contacts themselves, which may be softer than what is
+   fastest without them */
+static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double before, double *rate,
+                                  double *own) {
     const fw_multibody_model *m = problem->model;
     bool *on = problem->system->on.element;
     double stated = 0, farther, *value;
     bool idle = false;
-    *rate = 0;
+    *rate = *own = 0;
     fw_mark mark = fw_arena_mark(problem->arena);
     FW_NEED(value = fw_arena_array(problem->arena, double, (size_t)fw_multibody_switch_count(m)));
     fw_multibody_switch_values(problem->system,
@@ -161,11 +161,11 @@ static fw_status fastest_in_touch(const fw_dynamics_problem *problem, double bef
         }
     fw_arena_rewind(problem->arena, mark);
     if (!idle) return FW_OK;
-    stated = sqrt(before * before + stated);
     FW_TRY(fastest(problem, 0, problem->start, 1e-6, rate, NULL));
     FW_TRY(fastest(problem, 0, problem->start, 1e-5, &farther, NULL));
     bool sound = fabs(farther - *rate) <= 0.2 * *rate;
-    if (!sound || !(*rate > 1.01 * before)) *rate = stated;
+    if (!sound || !(*rate > 1.01 * before)) *rate = sqrt(before * before + stated);
+    *own = fmin(*rate, sqrt(stated));
     fw_multibody_set_switches(problem->system, 0, problem->start);
     return FW_OK;
 }
@@ -261,6 +261,7 @@ static cost prices(const fw_dynamics_recorder *record) {
 
 typedef struct spectrum {  /* rad per scaled time */
     double fast, touching; /* the fastest motion; once all contacts touch, 0: none is open */
+    double pressing;       /* of these contacts themselves */
     double slow, dying;    /* what is excited, and how it dies away */
     double ringing; /* scaled time for which the fastest motion is more than what is wanted */
     double share;   /* its amplitude then, over that of the motion */
@@ -309,15 +310,13 @@ static double tolerance(const fw_dynamics_run *r, const char *name) {
         .rtol;
 }
 
-/* Steps of radau5: 8 per rad at a tolerance of 1e-7, as measured on one undamped mode, twice as
-   many where faster modes are excited besides: 12 are taken. The error of a motion that dies away
-   grows with its fourth power, so that it counts for four of its times. Contacts excite what they
-   are as stiff as, for as long as an impact takes: in between, the geometric mean. The fastest
-   motion is passed over only where it is less than what is wanted; steps go with the fifth root of
-   an amplitude. */
+/* Steps of radau5: 8 per rad at a tolerance of 1e-7, as measured on one undamped mode, twice as many where faster modes are
+   excited besides: 12 are taken. The error of a motion that dies away grows with its fourth power, so that it counts for four
+   of its times. Contacts excite what they are as stiff as, for as long as an impact takes: in between, the geometric mean.
+   The fastest motion is passed over only where it is less than what is wanted; steps go with the fifth root of an amplitude. */
 static double implicit_steps(const fw_dynamics_run *r, const spectrum *s, double time) {
     double count = fmin(time, s->dying > 0 ? 4 / s->dying : time) * s->slow;
-    if (s->touching > 0) count = fmax(count, time * sqrt(s->slow * s->touching));
+    if (s->touching > 0) count = fmax(count, time * sqrt(s->slow * s->pressing));
     count += s->fast * s->ringing * pow(s->share, 0.2);
     return fmax(80, 12 * count) * pow(tolerance(r, "radau5") / 1e-7, -0.2);
 }
@@ -352,22 +351,22 @@ static fw_status report_choice(fw_dynamics_recorder *record, const spectrum *s, 
     return FW_OK;
 }
 
-/* Loads and drivers that come slowly against what they excite do not excite it: the motion goes along
-   with them, as in a stage that a driver moves, whose static response is one of the stiffest. What is
-   left of the motion counts as one period over the scene. Test: test_choose.c */
+/* Loads and drivers that come slowly against what they excite do not excite it: the motion goes along with them, as in a stage
+   that a driver moves, whose static response is one of the stiffest. What is left of the motion counts as one period over the
+   scene. forced false: no force says what is excited, as drivers and heat have none; contacts that are still open come in
+   besides, by themselves. Test: test_choose.c */
 static void gentle(const fw_dynamics_problem *problem, const fw_effects_loads *loads, double time,
-                   double wanted, spectrum *s) {
-    if (s->touching > 0) return;
+                   double wanted, bool forced, spectrum *s) {
+    if (s->touching > 0 && forced) return;
     double unit = problem->model->scale.time_s;
-    if (!fw_dynamics_run_gentle(problem, loads, s->slow / unit, wanted)) return;
+    if (!fw_dynamics_run_gentle(problem, loads, s->slow / unit, wanted, !forced)) return;
     s->slow = 2 * FW_PI / time;
     s->ringing = 0;
 }
 
-/* The cheaper of two costs, each a number of steps times instructions of a step. Explicit steps of
-   order 8 are stable up to |eigenvalue| h of about 6 and need about one per radian of the motion
-   wanted; those of radau5 pass over fast modes. Right within a factor of 1.5 of the better one on
-   the scenes of docs/theory/integrators.md. Test: test_choose.c. */
+/* The cheaper of two costs, each a number of steps times instructions of a step. Explicit steps of order 8 are stable up to
+   |eigenvalue| h of about 6 and need about one per radian of the motion wanted; those of radau5 pass over fast modes. Right
+   within a factor of 1.5 of the better one on the scenes of docs/theory/integrators.md. Test: test_choose.c. */
 static fw_status choose(fw_dynamics_run *r, const fw_effects_loads *loads) {
     const fw_multibody_model *m = r->problem.model;
     double time = r->problem.scene->duration_s / m->scale.time_s;
@@ -375,12 +374,13 @@ static fw_status choose(fw_dynamics_run *r, const fw_effects_loads *loads) {
     double *shape;
     FW_NEED(shape = fw_arena_array(r->problem.arena, double, (size_t)m->nq));
     FW_TRY(fastest(&r->problem, 0, r->problem.start, 1e-6, &s.fast, shape));
-    FW_TRY(fastest_in_touch(&r->problem, s.fast, &s.touching));
+    FW_TRY(fastest_in_touch(&r->problem, s.fast, &s.touching, &s.pressing));
     FW_TRY(excited(&r->problem, loads, &s.slow, &s.dying));
     FW_TRY(ringing(&r->record, loads, shape, time, &s));
     double most = fmax(s.fast, s.touching);
+    const bool forced = s.slow > 0;
     if (!(s.slow > 0) || s.slow > most) s.slow = most; /* a nearly rigid response says nothing */
-    gentle(&r->problem, loads, time, fw_dynamics_tolerance_wanted(&r->record), &s);
+    gentle(&r->problem, loads, time, fw_dynamics_tolerance_wanted(&r->record), forced, &s);
     const cost p = prices(&r->record);
     double stable = time * most / 6, explicit_ = explicit_steps(r, &s, time);
     /* contacts that are open at the start touch for a part of the time: half */

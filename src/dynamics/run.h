@@ -196,9 +196,10 @@ void fw_dynamics_run_start(const fw_dynamics_controller *control, fw_maths_stepp
                            const double *y, double end);
 
 /* run_ends.c: what ends a run early, each with its message; FW_OK where it does not */
-/* all that acts comes so slowly that less than `share` of what it does rings at omega (rad/s), from rest */
+/* all that acts comes so slowly that less than `share` of what it does rings at omega (rad/s), from rest; open: contacts that
+   do not touch at the start are left out, else there may be none */
 bool fw_dynamics_run_gentle(const fw_dynamics_problem *problem, const fw_effects_loads *loads,
-                            double omega_per_s, double share);
+                            double omega_per_s, double share, bool open);
 /* FW-D242 where an element says that it does not hold */
 fw_status fw_dynamics_run_valid(const fw_dynamics_run *r, double t, const double *y);
 /* FW-D244 when friction is what ended the run at scaled time t */

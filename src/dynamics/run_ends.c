@@ -32,15 +32,26 @@ static const fw_quantity_law *law_of(const fw_dynamics_problem *problem,
     return e->law[i];
 }
 
+/* what acts through switches does not at the start: contacts are open */
+static bool all_open(const fw_dynamics_problem *problem) {
+    const fw_multibody_model *m = problem->model;
+    const bool *on = problem->system->on.element;
+    for (int i = 0; i < m->nelement; i++)
+        for (int k = 0; k < m->element[i].own->switches; k++)
+            if (*on++) return false;
+    return true;
+}
+
 bool fw_dynamics_run_gentle(const fw_dynamics_problem *problem, const fw_effects_loads *loads,
-                            double omega_per_s, double share) {
+                            double omega_per_s, double share, bool open) {
     const fw_multibody_model *m = problem->model;
     double end = problem->scene->duration_s;
     bool coordinate, still = loads->nload == 0 && loads->nspring == 0 && !loads->strained &&
-                             loads->nfriction == 0 && problem->scene->ncontact == 0;
+                             loads->nfriction == 0 &&
+                             (problem->scene->ncontact == 0 || (open && all_open(problem)));
     for (int i = 0; i < loads->nelement && still;
-         i++) /* what has no law acts at once, but for flexures */
-        still = loads->element[i].laws > 0 ||
+         i++) /* what has no law acts at once, but for flexures, and contacts that are open */
+        still = loads->element[i].laws > 0 || loads->element[i].class_->pressing ||
                 (loads->element[i].pin >= 0 && loads->released[loads->element[i].pin]);
     for (int i = 0; i < m->nq && still; i++) /* constant loads come at once */
         still = !(fabs(loads->constant[i]) > 0) && !(fabs(problem->start[m->nq + i]) > 0);

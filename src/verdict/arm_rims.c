@@ -549,17 +549,19 @@ static void follow(const fw_dynamics_motion *x, const fw_verdict_reach *r, doubl
     }
 }
 
-static void take_reach(const fw_dynamics_motion *x, fw_verdict_reach r, fw_verdict_shaken *to) {
+static void take_reach(const fw_dynamics_motion *x, const double *q, fw_verdict_reach r,
+                       fw_verdict_shaken *to) {
     double least, most;
     if (!(r.per_m > 0) || !isfinite(r.per_m)) return;
     follow(x, &r, &least, &most);
     r.gap_m = -overlap_at(&r, x->q);
     r.closes_m = most + r.gap_m, r.goes_m = fmax(r.closes_m, -r.gap_m - least);
+    r.rests = overlap_at(&r, q) > 0;
     to->reach[to->nreach++] = r;
 }
 
 fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *x, double unit_m,
-                                fw_verdict_shaken *to) {
+                                const double *q, fw_verdict_shaken *to) {
     const fw_effects_loads *loads = x->loads;
     to->nreach = 0, to->reach = NULL;
     if (!loads) return FW_OK;
@@ -569,7 +571,7 @@ fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *x, do
         const fw_effects_force_element *e = &loads->element[i];
         if (e->switches != 1 || e->ports > REACH_PORTS || e->laws > 0 || !e->class_->switch_value)
             continue;
-        take_reach(x,
+        take_reach(x, q,
                    (fw_verdict_reach){.id = e->id,
                                       .pin = FW_NONE,
                                       .element = e,
@@ -578,7 +580,7 @@ fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *x, do
                    to);
     }
     for (int i = 0; i < loads->nstop; i++)
-        take_reach(x,
+        take_reach(x, q,
                    (fw_verdict_reach){.pin = loads->stop[i].pin,
                                       .stop = &loads->stop[i],
                                       .stiff_N_per_m =

@@ -186,6 +186,10 @@ static inline double fw_verdict_soft_by(fw_verdict_softness soft, double omega,
     const double by = omega * omega / (at * at), less = by < 1 ? by : 1;
     return soft == FW_VERDICT_OF_ANY ? by : soft == FW_VERDICT_NO_SOFTER ? less : 1;
 }
+/* ringing.c: by no more than stiffness allows of where the mode may lie */
+struct fw_verdict_shaken_mode;
+double fw_verdict_soft_within(fw_verdict_softness softer, const struct fw_verdict_shaken_mode *mode,
+                              double at);
 /* ringing.c: to->mode, of at most most_modes, without low and high, and what acts where something comes again */
 fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                             bool again, const fw_statics_modes *modes,

@@ -360,6 +360,21 @@ static double farther_than_drawn(const fw_verdict_search *s, const amid *a) {
 
 /* ---- what is met ---- */
 
+void fw_verdict_reach_gives(const fw_statics_modes *modes, int most, bool rests,
+                            fw_verdict_shaken *to) {
+    for (int c = 0; c < to->nreach; c++) {
+        fw_verdict_reach *r = &to->reach[c];
+        if (rests && !r->rests) continue;
+        r->gives_m_per_N = 0;
+        for (int k = 0; k < modes->count && k < most; k++) {
+            const fw_statics_mode *by = &modes->mode[k];
+            if (by->stiffness_per_s2 > 0 && by->shape)
+                r->gives_m_per_N += pow(fw_verdict_reach_by(r, modes->q, by->shape), 2) /
+                                    (by->modal_mass_kg_m2 * by->stiffness_per_s2);
+        }
+    }
+}
+
 static bool is_met(const fw_verdict_reach *r) {
     return r->closes_m >= r->gap_m;
 }
@@ -483,6 +498,47 @@ static fw_status tell_between(fw_verdict_search *s, const amid *a, fw_verdict_va
                                    FW_VERDICT_KEEP_HALF, text);
 }
 
+/* ---- rows as made ----
+   What is said of a requirement, or of a hinge, as made is what its own band allows: that of all corners is wider than the one of
+   any device that was run, by what lies between them and by hinges that differ. Test: test_heated.py, Rows; test_effects.py */
+
+bool fw_verdict_row_settle(fw_verdict_requirement *made) {
+    const bool held = !(fmin(made->low, made->all_low) < made->min) && /* NaN is passed */
+                      !(fmax(made->high, made->all_high) > made->max);
+    if (held || made->why || made->decision != FW_ACCEPT) return false;
+    made->decision = FW_INCONCLUSIVE;
+    return true;
+}
+
+/* the first of all that none of its devices, but its band may be beyond its limit; NULL: there is none */
+static const char *settle_rows(fw_verdict_search *s) {
+    fw_verdict_fabricated_verdict *f = s->fabricated;
+    const char *first = NULL;
+    for (int k = 0; f->requirement && k < s->v->nrequirement; k++)
+        if (fw_verdict_row_settle(&f->requirement[k]) && !first)
+            first = fw_verdict_requirement_text(s->arena, &f->requirement[k]);
+    for (int h = 0; h < s->v->nhinge; h++) {
+        fw_verdict_hinge_verdict *row = &f->corner[f->hinge[h].corner].hinge[h];
+        if (row->decision == FW_ACCEPT && f->hinge[h].most >= 1) row->decision = FW_INCONCLUSIVE;
+    }
+    return first;
+}
+
+static fw_status tell_row(fw_verdict_search *s, const char *row, fw_verdict_variant_verdict *v) {
+    FW_NEED(s->fabricated->reason = fw_arena_printf(
+                s->arena,
+                "as %s makes it no device that was run is beyond a limit, but one may be: %s",
+                v->variant->flow ? v->variant->flow : "this flow", row));
+    s->fabricated->decision = v->decision = FW_INCONCLUSIVE;
+    v->reason[v->nreason++] = (fw_verdict_reason){.scene = "as made",
+                                                  .flow = v->variant->flow,
+                                                  .number = 744,
+                                                  .decision = FW_INCONCLUSIVE,
+                                                  .keep = FW_VERDICT_KEEP_HALF,
+                                                  .text = s->fabricated->reason};
+    return FW_OK;
+}
+
 fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v) {
     const fw_verdict_shaken *nominal =
         s->fabricated->ncorner > 1 ? s->fabricated->corner[0].shaken : NULL;
@@ -498,5 +554,6 @@ fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_ve
         FW_TRY(tell_between(s, &a, v));
         accepted = false;
     }
-    return FW_OK;
+    const char *row = settle_rows(s);
+    return row && accepted ? tell_row(s, row, v) : FW_OK;
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Requirements of what a flow makes: a band that holds at every corner of the ranges. Each requirement
-   has two ends, the low and the high one of its band, which are followed as values: a utilisation has a
-   kink where the other bound becomes the nearer one, and there is none where a bound is the drawn value.
-   The corners where the low end is lowest and the high end highest to first order are run; elsewhere
-   counts first order, widened by the largest error that it was seen to have. Theory:
+/* Requirements of what a flow makes: a band that holds at every corner of the ranges. Each requirement has two ends, the low and
+   the high one of its band, which are followed as values: a utilisation has a kink where the other bound becomes the nearer one,
+   and there is none where a bound is the drawn value. The corners where the low end is lowest and the high end highest to first
+   order are run; elsewhere counts first order, widened by the largest error that it was seen to have. Theory:
    docs/theory/as-fabricated.md. Test: test_made.c. */
 #include "base/text.h"
+#include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <float.h>
 #include <math.h>
@@ -192,8 +192,7 @@ void fw_verdict_ends_apart(fw_verdict_search *s, int point,
     }
 }
 
-/* By what hinges that differ may change of it besides: by their shares, but of what one of them may turn about or leave little
-   of by their sum */
+/* By what hinges that differ may change of it besides: by their shares; by their sum where one of them turns or empties it */
 static double with_apart(const fw_verdict_end *end, double value, int way) {
     const double much = 1, z = z_of(end, value);
     if (end->apart[1] == 0) return value;
@@ -202,8 +201,7 @@ static double with_apart(const fw_verdict_end *end, double value, int way) {
                : value_of(end, z + way * end->apart[0]);
 }
 
-/* over all corners; NaN where the nominal device is rejected and no other was run, and where it has no
-   value at some corner */
+/* over all corners; NaN where the nominal device is rejected and no other was run, and where it has no value at some corner */
 static void cover(const fw_verdict_search *s, int k, fw_verdict_requirement *made) {
     const unsigned fixed = fw_verdict_search_without_range(s->v);
     made->all_low = made->all_high = (double)NAN;
@@ -278,8 +276,7 @@ void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]
    Room of one check, r = (z_limit - z_most)/|dz/de| with z_most at the corner that is worst for it (its band and what first
    order was off by included), and de the way of an edge; the least of all hinges in all scenes, requirements at both their
    bounds, distances, pull-in, and what tips. In: what the search has run. Out: m of every edge, either way. Range: first
-   order, so that who uses it takes half, and goes no further than the corners went again. Cost: nothing is run. Test:
-   test_ranges.c, room_of_edges; tests/cli/test_mask_certificate.py. */
+   order, so that who uses it takes half, and goes no further than the corners went again. Test: test_ranges.c, room_of_edges. */
 
 double fw_verdict_band_above(const fw_verdict_search *s, int hinge) {
     double most = 1.0;
@@ -457,27 +454,45 @@ fw_status fw_verdict_search_most(fw_verdict_search *s) {
      ln w = ln w0 + sum of slopes d ln w/dx (x - x0)
 
    over all ranges, by the runs that slopes are made of, and at least what was met at any corner; with the error at either
-   end. Every device that was run is widened by what it may do anywhere there (fw_verdict_shaken_within), loads by its
+   end. Of devices alone that the same contacts hold: a jaw that presses has another mode than one that is open, which is no
+   softness of any die. Every device that was run is widened by what it may do anywhere there (fw_verdict_shaken_within), loads by its
    stiffness, too, and the most of all counts: of dies at one frequency that goes farthest which weighs least, and ranges have
    their lightest die at a corner; it is softer than the nominal one by more than its frequency says. All that is as made has
    it: bands of requirements, what a hinge uses at most (held_ranges.c). Test: test_effects.py Resonance */
 
-/* a mode as it is at a point; NULL: nothing is known of it there */
+/* the same contacts, stops and cables hold both where their modes are asked for: else these are not the same modes */
+static bool held_alike(const fw_verdict_shaken *a, const fw_verdict_shaken *b) {
+    if (a->nreach != b->nreach) return false;
+    for (int c = 0; c < a->nreach; c++)
+        if (a->reach[c].rests != b->reach[c].rests) return false;
+    return true;
+}
+
+/* a mode as it is at a point, of what is held as `like`; NULL: nothing is known of it there */
 static const fw_verdict_shaken_mode *mode_at(const fw_verdict_search *s, int point, int scene,
-                                             int number) {
+                                             int number, const fw_verdict_shaken *like) {
     const fw_verdict_shaken *there = s->fabricated->corner[point].shaken;
-    for (int k = 0; there && k < there[scene].n; k++)
+    for (int k = 0; there && held_alike(&there[scene], like) && k < there[scene].n; k++)
         if (there[scene].mode[k].number == number) return &there[scene].mode[k];
     return NULL;
 }
 
-static void spread_mode(const fw_verdict_search *s, int scene, fw_verdict_shaken_mode *mode) {
+static void hold_mode(const fw_verdict_shaken_mode *at, fw_verdict_shaken_mode *mode) {
+    mode->low = fmin(mode->low, at->low), mode->high = fmax(mode->high, at->high);
+    mode->soft = fmin(mode->soft, at->soft), mode->stiff = fmax(mode->stiff, at->stiff);
+}
+
+/* of the nominal device; by[2]: ln of how far down and up its range is from it */
+static void spread_mode(const fw_verdict_search *s, int scene, fw_verdict_shaken_mode *mode,
+                        double by[2]) {
     const fw_verdict_fabrication_input *in = s->v->input;
+    const fw_verdict_shaken *own = &s->fabricated->corner[0].shaken[scene];
     const double w = mode->omega;
     double slope[FW_FABRICATION_INPUTS] = {0}, up = 0, down = 0;
     for (int i = 0; i < s->v->ninput && s->first > 0; i++) {
         const int like = s->slope_like[i], p = s->slope_point[i];
-        const fw_verdict_shaken_mode *at = p == FW_NONE ? NULL : mode_at(s, p, scene, mode->number);
+        const fw_verdict_shaken_mode *at =
+            p == FW_NONE ? NULL : mode_at(s, p, scene, mode->number, own);
         if (like < i) slope[i] = slope[like] * in[i].edge_m / in[like].edge_m;
         if (at) slope[i] = log(at->omega / w) / (s->fabricated->corner[p].x[i] - in[i].nominal);
         if (!fw_verdict_search_has_range(&in[i])) continue;
@@ -486,9 +501,11 @@ static void spread_mode(const fw_verdict_search *s, int scene, fw_verdict_shaken
         up += fmax(0, fmax(a, b)), down += fmin(0, fmin(a, b));
     }
     mode->low *= exp(down), mode->high *= exp(up);
+    mode->soft *= exp(down), mode->stiff *= exp(up);
+    by[0] = down, by[1] = up;
     for (int p = 0; p < s->fabricated->ncorner; p++) {
-        const fw_verdict_shaken_mode *at = mode_at(s, p, scene, mode->number);
-        if (at) mode->low = fmin(mode->low, at->low), mode->high = fmax(mode->high, at->high);
+        const fw_verdict_shaken_mode *at = mode_at(s, p, scene, mode->number, own);
+        if (at) hold_mode(at, mode);
     }
 }
 
@@ -501,14 +518,20 @@ fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
     for (int k = 0; k < to->n; k++) {
         fw_verdict_shaken_mode *mode = &to->mode[k];
         for (int p = 0; p < s->fabricated->ncorner; p++) {
-            const fw_verdict_shaken_mode *at = mode_at(s, p, scene, mode->number);
-            if (at) mode->low = fmin(mode->low, at->low), mode->high = fmax(mode->high, at->high);
+            const fw_verdict_shaken_mode *at = mode_at(s, p, scene, mode->number, to);
+            if (at) hold_mode(at, mode);
         }
         for (int i = 0; i < nominal->n; i++) {
             fw_verdict_shaken_mode wide = nominal->mode[i];
+            double by[2];
             if (wide.number != mode->number) continue;
-            spread_mode(s, scene, &wide);
-            mode->low = fmin(mode->low, wide.low), mode->high = fmax(mode->high, wide.high);
+            spread_mode(s, scene, &wide, by);
+            if (!held_alike(nominal, to)) { /* as far from itself as two dies are from each other */
+                wide = *mode;
+                wide.low *= exp(by[0] - by[1]), wide.soft *= exp(by[0] - by[1]);
+                wide.high *= exp(by[1] - by[0]), wide.stiff *= exp(by[1] - by[0]);
+            }
+            hold_mode(&wide, mode);
         }
     }
     return FW_OK;
@@ -517,7 +540,7 @@ fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
 /* ---- which of those that were run lead ----
    What rings by the same law at the same frequency goes as far as its loads hold it at rest, c, or at one frequency as it is
    light, c w^2; a hinge is strained likewise. So of each hinge, requirement, body and thing that may be met those two lead of
-   which that is most (of a requirement also least), and others add nothing. What is followed by single laws costs little, and all of them are looked at. */
+   which that is most (of a requirement also least) among those that the same contacts hold, and others add nothing. */
 
 /* by the mode that has most, over how far it goes; 0: not known */
 static double held_by(const fw_verdict_search *s, const fw_verdict_shaken *of, bool light) {
@@ -565,6 +588,7 @@ bool fw_verdict_leads(const fw_verdict_search *s, int scene, int point) {
             for (int p = 0; p < s->fabricated->ncorner && (most || least); p++) {
                 const fw_verdict_shaken *there = s->fabricated->corner[p].shaken;
                 if (p == point || !there || there[scene].n == 0) continue;
+                if (!held_alike(&there[scene], own)) continue;
                 const double other = held_by(s, &there[scene], light) * amount_of(s, scene, p, q);
                 most = most && !(other > is || (other == is && p < point));
                 least = least && !(other < is || (other == is && p < point));

@@ -15,8 +15,7 @@
    Inputs: the motion, and modes about the equilibrium of what does not go to and fro, voltages that do by their root mean
    square. Where that may be reached from rest within the scene frequencies in between belong to the range.
    Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
-   Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance
-   What comes again while a mode rings counts likewise (ringing.c).
+   Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance. What comes again: ringing.c.
    Loads that make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
 #include "base/constants.h"
 #include "geometry/segment.h"
@@ -139,7 +138,7 @@ static answer answers_to(const shaking *by, double end_s, const fw_verdict_shake
         const double at = k == n ? fmin(fmax(own, low), high) : low + (high - low) * k / (n - 1);
         const double now = fw_quantity_law_swing(by->law, by->as, end, at, mode->damping);
         const double by_stiffness =
-            by->as == FW_LAW_OF_COORDINATE ? 1 : fw_verdict_soft_by(softer, mode->omega, at);
+            by->as == FW_LAW_OF_COORDINATE ? 1 : fw_verdict_soft_within(softer, mode, at);
         if (!(now >= 0)) continue;
         r.strained = fmax(r.strained, now / as_computed * fmax(1, by_stiffness));
         r.up = fmax(r.up, now / as_computed * by_stiffness);
@@ -175,8 +174,7 @@ static double late_of(const fw_verdict_shaken_mode *mode, const answer *r, doubl
     return mode->late * most;
 }
 
-/* All modes that lie elsewhere one by one, and where one share moves them all; of what moves the body that is worst off
-   counts */
+/* All modes that lie elsewhere one by one, and where one share moves them all; of what moves the worst body counts */
 static fw_status add_answers(fw_arena *arena, const fw_mechanism *m, const shakings *by,
                              const fw_verdict_shaken *shaken, fw_verdict_softness softer,
                              double *factor, double *each, double *late) {
@@ -224,24 +222,29 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
                              shakings *by, fw_verdict_shaken *to) {
     const fw_statics_modes *modes = NULL, *rest = NULL;
     fw_device_scene steady, still = {.name = "(none)", .duration_s = 1};
-    bool moves, slowly;
+    bool moves, slowly, held = false;
     FW_TRY(find_laws(arena, m, s, by));
     if (motion->loads && motion->loads->quasi_static)
         by->n = 0, by->again = own = false; /* equilibria neither swing nor are pumped */
     if ((by->n == 0 && !by->again && !own) || motion->nsample < 2) return FW_OK;
     FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
     FW_TRY(fw_verdict_modes_about(arena, m, &steady, moves, 0.03, &modes));
-    if (modes && slowly) FW_TRY(fw_verdict_modes_about(arena, m, &steady, false, 0.03, &rest));
+    const bool reached = modes != NULL;
     if (!modes) FW_TRY(fw_verdict_modes_about(arena, m, &still, false, 0.03, &modes));
     if (!modes) return FW_OK;
     FW_NEED(to->mode = fw_arena_array(arena, fw_verdict_shaken_mode, MODES_SHAKEN));
     FW_TRY(fw_verdict_swings(arena, m, s, by->again, modes, motion, MODES_SHAKEN, to));
     for (int k = 0; k < to->n; k++) {
         const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
-        to->mode[k].low = to->mode[k].omega * (1 - off - 0.5 * bodies);
-        to->mode[k].high = to->mode[k].omega * (1 + off);
+        to->mode[k].low = to->mode[k].soft = to->mode[k].omega * (1 - off - 0.5 * bodies);
+        to->mode[k].high = to->mode[k].stiff = to->mode[k].omega * (1 + off);
     }
-    if (rest) hold_both(rest, bodies, to);
+    for (int c = 0; c < to->nreach; c++)
+        held = held || (to->reach[c].rests && to->reach[c].gap_m > 0);
+    if (reached && (slowly || held))
+        FW_TRY(fw_verdict_modes_about(arena, m, &steady, false, 0.03, &rest));
+    if (rest) fw_verdict_reach_gives(rest, MODES_SHAKEN, true, to); /* before it is met */
+    if (rest && slowly) hold_both(rest, bodies, to);
     return FW_OK;
 }
 
@@ -364,8 +367,10 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
     double hangs_s2 = 0; /* 1/omega^2 of rigid bodies and of what hangs over add up (Weyl) */
     for (int i = 0; v->out_of_plane && v->out_of_plane->hung && i < m->nbody; i++)
         hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_mode_s2);
-    for (int k = 0; k < to->n; k++)
-        to->mode[k].low /= sqrt(1 + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
+    for (int k = 0; k < to->n; k++) {
+        const double lower = sqrt(1 + hangs_s2 * to->mode[k].omega * to->mode[k].omega);
+        to->mode[k].low /= lower, to->mode[k].soft /= lower;
+    }
     FW_NEED(to->each = fw_arena_array(arena, double,
                                       (size_t)m->nhinge + (size_t)m->nbody + (size_t)to->nreach));
     FW_TRY(add_answers(arena, m, &by, to, FW_VERDICT_AS_STIFF, to->factor, to->each, &to->late));

@@ -298,7 +298,8 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
     const double hardly = 1e-3, rings = 0.01, least = fw_verdict_least_damped(m, s);
     acting by = {0};
     fw_dynamics_motion_rows(motion, 0, motion->nsample); /* they wait for whom reads them */
-    FW_TRY(fw_verdict_reach_find(arena, motion, modes->unit_length_m, to));
+    FW_TRY(fw_verdict_reach_find(arena, motion, modes->unit_length_m, modes->q, to));
+    fw_verdict_reach_gives(modes, most_modes, false, to);
     const int rows = m->nhinge + m->nbody + to->nreach;
     FW_NEED(to->most = fw_arena_array(arena, double, (size_t)rows));
     see_most(m, motion, modes->unit_length_m, to->most);
@@ -316,10 +317,6 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
         const fw_statics_mode *mode = &modes->mode[k];
         double swings[2], start, share = 0;
         if (!(mode->stiffness_per_s2 > 0) || !mode->shape) continue;
-        for (int c = 0; c < to->nreach; c++)
-            to->reach[c].gives_m_per_N +=
-                pow(fw_verdict_reach_by(&to->reach[c], modes->q, mode->shape), 2) /
-                (mode->modal_mass_kg_m2 * mode->stiffness_per_s2);
         see_swings(m, modes, motion, k, swings, &start);
         fw_verdict_shaken_mode *out = &to->mode[to->n];
         FW_NEED(out->bends = fw_arena_array(arena, bent, (size_t)rows));
@@ -346,6 +343,11 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
 }
 
 /* ---- what they may do more or less ---- */
+
+double fw_verdict_soft_within(fw_verdict_softness softer, const fw_verdict_shaken_mode *mode,
+                              double at) {
+    return fw_verdict_soft_by(softer, mode->omega, fmin(fmax(at, mode->soft), mode->stiff));
+}
 
 typedef struct rings { /* of several modes at once */
     const fw_quantity_law_pieces *pieces;
@@ -399,7 +401,7 @@ static double answers_at(rings *r, const double *times, double *answer) {
         for (int l = 0; l < LANES; l++) {
             const double at = fmin(fmax(times[l] * mode->omega, mode->low), mode->high);
             o[k].omega_per_s[l] = at;
-            o[k].scale[l] = fw_verdict_soft_by(r->softer, mode->omega, at);
+            o[k].scale[l] = fw_verdict_soft_within(r->softer, mode, at);
         }
     }
     const double steps = fw_quantity_law_swings_of(&on, o, r->n, &r->seen);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Peak strain of a flexure under rotation and joint force, followed along a motion, and the fatigue
-   of one that is repeated. Private to the room, its tests and study/. */
+/* Peak strain of a flexure under rotation and joint force, followed along a motion, and the fatigue of one that is repeated.
+   Private to the room, its tests and study/. */
 #ifndef FW_VERDICT_STRAIN_H
 #define FW_VERDICT_STRAIN_H
 #include "dynamics/dynamics.h"
@@ -517,8 +517,7 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
    of all hinges counts for each, since one alone may agree by chance. */
 double fw_verdict_strain_monitor_error(const fw_verdict_strain_monitor *tighter,
                                        const fw_verdict_strain_monitor *looser, double margin);
-/* that over thirty times the accuracy wanted (at most 3 %) of the lowest limit:
-   fw_dynamics_motion_options.unsettled */
+/* that over thirty times the accuracy wanted (at most 3 %) of the lowest limit: fw_dynamics_motion_options.unsettled */
 double fw_verdict_strain_monitor_unsettled(const void *tighter, const void *looser, double margin,
                                            double accuracy);
 
@@ -573,19 +572,23 @@ const char *fw_verdict_limb_text(fw_arena *arena, const fw_layout *layout,
 typedef struct fw_verdict_reach {
     const char *id;
     int pin; /* of a stop: the joint that it is of; else FW_NONE */
-    /* m; of a stop times the length of modes: what it leaves at the start, how much of that the motion takes at most, and how
-       far it goes either way */
+    /* m; of a stop times the length of modes: what it leaves at the start, how much of that the motion takes at most, and how far
+       it goes either way */
     double gap_m, closes_m, goes_m;
+    bool rests; /* it is met where the scene's modes are asked for, and stiffens them */
     double stiff_N_per_m,
-        gives_m_per_N; /* where it is met; what the device gives there by its modes */
+        gives_m_per_N; /* where it is met; what the device gives there before that, by modes */
     const fw_effects_force_element *element; /* of the motion; NULL where kept */
     const fw_effects_stop *stop;
     double per_m; /* of what the element says of itself */
 } fw_verdict_reach;
 struct fw_verdict_shaken;
-/* shaken->reach, from the samples of the motion and the cubic through them and their rates */
+/* shaken->reach, from the samples of the motion and the cubic through them and their rates; q: the pose of modes */
 fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *motion, double unit_m,
-                                struct fw_verdict_shaken *shaken);
+                                const double *q, struct fw_verdict_shaken *shaken);
+/* held_ranges.c: gives_m_per_N, of all, or of what rests alone: by modes, of which at most `most` are taken */
+void fw_verdict_reach_gives(const fw_statics_modes *modes, int most, bool rests,
+                            struct fw_verdict_shaken *shaken);
 /* by how much of its gap a small displacement u (3 nbody) about q takes, m */
 double fw_verdict_reach_by(const fw_verdict_reach *reach, const double *q, const double *u);
 /* body_farther.c: what it may take of its gap at most where everything it does goes `up` times as far; its words */

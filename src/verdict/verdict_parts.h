@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which of two verdicts matters more, what a refined computation may decide, one scene, and the
-   search over what a flow may make. Private to the room and its tests. */
+/* Which of two verdicts matters more, what a refined computation may decide, one scene, and the search over what a flow may
+   make. Private to the room and its tests. */
 #ifndef FW_VERDICT_VERDICT_PARTS_H
 #define FW_VERDICT_VERDICT_PARTS_H
 #include "base/sort.h"
@@ -22,8 +22,7 @@ double fw_verdict_enough(const fw_verdict_hinge_verdict *hinge, int nhinge, doub
 /* the same request, as close as that */
 fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
                                       fw_verdict_refinement refinement);
-/* verdict_run.c: every joint is where both its bodies put it, within 10 nm, in the drawn position
-   (FW-D206) */
+/* verdict_run.c: every joint is where both its bodies put it, within 10 nm, in the drawn position (FW-D206) */
 fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *mechanism,
                                    fw_diags *diags);
 
@@ -33,8 +32,7 @@ enum { FW_REASONS = 16 }; /* of one scene at most, contacts apart */
 /* of one flow at most */
 size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 
-/* scene i of the device: motion[i] (NULL where electrodes touch, or where the formula of another
-   effect ends), pull_in[i], and reasons of v */
+/* scene i of the device: motion[i] (NULL where electrodes touch, or a formula of another effect ends), pull_in[i], reasons of v */
 fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
                            const fw_dynamics_motion_options *options, fw_diags *diags,
                            fw_verdict_variant_verdict *v);
@@ -191,6 +189,8 @@ double fw_verdict_bends_most(fw_verdict_bends b);
 typedef struct fw_verdict_shaken_mode {
     int number;                       /* from 0 */
     double omega, damping, low, high; /* rad/s; where it may lie */
+    double soft,
+        stiff; /* likewise, by its stiffness alone: without what the scene passes on its way to its loads and contacts */
     /* (nhinge + nbody + nreach) what it does as computed of the most that each is bent, or goes; 0: that hardly is */
     fw_verdict_bends *bends;
     double late;  /* how far it still swings at the end, over how far it ever does */
@@ -203,8 +203,7 @@ typedef struct fw_verdict_other {
     bool asked, lost; /* it was, and there is no such motion to its end */
     double by, off;   /* its loads; what stands for all that gives, relative */
     const fw_dynamics_motion *motion;
-    const fw_probe_monitor
-        *probe; /* what probes of requirements read in it; NULL: there are none */
+    const fw_probe_monitor *probe; /* what those of requirements read in it; NULL: none are */
 } fw_verdict_other;
 struct fw_verdict_shaken {
     fw_verdict_shaken_mode *mode;   /* (n) */
@@ -516,6 +515,8 @@ bool fw_verdict_leads(const fw_verdict_search *s, int scene, int point);
 /* held_ranges.c: bands as made hold what a device between corners does that meets a resonance; where all corners are accepted
    s->fabricated and v may then be undecided, with a reason (FW-D636, FW-D731) */
 fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v);
+bool fw_verdict_row_settle(
+    fw_verdict_requirement *made); /* undecided where its band is beyond; true: it was accepted */
 bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest);
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);
 /* inputs that change nothing but edges have the same slopes, scaled */

@@ -114,7 +114,7 @@ static void hold_both(const fw_verdict_variant_verdict *one,
             to->all_low = fmin(end_of(a->all_low, a->low), end_of(b->all_low, b->low));
             to->all_high = fmax(end_of(a->all_high, a->high), end_of(b->all_high, b->high));
         }
-        to->low = low, to->high = high;
+        to->low = low, to->high = high, fw_verdict_row_settle(to);
     }
 }
 

@@ -1306,6 +1306,9 @@ class Resonance(unittest.TestCase):
         # 45 um: by a tenth less of its thickness a die of 100 GPa goes a ninth farther
         self.assertGreater(die(text, 100, "--set", "material/@thickness=10.8 um")["requirements"][0]["value"], 45e-6)
         self.assertEqual((thin["verdict"], [r["code"] for r in thin["reasons"]]), ("inconclusive", ["FW-D636"]))
+        # and its own row does not say otherwise
+        made = thin["requirements"][0]["as_fabricated"]
+        self.assertEqual((made["verdict"], made["all_corners_band"][1] > 45e-6), ("inconclusive", True))
 
     def test_next_to_nothing_meets_nothing(self):
         """0.1 nN at 330 Hz: up to six times 1 nm is far from all that is 150 um away, however near to a resonance"""
