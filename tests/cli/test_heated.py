@@ -154,6 +154,15 @@ class Heated(unittest.TestCase):
         found = self.probes(text, "statics")
         self.assertAlmostEqual(found["tip"]["value"] / (-100e6 * (1 - 0.34) / 115e9 * 3.95e-3), 1, delta=0.02)
 
+    def test_a_layer_of_a_crystal_has_the_modulus_of_its_plane(self):
+        """(100) silicon: c11 + c12 - 2 c12^2/c11 = 180.3 GPa in every direction, not the 213 GPa of a mean E and a nu out of the plane;
+        whoever states E alone states that of one direction, and the pair along <110>, 169 GPa and 0.064, is 180.6 GPa"""
+        text = ARM.format(law="", also="").replace('<temperature change="dT" />', '<residual-stress mean="100 MPa"/>')
+        text = text.replace('"copper-plated" thickness="15 um"', '"silicon-100" thickness="15 um"{}').replace("copper-on-porous-silicon", "al-masked-rie")
+        for stated, modulus in (("", 180.316e9), (' youngs-modulus="169 GPa"', 180.316e9), (' youngs-modulus="169 GPa" poisson="0.064"', 169e9 / 0.936)):
+            tip = self.probes(text.replace("{}", stated), "statics")["tip"]["value"]
+            self.assertAlmostEqual(tip / (-100e6 / modulus * 3.95e-3), 1, delta=0.01)
+
     def test_what_a_pack_knows_of_expansion_is_a_corner(self):
         """16.7 ppm/K are known to 0.5: at two of these the tip goes 7.9 % farther. Stated in the scene they are exact"""
         text = CHEVRON.replace('change="60 K"/>', 'change="60 K" law="ramp" rise="20 ms"/><air kind="slide" on="sh" gap="20 um"/>')
