@@ -175,7 +175,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         FW_TRY(add_strain(c, strains));
         FW_TRY(fw_effects_envelope_strain(c, strains, NULL, value));
     }
-    if (r.strain != 0 && fw_effects_places_count(c)) /* it moves them by itself */
+    if (r.strain != 0 && (fw_effects_places_count(c) || fw_effects_foreign_in(c)))
+        /* it moves places by itself, and against what is not of the layer */
         *value = (double)INFINITY;
     FW_NEED(*reason = fw_arena_printf(
                 c->arena,
