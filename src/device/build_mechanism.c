@@ -138,6 +138,7 @@ static fw_device_spring spring_of(fw_device_reader *r, const fw_xml_record *reco
                           .stiffness_N_per_m = fw_xml_number_of(record, "stiffness"),
                           .damping_Ns_per_m = fw_xml_number_or(record, "damping", 0.0),
                           .length_m = fw_xml_number_or(record, "length", 0.0),
+                          .expansion_per_K = fw_xml_number_or(record, "expansion", 0.0),
                           .cable = cable && strcmp(cable, "yes") == 0,
                           .place = record->element->place};
     read_ends(r, record, &s.body_a, &s.body_b);

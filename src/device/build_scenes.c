@@ -146,7 +146,7 @@ static void check_path(fw_device_reader *r, const fw_xml_record *record,
 }
 
 static void check_pull_or_draw(fw_device_reader *r, const fw_xml_record *record) {
-    static const char *const of_draw[] = {"stiffness", "damping", "slack"};
+    static const char *const of_draw[] = {"stiffness", "damping", "slack", "expansion"};
     char label[FW_LABEL];
     bool pull = fw_xml_given(record, "pull"), draw = fw_xml_given(record, "draw");
     fw_xml_label(record, label);
@@ -163,7 +163,7 @@ static void check_pull_or_draw(fw_device_reader *r, const fw_xml_record *record)
             label);
     else if (pull)
         fw_device_refused(
-            r, record, 75, of_draw, 3,
+            r, record, 75, of_draw, 4,
             "changes nothing where the tension is given by pull; remove it, or write draw");
     else
         fw_device_needed(r, record, 75, of_draw, 1, "a drawn cable pulls because it is stretched");
@@ -195,6 +195,7 @@ static fw_status build_tendon(fw_device_scene_reader *s, int at) {
                           .stiffness_N_per_m = fw_xml_number_or(record, "stiffness", 0.0),
                           .damping_Ns_per_m = fw_xml_number_or(record, "damping", 0.0),
                           .slack_m = fw_xml_number_or(record, "slack", 0.0),
+                          .expansion_per_K = fw_xml_number_or(record, "expansion", 0.0),
                           .place = record->element->place};
     FW_TRY(read_eyelets(s->r, at, &t));
     check_path(s->r, record, &t);
@@ -306,7 +307,8 @@ static fw_status build_base_motion(fw_device_scene_reader *s, int at) {
                                .ay_m_per_s2 = fw_xml_number_or(record, "ay", 0.0),
                                .az_m_per_s2 = fw_xml_number_or(record, "az", 0.0),
                                .place = record->element->place};
-    if (b.ax_m_per_s2 == 0 && b.ay_m_per_s2 == 0 && b.az_m_per_s2 == 0)
+    /* a stated 0 is an acceleration, as the end of a sweep of shocks is */
+    if (!fw_xml_given(record, "ax") && !fw_xml_given(record, "ay") && !fw_xml_given(record, "az"))
         fw_diag_error(
             s->r->diags, 93, b.place,
             "<base-motion> needs an acceleration; give ax, ay or az, for example ax=\"100 m/s^2\", "

@@ -87,13 +87,13 @@ fw_status fw_device_build_friction(fw_device_scene_reader *s, int at) {
 
 static void check_hinge(fw_device_reader *r, const fw_xml_record *record, const fw_device_scene *s,
                         fw_device_contact_use *c, int k) {
-    static const char *const of_points[] = {"a",   "a-x",  "a-y",      "b",      "b-x",
-                                            "b-y", "side", "distance", "undrawn"};
+    static const char *const of_points[] = {"a",   "a-x",  "a-y",      "b",       "b-x",
+                                            "b-y", "side", "distance", "undrawn", "expansion"};
     const fw_device *d = r->device;
     char label[FW_LABEL];
     fw_xml_label(record, label);
     fw_device_refused(
-        r, record, 78, of_points, 9,
+        r, record, 78, of_points, 10,
         "describes a contact of two points, and this one is on a hinge; remove it, or write "
         "two contacts");
     if (k < 0) return;
@@ -180,6 +180,7 @@ fw_status fw_device_build_contact(fw_device_scene_reader *s, int at) {
                                .stiffness_N_per_m = fw_xml_number_of(record, "stiffness"),
                                .damping_Ns_per_m = fw_xml_number_or(record, "damping", 0.0),
                                .undrawn = undrawn_of(fw_xml_text_of(record, "undrawn")),
+                               .expansion_per_K = fw_xml_number_or(record, "expansion", 0.0),
                                .place = record->element->place};
     if (hinge)
         check_hinge(s->r, record, s->scene, &c, fw_device_reference(s->r, record, "on"));
@@ -226,7 +227,8 @@ fw_status fw_device_build_residual_stress(fw_device_scene_reader *s, int at) {
                                         .gradient_Pa_per_m =
                                             fw_xml_number_or(record, "gradient", 0.0),
                                         .place = record->element->place};
-    if (stress.mean_Pa == 0 && stress.gradient_Pa_per_m == 0)
+    /* a stated 0 is a stress, as the end of a range that a study looks at is */
+    if (!fw_xml_given(record, "mean") && !fw_xml_given(record, "gradient"))
         fw_diag_error(
             s->r->diags, 93, stress.place,
             "<residual-stress> without stress changes nothing; give mean or gradient, for "

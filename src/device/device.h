@@ -148,7 +148,8 @@ typedef struct fw_device_spring { /* <spring>: point to point */
     int body_a, body_b;
     double ax_m, ay_m, bx_m, by_m; /* local; for ground: world */
     double stiffness_N_per_m, damping_Ns_per_m, length_m;
-    bool cable; /* only pulls: no force while shorter than its length */
+    double expansion_per_K; /* thermal, of its length at rest */
+    bool cable;             /* only pulls: no force while shorter than its length */
     fw_place place;
 } fw_device_spring;
 
@@ -192,6 +193,7 @@ typedef struct fw_device_tendon {
     double pull_N;                                       /* NaN: drawn */
     double draw_m;                                       /* NaN: pulled */
     double stiffness_N_per_m, damping_Ns_per_m, slack_m; /* drawn; slack below 0: pretension */
+    double expansion_per_K;                              /* drawn: thermal, of the cable */
     const fw_quantity_law *law;
     fw_place place;
 } fw_device_tendon;
@@ -282,6 +284,7 @@ typedef struct fw_device_contact_use {
     double stiffness_N_per_m; /* NaN, of a hinge: of the line contact of its surfaces */
     double damping_Ns_per_m;
     fw_device_undrawn undrawn;
+    double expansion_per_K; /* thermal, of what is placed; 0: it keeps its size */
     fw_place place;
 } fw_device_contact_use;
 

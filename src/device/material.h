@@ -42,7 +42,7 @@ void fw_device_limit_data_complete(const fw_device_limit_data *data, const char 
 typedef struct fw_device_material {
     const char *id, *name;
     fw_quantity youngs;    /* Pa, for bending in the wafer plane */
-    fw_quantity poisson;   /* 1 */
+    fw_quantity poisson;   /* 1; of a crystal out of the plane */
     fw_quantity density;   /* kg/m3 */
     fw_quantity strength;  /* Pa: stress that the safety factor divides */
     const char *criterion; /* "fracture", "proportional limit", "yield" */
@@ -55,6 +55,7 @@ typedef struct fw_device_material {
     fw_quantity c11, c12, c44;  /* Pa: of a cubic crystal in a (100) wafer; unknown: isotropic */
     fw_device_limit_data limit; /* what else is known of what it bears */
     bool strength_stated;       /* by the device file: it rules alone */
+    bool plane_by_constants; /* of a crystal of which the device file states E alone: see below */
 } fw_device_material;
 
 typedef struct fw_device_material_override { /* attributes of <material>; unknown where absent */
@@ -87,5 +88,7 @@ fw_device_material fw_device_material_with(const fw_device_material *material,
                                            const fw_device_material_override *override);
 /* all three constants are known: its modulus goes with the direction */
 bool fw_device_material_is_crystal(const fw_device_material *material);
+/* Stress over strain of a layer that is stretched alike in all directions of its plane, Pa; NaN where it is not known */
+double fw_device_material_biaxial_Pa(const fw_device_material *material);
 
 #endif

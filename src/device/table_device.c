@@ -152,9 +152,13 @@ static const fw_xml_attribute_row material_rows[] = {
     {"youngs-modulus", D_PRESSURE,
      RANGE(1e6, 2e12, "below 1 MPa are gels and foams; no material is stiffer than 2 TPa"),
      .fallback = "the material's",
-     .sentence = "Young's modulus for bending in the wafer plane, in every direction."},
+     .sentence = "Young's modulus for bending in the wafer plane, in every direction. Of a crystal "
+                 "the elastic constants still say how the layer gives way to its stress, unless "
+                 "poisson is stated with it."},
     {"poisson", D_PURE, ABOVE(-1, 0.5, "elastic stability of an isotropic body"),
-     .fallback = "the material's", .sentence = "Poisson's ratio."},
+     .fallback = "the material's",
+     .sentence =
+         "Poisson's ratio; of a crystal out of the plane, where youngs-modulus is not stated."},
     {"density", D_DENSITY,
      RANGE(1, 3e4, "no solid to build of is lighter than 1 kg/m3 or denser than 30000 kg/m3"),
      .fallback = "the material's", .sentence = "Density."},

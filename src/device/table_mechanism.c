@@ -179,7 +179,16 @@ static const fw_xml_attribute_row spring_rows[] = {
     {"stiffness", D_LINEAR_K, ELASTIC, REQUIRED,
      .sentence = "Force per length by which it is longer than at rest."},
     {"damping", D_LINEAR_C, ELASTIC, .fallback = "0 N s/m", .sentence = "Force per speed."},
-    {"length", LENGTH, .fallback = "0 mm", .sentence = "Length at which it is at rest."},
+    {"length", LENGTH, .fallback = "0 mm",
+     .sentence =
+         "Length at which it is at rest. It is not of the layer, and stays what it is where "
+         "a temperature or a stress makes that longer or shorter."},
+    {"expansion", .kind = FW_KIND_NUMBER, .dimension = {.K = -1}, .unit = "ppm/K",
+     RANGE(-0.01, 0.01, "no solid stretches by 1 % per kelvin"),
+     .fallback = "0: it keeps its length",
+     .sentence =
+         "Of that length: its own thermal expansion, where a scene has a temperature, which "
+         "it then has too."},
     {"cable", .kind = FW_KIND_WORD, .words = yes_no, .fallback = "no",
      .sentence = "yes: it only pulls, and hangs slack while shorter than its length."},
 };

@@ -92,6 +92,11 @@ static const fw_xml_attribute_row tendon_rows[] = {
     {"slack", PLACE, .fallback = "0 mm",
      .sentence = "Length that the cable has to spare as drawn; negative: it is stretched by that "
                  "much. Only with draw."},
+    {"expansion", D_PER_K, RANGE(-0.01, 0.01, "no solid stretches by 1 % per kelvin"),
+     .fallback = "0: it keeps its length",
+     .sentence =
+         "Of the cable: its own thermal expansion, where the scene has a temperature, which "
+         "it then has too. Only with draw."},
 };
 static const fw_xml_attribute_row eyelet_rows[] = {
     {"on", REF(FW_SPACE_BODY), .ground = true, REQUIRED,
@@ -219,7 +224,13 @@ static const fw_xml_attribute_row contact_rows[] = {
          "Outside, of what the masks of this device do not draw (which is said by name, FW-D656). "
          "placed: an object that is gripped, or a stop that is put there, with its face at the "
          "place that is stated. etched: masks that you add draw it in the same layer, so that its "
-         "edge moves as all edges of a flow do. Of what is drawn it says nothing."},
+         "edge moves as all edges of a flow do. Of what is drawn it says nothing. Where the scene "
+         "has a temperature or a stress of the layer, what is placed keeps its own size in metres "
+         "(see expansion), and what is etched grows with the layer."},
+    {"expansion", D_PER_K, RANGE(-0.01, 0.01, "no solid stretches by 1 % per kelvin"),
+     .fallback = "0: it keeps its size",
+     .sentence = "Outside, of what is placed: its own thermal expansion, where the scene has a "
+                 "temperature, which it then has too."},
 };
 
 /* ---- material and surroundings ---- */
@@ -331,7 +342,12 @@ const fw_xml_element_row fw_device_table_effects[] = {
      .sentence = "Device and substrate are warmer or colder than when the device was made: lengths "
                  "and stiffnesses change."},
     {"residual-stress", "scene", .once = true, ROWS(stress_rows),
-     .sentence = "Stress that the layer was deposited with and gives way to when it is set free."},
+     .sentence =
+         "Stress that the layer was deposited with and gives way to when it is set free, by the "
+         "biaxial modulus of its plane: of a crystal that of its elastic constants, else "
+         "youngs-modulus/(1 - poisson). It acts from the start of the scene on, which rings by it; "
+         "the theory page says how a scene begins at rest "
+         "(docs/theory/effects/residual-stress.md)."},
     {"air", "scene", .most = 10000, ROWS(air_rows), .sentence = "Damping by the surrounding air."},
 #define FW_EFFECT(name)
 #define FW_EFFECT_ELEMENT(name, ...) __VA_ARGS__,

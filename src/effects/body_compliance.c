@@ -27,7 +27,17 @@ typedef struct yielding {         /* data */
 
 typedef struct point_spring {
     double length_m, stiffness_N_per_m, damping_Ns_per_m;
-} point_spring; /* a cable has a switch */
+    fw_effects_foreign foreign; /* its length in those of the layer; law NULL: it stays */
+} point_spring;                 /* a cable has a switch */
+
+/* that length, and its rate where the element looks at rates */
+static double length_at(const point_spring *k, const fw_effects_port_state *s, double *rate) {
+    *rate = 0;
+    if (!k->foreign.law) return k->length_m;
+    const double own = fw_effects_foreign_at(&k->foreign, s->t_s, s->piece_s, rate);
+    *rate = s->still ? 0 : *rate * k->length_m;
+    return own * k->length_m;
+}
 
 static double spring_stretch(const fw_effects_force_element *e, const fw_effects_port_state *s,
                              double u[2], double *length, double *rate) {
@@ -35,8 +45,10 @@ static double spring_stretch(const fw_effects_force_element *e, const fw_effects
     const double x = s->p[3] - s->p[0], y = s->p[4] - s->p[1];
     *length = hypot(x, y);
     u[0] = *length > 0 ? x / *length : 0, u[1] = *length > 0 ? y / *length : 0;
-    *rate = u[0] * (s->w[3] - s->w[0]) + u[1] * (s->w[4] - s->w[1]);
-    return *length - k->length_m;
+    double way;
+    const double rest = length_at(k, s, &way);
+    *rate = u[0] * (s->w[3] - s->w[0]) + u[1] * (s->w[4] - s->w[1]) - way;
+    return *length - rest;
 }
 
 static double spring_pull(const fw_effects_force_element *e, const fw_effects_port_state *s,
@@ -85,10 +97,11 @@ static double spring_energy(const fw_effects_force_element *e, const fw_effects_
 static void spring_power(const fw_effects_force_element *e, const fw_effects_port_state *s,
                          double power[2]) {
     const point_spring *k = e->data;
-    double u[2], length, rate;
-    spring_stretch(e, s, u, &length, &rate);
+    double u[2], length, rate, way;
+    const double stretch = spring_stretch(e, s, u, &length, &rate);
+    length_at(k, s, &way);
     power[0] = e->switches > 0 && !s->on[0] ? 0 : k->damping_Ns_per_m * rate * rate;
-    power[1] = 0;
+    power[1] = -way * spring_pull(e, s, stretch, rate);
 }
 
 static double spring_taut(const fw_effects_force_element *e, const fw_effects_port_state *s,
@@ -527,12 +540,14 @@ static fw_status yield(const fw_effect_case *c, fw_effects_force_element *e) {
     return FW_OK;
 }
 
-static fw_status spring_element(const fw_effect_case *c, fw_effects_loads *loads,
-                                const fw_device_spring *k) {
+fw_status fw_effects_spring_element(const fw_effect_case *c, fw_effects_loads *loads,
+                                    const fw_device_spring *k, const fw_effects_foreign *of) {
     point_spring *s = fw_arena_one(c->arena, point_spring);
     fw_effects_force_element *e = fw_effects_loads_add_element(c->arena, loads, &spring_class, 2);
     if (!s || !e) return FW_NOMEM;
-    *s = (point_spring){k->length_m, k->stiffness_N_per_m, k->damping_Ns_per_m};
+    s->length_m = k->length_m, s->stiffness_N_per_m = k->stiffness_N_per_m;
+    s->damping_Ns_per_m = k->damping_Ns_per_m;
+    if (of) s->foreign = *of;
     if (k->id) e->id = k->id;
     e->place = k->place;
     e->port[0] = (fw_effects_port){k->body_a, k->ax_m, k->ay_m};
@@ -541,7 +556,8 @@ static fw_status spring_element(const fw_effect_case *c, fw_effects_loads *loads
     e->data = s;
     e->size_N_per_m = k->stiffness_N_per_m;
     e->dissipates = k->damping_Ns_per_m > 0;
-    return yield(c, e);
+    if (of && of->law) e->law[0] = of->law, e->laws = 1, e->works = true;
+    return of ? FW_OK : yield(c, e);
 }
 
 static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
@@ -553,7 +569,7 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
         const fw_device_spring k = loads->spring[i];
         if (k.stiffness_N_per_m > 0 &&
             (gives(m, k.body_a, k.ax_m, k.ay_m) || gives(m, k.body_b, k.bx_m, k.by_m)))
-            FW_TRY(spring_element(c, loads, &k));
+            FW_TRY(fw_effects_spring_element(c, loads, &k, NULL));
         else
             loads->spring[kept++] = k;
     }

@@ -8,6 +8,8 @@
                      g = |u| - gap             u points to where the surfaces face each other
                      g = n.u - gap             else; n: where they end, the end nearer to u. It
                                                turns with the body whose surface ends there
+   Of the distance, what is of something placed (a bead, a fibre) does not grow with the layer, in whose lengths the model
+   counts (fw_effects_foreign). Under a temperature with a law it moves, g has a rate of its own, g_t, and N g_t is fed in.
    force -N dg/dp, stiffness dg/dp (k dg/dp + c d2g/dp2 w) + N d2g/dp2, damping c dg/dp dg/dp. It
    acts while its switch is on, min(k g, k g + c g') > 0: pressed, and not pulling.
 
@@ -29,6 +31,9 @@ enum { N = 6 };
 
 typedef struct touch { /* data; ports: point of body a, point of body b */
     double distance_m, k_N_per_m, c_Ns_per_m;
+    double
+        placed_m; /* of that, of what is not of the layer and changes with time as `foreign` does */
+    fw_effects_foreign foreign;
     double side; /* 1: |D| beyond the distance presses, -1: below it */
     bool face;   /* port 0 is a point of a flat face with this normal in its body's frame: */
     double face_rad;
@@ -78,23 +83,36 @@ static double angle_behind(double ux, double uy, double from) {
     return behind < 0 ? behind + 2 * FW_PI : behind;
 }
 
-static void overlap_of(const touch *t, const double *p, bool second, overlap *g) {
+static void overlap_of(const touch *t, const double *p, double distance, bool second, overlap *g) {
     double ux = t->sense * (p[3] - p[0]), uy = t->sense * (p[4] - p[1]);
     double from = t->from_rad + p[3 * t->from_port + 2], to = t->to_rad + p[3 * t->to_port + 2];
     if (t->face)
-        ended(p, -1, t->face_rad + p[2], 0, -t->distance_m, second, g);
+        ended(p, -1, t->face_rad + p[2], 0, -distance, second, g);
     else if (!t->partial || angle_behind(ux, uy, from) <= to - from)
-        radial(p, t->side, t->distance_m, second, g);
+        radial(p, t->side, distance, second, g);
     else if (cos(from) * ux + sin(from) * uy > cos(to) * ux + sin(to) * uy)
-        ended(p, t->sense, from, t->from_port, t->distance_m, second, g);
+        ended(p, t->sense, from, t->from_port, distance, second, g);
     else
-        ended(p, t->sense, to, t->to_port, t->distance_m, second, g);
+        ended(p, t->sense, to, t->to_port, distance, second, g);
+}
+
+/* the distance and its rate: of what is placed between surfaces of a layer that grows */
+static double distance_at(const touch *t, const fw_effects_port_state *s, double *rate) {
+    *rate = 0;
+    if (!t->foreign.law) return t->distance_m;
+    double way;
+    const double factor = fw_effects_foreign_at(&t->foreign, s->t_s, s->piece_s, &way);
+    *rate = s->still ? 0 : t->placed_m * way;
+    return t->distance_m + t->placed_m * (factor - 1);
 }
 
 static void overlap_at(const fw_effects_force_element *e, const fw_effects_port_state *s,
                        bool second, overlap *g) {
-    overlap_of(e->data, s->p, second, g);
-    g->rate = 0;
+    const touch *t = e->data;
+    double rate;
+    const double distance = distance_at(t, s, &rate);
+    overlap_of(t, s->p, distance, second, g);
+    g->rate = -t->side * rate;
     for (int i = 0; i < N; i++)
         g->rate += g->slope[i] * s->w[i];
 }
@@ -143,7 +161,9 @@ static void power(const fw_effects_force_element *e, const fw_effects_port_state
     overlap g;
     overlap_at(e, s, false, &g);
     power[0] = s->on[0] ? t->c_Ns_per_m * g.rate * g.rate : 0;
-    power[1] = 0;
+    double way;
+    distance_at(t, s, &way);
+    power[1] = s->on[0] ? -t->side * way * (t->k_N_per_m * g.value + t->c_Ns_per_m * g.rate) : 0;
 }
 
 static double switch_value(const fw_effects_force_element *e, const fw_effects_port_state *s,
@@ -226,6 +246,7 @@ static fw_status put(const fw_effect_case *c, fw_effects_loads *loads,
     e->data = t;
     e->size_N_per_m = t->k_N_per_m;
     e->dissipates = t->c_Ns_per_m > 0;
+    if (t->foreign.law) e->law[0] = t->foreign.law, e->laws = 1, e->works = true;
     return FW_OK;
 }
 
@@ -276,6 +297,62 @@ static fw_status add_conjugate(const fw_effect_case *c, fw_effects_loads *loads,
     return put(c, loads, use, port, &t);
 }
 
+/* Of the distance of two things side by side: what is of the layer, as far as it is drawn. A round thing is drawn where its
+   centre lies in what is drawn of its body, and then reaches to the nearest edge, or farther where pieces overlap; what a flat face
+   meets is drawn where an edge of its body lies near the place where it begins. */
+static const double drawn_near = 10e-6; /* as verdict/fabrication.c has it */
+
+static double round_drawn(const fw_layout *layout, int body, fw_geometry_vec2 at) {
+    double most = 0;
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_layout_piece *p = &layout->piece[i];
+        double near = HUGE_VAL;
+        if (p->body != body || !fw_layout_is_wall(p) ||
+            fw_geometry_contour_winding(&p->contour, at) == 0)
+            continue;
+        for (int k = 0; k < p->contour.count; k++)
+            near = fmin(near, fw_geometry_segment_nearest(&p->contour.segment[k], at, NULL, NULL));
+        most = fmax(most, near);
+    }
+    return most;
+}
+
+static bool edge_near(const fw_layout *layout, int body, fw_geometry_vec2 at) {
+    for (int i = 0; i < layout->npiece; i++) {
+        const fw_layout_piece *p = &layout->piece[i];
+        for (int k = 0; p->body == body && fw_layout_is_wall(p) && k < p->contour.count; k++)
+            if (fw_geometry_segment_nearest(&p->contour.segment[k], at, NULL, NULL) <= drawn_near)
+                return true;
+    }
+    return false;
+}
+
+/* What is not said to be etched, and not drawn, is placed. Of a body that no drawing has, only what is said to be. A disc in a hole
+   counts as of the layer: which of the two were placed, and how large it is, the file does not say. In, out: m. Error: that of
+   the drawn radius, 10 um at most where outlines are as stated, times the growth of some 1e-3. Test: test_thermal.c,
+   test_heated.py */
+double fw_effects_contact_placed(const fw_mechanism *m, const fw_device_contact_use *use) {
+    const double all = use->distance_m;
+    const bool placed = use->undrawn == FW_UNDRAWN_PLACED, drawn = m->layout && m->layout->drawn;
+    if (use->joint != FW_NONE || use->side == FW_CONTACT_INSIDE || !(all > 0) ||
+        use->undrawn == FW_UNDRAWN_ETCHED || (!drawn && !placed))
+        return 0;
+    if (!drawn) return all;
+    const fw_geometry_vec2 a = fw_mechanism_local_place(m, use->body_a, use->ax_m, use->ay_m),
+                           b = fw_mechanism_local_place(m, use->body_b, use->bx_m, use->by_m);
+    const bool has_a = fw_layout_has_outline(m->layout, use->body_a),
+               has_b = fw_layout_has_outline(m->layout, use->body_b);
+    if (!placed && !(has_a && has_b)) return 0;
+    if (use->face) {
+        const double normal = use->face_rad + drawn_turn(m, use->body_a);
+        const fw_geometry_vec2 begins = {b.x - all * cos(normal), b.y - all * sin(normal)};
+        return edge_near(m->layout, use->body_b, begins) ? 0 : all;
+    }
+    const double of_a = round_drawn(m->layout, use->body_a, a),
+                 of_b = round_drawn(m->layout, use->body_b, b);
+    return of_a > 0 && of_b > 0 ? 0 : fmax(0, all - of_a - of_b);
+}
+
 static touch round_of(const fw_device_contact_use *use) {
     return (touch){.distance_m = use->distance_m,
                    .k_N_per_m = use->stiffness_N_per_m,
@@ -306,7 +383,7 @@ double fw_effects_contact_open(const fw_mechanism *m, const fw_device_contact_us
     const touch t = round_of(use);
     overlap g = {0};
     fw_effects_element_place_ports(&e, at, NULL, p, still);
-    overlap_of(&t, p, false, &g);
+    overlap_of(&t, p, t.distance_m, false, &g);
     if (!slope) return -g.value;
     fw_effects_element_add_forces(&e, at, g.slope, by);
     memset(slope, 0, 3 * (size_t)m->nbody * sizeof *slope);
@@ -321,7 +398,12 @@ static fw_status add_round(const fw_effect_case *c, fw_effects_loads *loads,
     if (!(use->face ? isfinite(use->distance_m) : use->distance_m > 0) ||
         !(use->stiffness_N_per_m > 0) || !isfinite(use->stiffness_N_per_m))
         return unknown(c, use, "two round things need a distance and a stiffness above 0");
-    const touch t = round_of(use);
+    touch t = round_of(use);
+    t.placed_m = fw_effects_contact_placed(c->mechanism, use);
+    t.foreign = fw_effects_foreign_of(c, use->expansion_per_K);
+    if (!t.foreign.law) /* for good */
+        t.distance_m += t.placed_m * (fw_effects_foreign_at(&t.foreign, 0, 0, NULL) - 1);
+    if (t.placed_m == 0) t.foreign.law = NULL;
     const fw_effects_port port[2] = {{use->body_a, use->ax_m, use->ay_m},
                                      {use->body_b, use->bx_m, use->by_m}};
     return put(c, loads, use, port, &t);

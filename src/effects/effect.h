@@ -4,6 +4,7 @@
 #define FW_EFFECTS_EFFECT_H
 #include "effects/effects.h"
 #include <math.h>
+#include <string.h>
 
 #define FW_EFFECT(name)              extern const fw_effect_row fw_effect_##name;
 #define FW_EFFECT_ELEMENT(name, ...) FW_EFFECT(name)
@@ -80,6 +81,34 @@ static inline bool fw_pin_has_stop(const fw_mechanism_pin *p) {
 }
 /* a cable that is not stretched in the drawn pose */
 bool fw_effects_spring_slack(const fw_mechanism *mechanism, const fw_device_spring *spring);
+/* while loads are put together: does the effect of this id act in the scene? */
+static inline bool fw_effects_act(const fw_effect_case *c, const char *id) {
+    for (int i = 0; c->ledger && i < c->ledger->count; i++)
+        if (strcmp(c->ledger->item[i].id, id) == 0) return c->ledger->item[i].active;
+    return !c->ledger;
+}
+/* of the layer's own lengths where the law of the temperature is 1; NaN: not known */
+double fw_effects_layer_expands(const fw_mechanism *m, const fw_device_temperature *t);
+/* A length that is not of the layer (of a bead, a spring, a cable), in lengths of the layer, over what it is in metres where
+   nothing is warm: temperature.c */
+typedef struct fw_effects_foreign {
+    double own, grown;           /* relative growth of it and of the layer, for good */
+    double varying_own, varying; /* likewise where the law is 1, besides */
+    const fw_quantity_law *law;  /* NULL: it stays as it is */
+} fw_effects_foreign;
+fw_effects_foreign fw_effects_foreign_of(const fw_effect_case *c, double expansion_per_K);
+/* that factor, and its rate in 1/s where that is not NULL; piece_s as of fw_quantity_law_value */
+double fw_effects_foreign_at(const fw_effects_foreign *f, double t_s, double piece_s, double *rate);
+/* the farthest that the factor is from 1 in the scene */
+double fw_effects_foreign_most(const fw_effects_foreign *f, double end_s);
+/* how much of the distance of a contact is of something that is placed, m: contact.c */
+double fw_effects_contact_placed(const fw_mechanism *m, const fw_device_contact_use *use);
+/* a spring between two points as an element; of: its rest length under heat with a law, or NULL, at once in series with what
+   its bodies give: body_compliance.c */
+fw_status fw_effects_spring_element(const fw_effect_case *c, fw_effects_loads *loads,
+                                    const fw_device_spring *spring, const fw_effects_foreign *of);
+/* the scene has such a length */
+bool fw_effects_foreign_in(const fw_effect_case *c);
 /* places are asked for or drawn: a free strain moves those by itself, which no bound of what hinges turn by knows of */
 bool fw_effects_places_count(const fw_effect_case *c);
 /* no loads yet, with room for everything that mechanism and scene can ask for */

@@ -269,8 +269,7 @@ typedef struct fw_effects_loads {
        and, last, of the ground are longer by it (fw_mechanism_strained) */
     double *strain; /* (nbody + 1) */
     bool strained;
-    double
-        grown; /* of that, by how much the layer's own lengths have grown since they were drawn */
+    double grown; /* of that, by how much the layer's own lengths have grown */
     fw_effects_stretch stretch;
     bool quasi_static; /* inertia is left out: the motion is a sequence of equilibria */
 } fw_effects_loads;
@@ -282,6 +281,7 @@ typedef struct fw_effect_case { /* what an effect is asked about */
     const fw_device_scene *scene;
     const struct fw_effects_envelope *envelope; /* envelope.h: how large the motion can become */
     fw_diags *diags;                            /* NULL: mistakes are not reported, only returned */
+    const fw_effect_ledger *ledger; /* while loads are put together: what acts; NULL: all */
 } fw_effect_case;
 
 /* ---- the scene in words, and less of it ---- */

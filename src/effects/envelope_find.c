@@ -342,7 +342,7 @@ fw_status fw_effects_envelope_of_rows(fw_arena *arena, const fw_mechanism *mecha
     fw_effects_envelope first = {.why_not = "not computed yet"};
     fw_diags quiet =
         fw_diags_new(arena); /* what an effect objects to is said when it is compiled */
-    const fw_effect_case c = {arena, mechanism, scene, &first, &quiet};
+    const fw_effect_case c = {arena, mechanism, scene, &first, &quiet, NULL};
     search s = {.c = &c, .row = row, .rows = count};
     fw_effects_loads all;
     bool more = false, alone = true;

@@ -223,7 +223,7 @@ static double first_swings(const fw_effect_case *c, const fw_effects_envelope *e
 static fw_status in_motion(const fw_effect_case *c, const fw_effects_envelope *e,
                            const fw_effects_loads *rubs, double *value) {
     fw_effects_envelope narrowed = *e;
-    const fw_effect_case one = {c->arena, c->mechanism, c->scene, &narrowed, c->diags};
+    const fw_effect_case one = {c->arena, c->mechanism, c->scene, &narrowed, c->diags, NULL};
     rubbing r = {.c = &one, .e = &narrowed, .item = rubs->friction, .count = rubs->nfriction};
     size_t modes = (size_t)e->modes;
     double *force, *passed;

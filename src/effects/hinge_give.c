@@ -344,6 +344,9 @@ static double room(const fw_effect_case *c, const fw_device_contact_use *use) {
     double now = hypot(b.x - a.x, b.y - a.y), moves = 0;
     moves += reach_of(c, use->body_a, use->ax_m, use->ay_m);
     moves += reach_of(c, use->body_b, use->bx_m, use->by_m);
+    const fw_effects_foreign of = fw_effects_foreign_of(c, use->expansion_per_K);
+    if (use->undrawn != FW_UNDRAWN_ETCHED)
+        moves += use->distance_m * fw_effects_foreign_most(&of, c->scene->duration_s);
     return (use->side == FW_CONTACT_INSIDE ? use->distance_m - now : now - use->distance_m) - moves;
 }
 

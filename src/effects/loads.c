@@ -338,6 +338,20 @@ double fw_effects_on_substrate(const fw_effects_growth *g, int nbody, const doub
     return longer;
 }
 
+bool fw_effects_foreign_in(const fw_effect_case *c) {
+    for (int i = 0; i < c->scene->ncontact; i++) {
+        const fw_device_contact_use *use = &c->scene->contact[i];
+        if (use->joint == FW_NONE && use->side == FW_CONTACT_OUTSIDE &&
+            use->undrawn != FW_UNDRAWN_ETCHED)
+            return true;
+    }
+    for (int i = 0; i < c->scene->ntendon; i++)
+        if (!isnan(c->scene->tendon[i].draw_m)) return true;
+    for (int i = 0; i < c->mechanism->nspring; i++)
+        if (c->mechanism->spring[i].stiffness_N_per_m > 0) return true;
+    return false;
+}
+
 bool fw_effects_places_count(const fw_effect_case *c) {
     const fw_device *d = c->mechanism->device;
     bool count = c->mechanism->layout && c->mechanism->layout->drawn;

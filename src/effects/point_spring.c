@@ -17,12 +17,21 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
-/* force k (l - l0) + c l' along the line between the two points; a cable only pulls */
+/* force k (l - l0) + c l' along the line between the two points; a cable only pulls. No mask draws a spring: its l0 does not
+   grow with the layer, and where that comes with a law the spring is an element that knows the time */
 static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
     for (int i = 0; i < c->mechanism->nspring; i++) {
         const fw_device_spring *s = &c->mechanism->spring[i];
-        if (s->stiffness_N_per_m > 0 || s->damping_Ns_per_m > 0)
-            loads->spring[loads->nspring++] = *s;
+        const fw_effects_foreign of = fw_effects_foreign_of(c, s->expansion_per_K);
+        if (!(s->stiffness_N_per_m > 0 || s->damping_Ns_per_m > 0)) continue;
+        if (of.law && s->stiffness_N_per_m > 0 && s->length_m > 0) {
+            FW_TRY(fw_effects_spring_element(c, loads, s, &of));
+            continue;
+        }
+        loads->spring[loads->nspring] = *s;
+        if (!of.law)
+            loads->spring[loads->nspring].length_m *= fw_effects_foreign_at(&of, 0, 0, NULL);
+        loads->nspring++;
     }
     return FW_OK;
 }

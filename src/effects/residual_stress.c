@@ -14,17 +14,14 @@ static bool called_for(const fw_effect_case *c) {
     return false;
 }
 
-/* (1 - nu)/E of the layer, 1/Pa; NaN where it is not known */
+/* 1/M of the layer, 1/Pa, M its biaxial modulus; NaN where it is not known */
 static double compliance(const fw_mechanism *m) {
-    if (!m->variant) return (double)NAN;
-    const fw_device_material *of = &m->variant->material;
-    if (of->youngs.unknown || of->poisson.unknown || !(of->youngs.value > 0)) return (double)NAN;
-    return (1 - of->poisson.value) / of->youngs.value;
+    return m->variant ? 1 / fw_device_material_biaxial_Pa(&m->variant->material) : (double)NAN;
 }
 
 typedef struct released {
-    double strain;          /* of the layer: -mean (1 - nu)/E */
-    double curvature_per_m; /* (1 - nu)/E times the gradient */
+    double strain;          /* of the layer: -mean/M */
+    double curvature_per_m; /* gradient/M */
 } released;
 
 static released released_in(const fw_mechanism *m, const fw_device_scene *s) {
@@ -143,7 +140,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
 }
 
 /* The layer is the measure: by similarity the ground's points move by the opposite strain. Each
-   body is shorter by its own bow besides. Inputs Pa, Pa/m, E in Pa; valid for (1 - nu) sigma/E << 1
+   body is shorter by its own bow besides. Inputs Pa, Pa/m, M in Pa; valid for sigma/M << 1
    and small slopes of the bow. Test: test_thermal.c. */
 static fw_status add_strain(const fw_effect_case *c, double *strain) {
     const released r = released_by(c);
@@ -178,7 +175,8 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
         FW_TRY(add_strain(c, strains));
         FW_TRY(fw_effects_envelope_strain(c, strains, NULL, value));
     }
-    if (r.strain != 0 && fw_effects_places_count(c)) /* it moves them by itself */
+    if (r.strain != 0 && (fw_effects_places_count(c) || fw_effects_foreign_in(c)))
+        /* it moves places by itself, and against what is not of the layer */
         *value = (double)INFINITY;
     FW_NEED(*reason = fw_arena_printf(
                 c->arena,

@@ -339,7 +339,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
                              double accuracy, fw_diags *diags, fw_effect_ledger *ledger,
                              fw_effects_loads *loads) {
     fw_effects_envelope envelope = {.why_not = "no effect asked for it"};
-    const fw_effect_case c = {arena, mechanism, scene, &envelope, diags};
+    const fw_effect_case c = {arena, mechanism, scene, &envelope, diags, NULL};
     if (choice->mode == FW_EFFECTS_LIST) FW_TRY(check_list(arena, choice->list, diags));
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
@@ -355,6 +355,8 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
     else
         decide_asked(&c, choice, ledger->item);
     FW_TRY(set_aside(&c, ledger->item, ledger));
+    fw_effect_case acting = c;
+    acting.ledger = ledger;
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &ledger->item[i];
         if (e->called_for && rows[i]->note) FW_TRY(rows[i]->note(&c, &e->reason));
@@ -367,7 +369,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
         if (e->active && e->looked_at) ledger->swing = e->bound;
         if (e->active) {
             if (rows[i]->check) FW_TRY(rows[i]->check(&c, diags));
-            FW_TRY(rows[i]->add(&c, loads));
+            FW_TRY(rows[i]->add(&acting, loads));
         } else if (e->called_for && rows[i]->leave_out)
             FW_TRY(rows[i]->leave_out(&c, loads));
     }

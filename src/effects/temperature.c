@@ -55,9 +55,48 @@ static double ground_strain(const fw_mechanism *m, const fw_device_temperature *
     return (substrate - own) / (1 + own);
 }
 
-/* of the layer's own lengths where the law is 1 */
-static double layer_strain(const fw_mechanism *m, const fw_device_temperature *t) {
+double fw_effects_layer_expands(const fw_mechanism *m, const fw_device_temperature *t) {
     return own_expansion(t, m) * t->change_K;
+}
+
+/* ---- what is not of the layer ----
+   A thing that is put in from outside has its length l in metres, whatever the layer's own lengths do. The model counts in
+   lengths of the layer, S = (1 + grown)(1 + varying law) metres each, so that there it has
+     l (1 + own + varying_own law)/S
+   with the growth of the thing itself by its own expansion. In, out: dimensionless, 1/s. Exact. Constant strains of the layer
+   add up, as in fw_effects_growth_at. Theory: docs/theory/effects/temperature.md. Test: test_contact.c, test_heated.py */
+
+fw_effects_foreign fw_effects_foreign_of(const fw_effect_case *c, double expansion_per_K) {
+    fw_effects_foreign f = {0};
+    const double stress =
+        fw_effects_act(c, "residual-stress") ? fw_effects_stress_strain(c->mechanism, c->scene) : 0;
+    f.grown = -stress / (1 + stress);
+    for (int i = 0; i < c->scene->ntemperature && fw_effects_act(c, "temperature"); i++) {
+        const fw_device_temperature *t = &c->scene->temperature[i];
+        const double layer = fw_effects_layer_expands(c->mechanism, t),
+                     own = expansion_per_K * t->change_K;
+        if (t->change_K == 0 || isnan(layer)) continue; /* not known: the scene is refused */
+        if (fw_quantity_law_is_constant(t->law))
+            f.grown += layer, f.own += own;
+        else
+            f.varying = layer, f.varying_own = own, f.law = t->law;
+    }
+    return f;
+}
+
+double fw_effects_foreign_at(const fw_effects_foreign *f, double t_s, double piece_s,
+                             double *rate) {
+    double law[3] = {0};
+    if (f->law) fw_quantity_law_value(f->law, t_s, piece_s, law);
+    const double own = 1 + f->own + f->varying_own * law[0], varied = 1 + f->varying * law[0],
+                 layer = (1 + f->grown) * varied;
+    if (rate) *rate = law[1] * (f->varying_own - own * f->varying / varied) / layer;
+    return own / layer;
+}
+
+double fw_effects_foreign_most(const fw_effects_foreign *f, double end_s) {
+    const double law = f->law ? fw_quantity_law_largest(f->law, end_s) : 0;
+    return fabs(f->own) + fabs(f->grown) + (fabs(f->varying) + fabs(f->varying_own)) * law;
 }
 
 /* relative change of hinge stiffness per unit of the law; 0 where no hinge asks for it */
@@ -254,7 +293,14 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
                                  fw_effects_envelope_varying(c, s.changing / left)
                            : (double)INFINITY;
     }
-    if (isfinite(*value) && s.strain > 0 && fw_effects_places_count(c)) {
+    if (isfinite(*value) && s.common > 0 && fw_effects_foreign_in(c)) {
+        *value = (double)INFINITY;
+        FW_NEED(*reason = fw_arena_printf(
+                    c->arena,
+                    "the device grows by %s, which what is placed, springs and drawn cables do "
+                    "not: kept (the ground's points move by a strain of %s against the device)",
+                    grown, differs));
+    } else if (isfinite(*value) && s.strain > 0 && fw_effects_places_count(c)) {
         *value = (double)INFINITY;
         FW_NEED(*reason = fw_arena_printf(
                     c->arena,
@@ -381,10 +427,11 @@ static fw_status add(const fw_effect_case *c, fw_effects_loads *loads) {
         if (fw_quantity_law_is_constant(t->law)) {
             loads->strain[loads->nbody] += strain;
             loads->strained = true;
-            loads->grown += layer_strain(c->mechanism, t);
+            loads->grown += fw_effects_layer_expands(c->mechanism, t);
         } else
-            loads->stretch = (fw_effects_stretch){strain, fw_mechanism_ground_centre(c->mechanism),
-                                                  t->law, layer_strain(c->mechanism, t)};
+            loads->stretch =
+                (fw_effects_stretch){strain, fw_mechanism_ground_centre(c->mechanism), t->law,
+                                     fw_effects_layer_expands(c->mechanism, t)};
     }
     return add_modulus(c, loads);
 }

@@ -6,6 +6,7 @@
      drawn   T = k g + c g'  where it is taut, else 0;  g = L + draw law s - rest,
              rest = path as drawn + slack; taut while min(k g, k g + c g') > 0
 
+   where rest and draw are lengths of a cable that does not grow with the layer (fw_effects_foreign), and
    with the load factor s (1 but in statics). Virtual work: f = -T grad L on the eyelets, that is T
    along the cable on the outer ones and T (u_after - u_before) in a bend. Tangent, H = hess L:
 
@@ -28,11 +29,13 @@
 typedef struct tendon {
     double pull_N; /* NaN: drawn */
     double draw_m, k_N_per_m, c_Ns_per_m, rest_m;
+    fw_effects_foreign foreign;   /* the cable is not of the layer: its lengths in those of it */
+    const fw_quantity_law *taken; /* the law of the draw, NULL: constant */
 } tendon;
 
-/* factor of the actuation and its rate */
+/* factor of the actuation and its rate; likewise of the cable's own lengths */
 typedef struct modal_speed {
-    double factor, rate_per_s;
+    double factor, rate_per_s, own, own_per_s;
 } modal_speed;
 
 static const tendon *data_of(const fw_effects_force_element *e) {
@@ -45,9 +48,11 @@ static bool pulled(const tendon *d) {
 
 static modal_speed modal_speed_of(const fw_effects_force_element *e,
                                   const fw_effects_port_state *s) {
-    double value[3] = {1, 0, 0};
-    if (e->law[0]) fw_quantity_law_value(e->law[0], s->t_s, s->piece_s, value);
-    return (modal_speed){value[0], s->still ? 0 : value[1]};
+    const tendon *d = data_of(e);
+    double value[3] = {1, 0, 0}, way;
+    if (d->taken) fw_quantity_law_value(d->taken, s->t_s, s->piece_s, value);
+    const double own = fw_effects_foreign_at(&d->foreign, s->t_s, s->piece_s, &way);
+    return (modal_speed){value[0], s->still ? 0 : value[1], own, s->still ? 0 : way};
 }
 
 /* ---- the path ---- */
@@ -95,8 +100,9 @@ static void path_of(const fw_effects_force_element *e, const fw_effects_port_sta
 /* how far a drawn cable is stretched beyond its rest length, and how fast */
 static void stretch_of(const tendon *d, modal_speed at, double load, double length, double rate,
                        double *stretch, double *speed) {
-    *stretch = length + d->draw_m * at.factor * load - d->rest_m;
-    *speed = rate + d->draw_m * at.rate_per_s * load;
+    *stretch = length + d->draw_m * at.factor * load * at.own - d->rest_m * at.own;
+    *speed = rate + d->draw_m * at.rate_per_s * load * at.own +
+             (d->draw_m * at.factor * load - d->rest_m) * at.own_per_s;
 }
 
 /* ---- the class ---- */
@@ -191,7 +197,7 @@ static void power(const fw_effects_force_element *e, const fw_effects_port_state
     modal_speed at = modal_speed_of(e, s);
     stretch_of(d, at, s->load, length, rate, &stretch, &speed);
     if (s->on[0]) out[0] = d->c_Ns_per_m * speed * speed;
-    out[1] = t * d->draw_m * at.rate_per_s * s->load;
+    out[1] = t * (speed - rate);
 }
 
 /* the load factor never decides whether a pulled cable pulls: at 0 it is about to */
@@ -215,7 +221,8 @@ static void slope(const fw_effects_force_element *e, const fw_effects_port_state
     if (pulled(d))
         t = d->pull_N * at.factor;
     else
-        t = d->draw_m * (d->k_N_per_m * at.factor + d->c_Ns_per_m * at.rate_per_s);
+        t = d->draw_m * (d->k_N_per_m * at.factor * at.own +
+                         d->c_Ns_per_m * (at.rate_per_s * at.own + at.factor * at.own_per_s));
     if (e->switches > 0 && !s->on[0]) t = 0;
     for (int i = 0; i < 3 * e->ports; i++)
         f[i] *= -t;
@@ -276,7 +283,7 @@ static fw_status add_one(const fw_effect_case *c, const fw_device_tendon *t,
     e->data = d;
     for (int i = 0; i < t->neyelet; i++)
         e->port[i] = (fw_effects_port){t->eyelet[i].body, t->eyelet[i].x_m, t->eyelet[i].y_m};
-    if (!fw_quantity_law_is_constant(t->law)) e->law[e->laws++] = t->law;
+    if (!fw_quantity_law_is_constant(t->law)) e->law[e->laws++] = d->taken = t->law;
     e->works = true;
     if (pulled(d)) {
         e->switches = !always_pulls(t);
@@ -284,6 +291,8 @@ static fw_status add_one(const fw_effect_case *c, const fw_device_tendon *t,
         return FW_OK;
     }
     d->draw_m = t->draw_m;
+    d->foreign = fw_effects_foreign_of(c, t->expansion_per_K);
+    if (d->foreign.law) e->law[e->laws++] = d->foreign.law;
     d->k_N_per_m = t->stiffness_N_per_m;
     d->c_Ns_per_m = t->damping_Ns_per_m;
     d->rest_m = path_as_drawn(c->mechanism, t) + t->slack_m;

@@ -226,8 +226,9 @@ const fw_layout_pattern_kind fw_layout_pattern_holes = {
 /* ---- cantilevers ---- */
 
 /* cantilevers: beams of rising length, free at one end. A gradient G of stress through the
-   thickness curls a beam that came free to the radius E/G, so that the tip of one of length L
-   stands h = G L^2/(2 E) above its root (small slopes; E/(1 - nu) for beams much wider than thick).
+   thickness curls a beam that came free to the radius M/G, so that the tip of one of length L
+   stands h = G L^2/(2 M) above its root (small slopes), M the biaxial modulus, E/(1 - nu) or of (100) silicon
+   180.3 GPa: the film was stressed in all directions of its plane, so that a beam of any width wants that strain.
    In: sizes (lengths), width, space, m; where the carrier stays below, hollow: how far a hollow of it goes
    beyond the beams on every side, below their bar too, so that what the two plates are off by moves no root.
    Source: beam with constant initial curvature, h = L^2/(2 R). Test: test_patterns.c. Holds where the root
@@ -252,7 +253,8 @@ static fw_status draw_cantilevers(fw_layout_pen *pen) {
                                  x - fw_layout_pen_value(pen, CANTILEVERS_SPACE) + beyond,
                                  longest + beyond));
     fw_layout_pen_figure(pen, "width", width * 1e6, "um");
-    pen->coupon->formula = "height of the tip over the root: G = 2 E h/L^2";
+    pen->coupon->formula = "height of the tip over the root: G = 2 M h/L^2, M = E/(1 - nu), of "
+                           "(100) silicon 180.3 GPa";
     return FW_OK;
 }
 
@@ -270,7 +272,7 @@ const fw_layout_pattern_kind fw_layout_pattern_cantilevers = {
 /* ---- pointer ---- */
 
 /* stress-pointer: two arms pull at a pointer from opposite sides, their lines the offset O apart. A
-   film that wants to shrink by the strain e (stress E e before the release, tension positive) turns
+   film that wants to shrink by the strain e (stress M e before the release, M its biaxial modulus) turns
    the pointer. Rigid pointer, arms of length L and width w clamped at both ends, centre at rest by
    symmetry: arm shortens by theta O/2 and pulls with P = E A (e - theta O/(2 L)); its end on the
    pointer turns by theta and, as the pointer shrinks too, moves across by e O/2, which takes
@@ -339,8 +341,9 @@ static fw_status draw_pointer(fw_layout_pen *pen) {
     fw_layout_pen_figure(pen, "amplification", turn * pointer, "m");
     fw_layout_pen_figure(pen, "step", step * 1e6, "um");
     fw_layout_pen_figure(pen, "strain per step", step / (turn * pointer), "1");
-    pen->coupon->formula = "strain = movement of the tip/amplification; stress = E strain, tension "
-                           "where the tip moves to the left";
+    pen->coupon->formula =
+        "strain = movement of the tip/amplification; stress = M strain, M = E/(1 - nu), "
+        "of (100) silicon 180.3 GPa; tension where the tip moves to the left";
     return FW_OK;
 }
 

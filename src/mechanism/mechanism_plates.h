@@ -251,7 +251,7 @@ double fw_mechanism_strip_pull_in(double bend_Nm2, double length_m, double width
                                   double more);
 
 /* what a scene asks of the plates: an acceleration across the plane that changes in time (az), that or weight (gz) or a
-   stress gradient, and the curvature such a gradient gives a free plate, g (1 - nu)/E; 0 where E is not known */
+   stress gradient, and the curvature such a gradient g gives a free plate, g/M of the biaxial modulus M; 0 where E is not known */
 bool fw_mechanism_plates_shaken(const fw_device_scene *scene);
 bool fw_mechanism_plates_asked(const fw_device_scene *scene);
 double fw_mechanism_plates_curvature(const fw_mechanism *mechanism, const fw_device_scene *scene);

@@ -440,6 +440,7 @@ bool fw_mechanism_plates_asked(const fw_device_scene *s) {
 double fw_mechanism_plates_curvature(const fw_mechanism *m, const fw_device_scene *s) {
     const fw_device_material *of = &m->variant->material;
     double gradient = gradient_of(s);
+    const double modulus = fw_device_material_biaxial_Pa(of);
     if (gradient == 0 || of->youngs.unknown) return 0;
-    return gradient * (1 - (of->poisson.unknown ? 0 : of->poisson.value)) / of->youngs.value;
+    return gradient / (isnan(modulus) ? of->youngs.value : modulus); /* nu not known: 0, at most */
 }

@@ -154,6 +154,63 @@ class Heated(unittest.TestCase):
         found = self.probes(text, "statics")
         self.assertAlmostEqual(found["tip"]["value"] / (-100e6 * (1 - 0.34) / 115e9 * 3.95e-3), 1, delta=0.02)
 
+    def test_a_layer_of_a_crystal_has_the_modulus_of_its_plane(self):
+        """(100) silicon: c11 + c12 - 2 c12^2/c11 = 180.3 GPa in every direction, not the 213 GPa of a mean E and a nu out of the plane;
+        whoever states E alone states that of one direction, and the pair along <110>, 169 GPa and 0.064, is 180.6 GPa"""
+        text = ARM.format(law="", also="").replace('<temperature change="dT" />', '<residual-stress mean="100 MPa"/>')
+        text = text.replace('"copper-plated" thickness="15 um"', '"silicon-100" thickness="15 um"{}').replace("copper-on-porous-silicon", "al-masked-rie")
+        for stated, modulus in (("", 180.316e9), (' youngs-modulus="169 GPa"', 180.316e9), (' youngs-modulus="169 GPa" poisson="0.064"', 169e9 / 0.936)):
+            tip = self.probes(text.replace("{}", stated), "statics")["tip"]["value"]
+            self.assertAlmostEqual(tip / (-100e6 / modulus * 3.95e-3), 1, delta=0.01)
+
+    def test_what_is_placed_keeps_its_size(self):
+        """a jaw grows against a bead of radius r on the substrate, 50 N/m: what it presses is u - gap - (gap + r) alpha_s dT + r s of
+        its tip's way u on the substrate, s: what the bead itself grows by. A bead that shrank with copper pressed with 44 uN in place of 30"""
+        for extra, heats, own in (('undrawn="placed"', 1, 0), ('undrawn="placed" expansion="9 ppm/K"', 1, 9e-6), ("", 1, 0),
+                                  ('undrawn="etched"', 1, 16.7e-6), ('undrawn="placed"', 0, 0), ('undrawn="etched"', 0, 150e6 * 0.66 / 115e9 / 40)):
+            why = '<temperature change="40 K" expansion="16.7 ppm/K" substrate-expansion="2.57 ppm/K"/>' if heats else '<residual-stress mean="-150 MPa"/>'
+            for r in (10, 500):
+                with self.subTest(extra=extra, heats=heats, r=r):
+                    found = self.probes(JAW.format(why=why, extra=extra, r=r), "statics")
+                    over = found["tip"]["value"] - 0.5e-6 - (0.5 + r) * 1e-6 * 2.57e-6 * 40 * heats + r * 1e-6 * own * 40
+                    self.assertAlmostEqual(1e6 * found["press"]["value"], 50e6 * over, delta=0.02 + 1e-3 * 50e6 * over)
+        ramp = JAW.format(why='<temperature change="40 K" expansion="16.7 ppm/K" substrate-expansion="2.57 ppm/K" law="ramp" rise="10 ms"/>', extra='undrawn="placed"', r=500)
+        self.assertAlmostEqual(self.probes(ramp, "statics")["press"]["value"] / self.probes(ramp.replace(' law="ramp" rise="10 ms"', ""), "statics")["press"]["value"], 1, 9)
+        self.file.write_text(ramp)
+        moved = json.loads(run("simulate", self.file, "--json").stdout)
+        press, tip = (next(p["final"] for p in moved["probes"] if p["id"] == id) for id in ("press", "tip"))
+        self.assertAlmostEqual(1e6 * press, 50e6 * (tip - 0.5e-6 - 500.5e-6 * 2.57e-6 * 40), delta=0.06)
+
+    def test_a_tooth_is_of_the_layer_and_its_bead_is_not(self):
+        """of one distance, 100 um of a drawn tooth and 400 um of a bead: the tooth is longer with its jaw, the bead is not"""
+        tooth = JAW.replace('a-y="0.8 mm" a-face="90 deg"', 'a-y="0.7 mm"').replace('distance="{r} um"', 'distance="{r} um + 100 um"')
+        found = self.probes(tooth.format(why='<temperature change="40 K" expansion="16.7 ppm/K" substrate-expansion="2.57 ppm/K"/>', extra='undrawn="placed"', r=400), "statics")
+        over = found["tip"]["value"] - 0.5e-6 - 400.5e-6 * 2.57e-6 * 40
+        self.assertAlmostEqual(1e6 * found["press"]["value"], 50e6 * over, delta=0.02 + 1e-3 * 50e6 * over)
+
+    def test_a_stated_nothing_is_a_load(self):
+        """a sweep of shocks, or of the stress, may begin at 0; without any value the element is a slip"""
+        for loads, code in (('<residual-stress mean="0 MPa"/><base-motion ax="0 m/s^2" law="half-sine" rise="1 ms"/>', 0),
+                            ('<base-motion law="half-sine" rise="1 ms"/>', 2), ("<residual-stress/>", 2)):
+            self.file.write_text(JAW.format(why=loads, extra='undrawn="placed"', r=10))
+            done = run("simulate", self.file, "--json")
+            self.assertEqual(done.returncode == 0, code == 0, done.stderr)
+            self.assertEqual("FW-D093" in done.stderr, code != 0, done.stderr)
+
+    def test_springs_and_drawn_cables_keep_their_length(self):
+        """their pull is stiffness times what their ends are farther apart than they are long, in metres"""
+        law = ' law="ramp" rise="5 ms"'
+        for thing, of in (('<spring id="s" a="ground" a-x="1 mm" a-y="3 mm" b="jaw" b-y="0.8 mm" stiffness="20 N/m" length="1 mm"/>', "spring"),
+                          ('<tendon id="s" draw="5 um" stiffness="20 N/m"><eyelet on="jaw" y="0.8 mm"/><eyelet on="ground" x="1 mm" y="3 mm"/></tendon>', "tendon")):
+            for when in ("", law):
+                text = JAW.format(why=f'<temperature change="40 K" expansion="16.7 ppm/K" substrate-expansion="2.57 ppm/K"{when}/>' + (thing if of == "tendon" else ""), extra='undrawn="placed"', r=100)
+                text = text.replace("</mechanism>", (thing if of == "spring" else "") + '</mechanism><probe id="T" kind="force" of="s"/>'
+                                    '<probe id="L" kind="distance" a="ground" a-x="1 mm" a-y="3 mm" b="jaw" b-y="0.8 mm"/>')
+                found = self.probes(text, "statics")
+                rest = 1e-3 if of == "spring" else math.hypot(1e-3, 1.2e-3) - 5e-6
+                with self.subTest(of=of, when=when):
+                    self.assertAlmostEqual(1e6 * found["T"]["value"], 20e6 * (found["L"]["value"] - rest), delta=1e-3 * 20e6 * (found["L"]["value"] - rest))
+
     def test_what_a_pack_knows_of_expansion_is_a_corner(self):
         """16.7 ppm/K are known to 0.5: at two of these the tip goes 7.9 % farther. Stated in the scene they are exact"""
         text = CHEVRON.replace('change="60 K"/>', 'change="60 K" law="ramp" rise="20 ms"/><air kind="slide" on="sh" gap="20 um"/>')
@@ -299,6 +356,15 @@ ARM = """<device xmlns="urn:flexwright:device:1" name="hot-arm">
 <probe id="near" kind="distance" a="ground" a-x="3.85 mm" b="arm" b-x="3.8 mm"/>
 <probe id="ahead" kind="opening" a="ground" a-x="3.85 mm" b="arm" b-x="3.8 mm" direction="180 deg"/>{also}
 <scene name="hot" duration="20 ms"><temperature change="dT" {law}/><air kind="slide" on="arm" gap="20 um"/></scene></device>"""
+JAW = """<device xmlns="urn:flexwright:device:1" name="heated-jaw">
+<material ref="copper-plated" thickness="12 um"/><limits safety-factor="1.5"/><flow ref="copper-on-porous-silicon"/>
+<flexure id="leaf" kind="leaf" length="300 um" width="12 um"/>
+<mechanism><body id="jaw" x="0 mm" y="1 mm"><plate width="300 um" height="1.6 mm"/></body>
+<revolute id="A" a="ground" b="jaw" b-y="-1 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<probe id="press" kind="force" of="bead"/><probe id="tip" kind="displacement" on="jaw" y="0.8 mm" direction="90 deg"/>
+<scene name="warm" duration="20 ms">{why}
+<contact id="bead" a="jaw" a-y="0.8 mm" a-face="90 deg" b="ground" b-y="1.8005 mm + {r} um" side="outside" distance="{r} um"
+ stiffness="50 N/m" damping="0.0001 N s/m" {extra}/><material-damping loss-factor="0.2"/></scene></device>"""
 CHEVRON = """<device xmlns="urn:flexwright:device:1" name="heated-chevron">
 <material ref="copper-plated" thickness="15 um"/><flow ref="copper-on-porous-silicon"/>
 <flexure id="l1" kind="leaf" length="600 um" width="10 um" fillet="6 um"/>

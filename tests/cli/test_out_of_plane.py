@@ -630,7 +630,7 @@ class OutOfPlane(unittest.TestCase):
         self.assertAlmostEqual(up["highest_m"], -down["lowest_m"], 15)
         # the outer corners are rounded by 10 um about (50, 940 um) from the clamp
         far = math.hypot(50e-6, 940e-6) + 10e-6
-        kappa = 1e12 * (1 - 0.31) / 147.08e9
+        kappa = 1e12 / (165.7e9 + 63.9e9 - 2 * 63.9e9**2 / 165.7e9)  # of (100) silicon, in every direction of the plane
         self.assertAlmostEqual(down["lowest_at_rest_m"] / (-kappa * far**2 / 2), 1, 5)
 
     def test_whole_solid(self):

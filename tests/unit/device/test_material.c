@@ -290,6 +290,40 @@ static void a_flow_gives_its_own(void **state) {
     fw_arena_free(arena);
 }
 
+/* silicon-100 of the pack: 180.3 GPa in every direction of the plane, of its constants; E that is stated alone leaves that,
+   E and nu together are a layer that is alike in all directions, as a metal is */
+static void biaxial_of_a_crystal(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fw_diags diags = fw_diags_new(arena);
+    size_t n;
+    char *xml = load(arena, "processes/base.xml", &n);
+    fw_device_materials m;
+    assert_int_equal(fw_device_materials_read(arena, "base.xml", xml, n, &diags, &m), FW_OK);
+    const fw_device_material *si = fw_device_material_find(&m, "silicon-100"),
+                             *cu = fw_device_material_find(&m, "copper-plated");
+    const double plane = 165.7e9 + 63.9e9 - 2 * 63.9e9 * 63.9e9 / 165.7e9;
+    assert_relative(plane, 180.316e9, 1e-5);
+    assert_relative(fw_device_material_biaxial_Pa(si), plane, 1e-14);
+    assert_relative(fw_device_material_biaxial_Pa(cu), 115e9 / 0.66, 1e-14);
+    fw_device_material_override both = {.youngs = {.value = 169e9, .unit = "GPa"},
+                                        .poisson = {.value = 0.064, .unit = "1"},
+                                        .density.unknown = true,
+                                        .strength.unknown = true},
+                                alone = both, nu = both;
+    alone.poisson.unknown = nu.youngs.unknown = true;
+    fw_device_material of = fw_device_material_with(si, &both);
+    assert_relative(fw_device_material_biaxial_Pa(&of), 169e9 / 0.936, 1e-14);
+    of = fw_device_material_with(si, &alone);
+    assert_false(fw_device_material_is_crystal(&of));
+    assert_relative(fw_device_material_biaxial_Pa(&of), plane, 1e-14);
+    of = fw_device_material_with(si, &nu);
+    assert_relative(fw_device_material_biaxial_Pa(&of), plane, 1e-14);
+    of = *cu, of.poisson.unknown = true;
+    assert_true(isnan(fw_device_material_biaxial_Pa(&of)));
+    fw_arena_free(arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_pack_is_sound),
@@ -301,6 +335,7 @@ int main(void) {
         cmocka_unit_test(limits_asked_and_overridden),
         cmocka_unit_test(memory_runs_out),
         cmocka_unit_test(a_flow_gives_its_own),
+        cmocka_unit_test(biaxial_of_a_crystal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,7 +41,7 @@ static void one_mode(void **state) {
     double force = 2e-8 * 1e-3 * omega * omega * torque / k;
     assert_true(e.force[0] >= force && e.force[0] < 1.2 * 2 * force + 1e-15);
     /* one more torque of a tenth, for good or with the motion */
-    const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL};
+    const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL, NULL};
     const double more[3] = {0, 0, 0.1 * torque};
     double answer = fw_effects_envelope_answer(&c, more, 1);
     assert_true(answer >= 0.1 && answer < 0.12);
@@ -120,7 +120,7 @@ static void where_it_says_nothing(void **state) {
         assert_false(e.valid);
         assert_non_null(e.why_not);
         if (!strstr(e.why_not, why[i])) fail_msg("%s: %s", why[i], e.why_not);
-        const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL};
+        const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL, NULL};
         assert_true(isinf(fw_effects_envelope_answer(&c, NULL, 1)));
         assert_true(isinf(fw_effects_envelope_stiffness(&c, 1e-9)));
     }
@@ -237,7 +237,7 @@ static void stiffness_changes(void **state) {
             if (e.valid) {
                 double part = bounds_log(&more, 1e-6, 0.1), unknown;
                 bool same = rig_random(&more) < 0.5;
-                const fw_effect_case c = {arena, &d.r.m, &d.r.scene, &e, NULL};
+                const fw_effect_case c = {arena, &d.r.m, &d.r.scene, &e, NULL, NULL};
                 double bound = fw_effects_envelope_stiffness(&c, part);
                 const fw_dynamics_motion *before = run(arena, &d.r, NULL, NULL);
                 for (int i = 0; i < d.r.m.npin; i++)
@@ -268,7 +268,7 @@ static void softening(void **state) {
     rig r = lever(arena, 1e-6, 0, 2e-9);
     fw_effects_envelope e;
     find(arena, &r, &e);
-    const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL};
+    const fw_effect_case c = {arena, &r.m, &r.scene, &e, NULL, NULL};
     for (int sign = -1; sign <= 1; sign += 2) {
         const double weight[3] = {sign * 3e-6, 0, 0};
         double part;

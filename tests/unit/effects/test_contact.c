@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "element_check.h"
 #include "hinge_rigs.h"
+#include "quantity/law_kind.h"
 
 static const double nan_ = (double)NAN;
 
@@ -35,6 +36,53 @@ static const fw_effects_force_element *touching(rig *r, fw_device_contact_use *u
 static double switched(const fw_effects_force_element *e, const double *p, const double *w) {
     const fw_effects_port_state s = {.load = 1, .p = p, .w = w};
     return e->class_->switch_value(e, &s, 0);
+}
+
+/* A bead that is placed between surfaces of a layer that warms up by a law, and one that is etched of it: the distance in
+   lengths of the layer is l (1 + 5e-3 law)/(1 + 2e-2 law), and l. What the change of it feeds in is in the balance of power */
+static void placed_in_heat(void **state) {
+    (void)state;
+    unsigned seed = 11;
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 2e-3};
+    for (int i = 0; i < 60; i++) {
+        rig r;
+        fw_device_temperature t = {.change_K = 100,
+                                   .expansion_per_K = 2e-4,
+                                   .substrate_expansion_per_K = 1e-4,
+                                   .modulus_change_per_K = 0,
+                                   .law = i % 2 ? &ramp : NULL};
+        fw_device_contact_use use = {.id = "bead",
+                                     .joint = FW_NONE,
+                                     .side = FW_CONTACT_OUTSIDE,
+                                     .face = i / 2 % 2,
+                                     .body_a = FW_GROUND,
+                                     .body_b = 0,
+                                     .distance_m = 2e-6,
+                                     .stiffness_N_per_m = 1e4,
+                                     .damping_Ns_per_m = 0.02,
+                                     .expansion_per_K = 5e-5,
+                                     .undrawn = i / 4 % 2 ? FW_UNDRAWN_PLACED : FW_UNDRAWN_ETCHED};
+        rig_lever(&r, 1, true, true, nan_, nan_);
+        r.scene.duration_s = 4e-3;
+        r.scene.temperature = &t, r.scene.ntemperature = 1;
+        const fw_effects_force_element *e = touching(&r, &use);
+        double p[6], w[6];
+        for (int k = 0; k < 6; k++) {
+            p[k] = (k % 3 == 2 ? 0.3 : 1e-6) * random_(&seed);
+            w[k] = (k % 3 == 2 ? 300 : 4e-3) * random_(&seed);
+        }
+        const bool on = true;
+        const double at = 3e-4 * (1 + i % 3), law = i % 2 ? at / 2e-3 : 1;
+        fw_effects_port_state s = {.t_s = at, .piece_s = at, .load = 1, .p = p, .w = w, .on = &on};
+        fw_check_tangent(e, &s, 2e-10, 1e-5, 2e-6);
+        fw_check_power(e, &s, 1e-9, 1e-6);
+        fw_check_balance(e, &s, 1e-11);
+        const double x = p[3] - p[0], y = p[4] - p[1],
+                     own = i / 4 % 2 ? 2e-6 * (1 + 5e-3 * law) / (1 + 2e-2 * law) : 2e-6,
+                     over = own - (use.face ? cos(p[2]) * x + sin(p[2]) * y : hypot(x, y));
+        assert_near(e->class_->energy(e, &s), 0.5e4 * over * over, 1e-9 * 0.5e4 * 4e-12);
+        fw_arena_free(r.arena);
+    }
 }
 
 /* random states on both sides of the switch, both flags, conjugate surfaces of all senses and round
@@ -214,7 +262,12 @@ static void a_face_is_a_large_tooth(void **state) {
             rig_lever(&r[tooth], 0.4, true, false, nan_, nan_);
             const fw_effects_force_element *e = touching(&r[tooth], &use);
             const double n = normal + turn, back = tooth ? -R : 0, d = distance - past;
-            const double p[6] = {back * cos(n), back * sin(n), turn, d * cos(n) - along * sin(n), d * sin(n) + along * cos(n), 0};
+            const double p[6] = {back * cos(n),
+                                 back * sin(n),
+                                 turn,
+                                 d * cos(n) - along * sin(n),
+                                 d * sin(n) + along * cos(n),
+                                 0};
             const double w[6] = {0};
             const bool on = true;
             const fw_effects_port_state s = {.load = 1, .p = p, .w = w, .on = &on};
@@ -224,7 +277,8 @@ static void a_face_is_a_large_tooth(void **state) {
         assert_relative(hypot(f[0][3], f[0][4]), k * past, 1e-9);
         assert_near(f[0][3] * sin(normal + turn) - f[0][4] * cos(normal + turn), 0, 1e-12);
         assert_true(f[0][3] * cos(normal + turn) + f[0][4] * sin(normal + turn) > 0);
-        assert_near(f[0][2], k * past * along, 1e-12 * k * 1e-3); /* the couple on the body of the face */
+        assert_near(f[0][2], k * past * along,
+                    1e-12 * k * 1e-3); /* the couple on the body of the face */
         for (int c = 3; c < 5; c++)
             assert_near(f[0][c], f[1][c], 2 * k * along * along / (2 * R) + 1e-3 * k * past);
     }
@@ -380,6 +434,7 @@ static void pressed_as_drawn(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(placed_in_heat),
         cmocka_unit_test(element_laws),
         cmocka_unit_test(covered_directions),
         cmocka_unit_test(forces_close_the_gap),

@@ -44,7 +44,7 @@ static void lever_new(lever *s, double c) {
 
 /* an envelope of the modes with all that the scene calls for, against `floor`, without a margin */
 static double bound_of(lever *s, const char **reason) {
-    const fw_effect_case c = {s->arena, &s->m, &s->scene, &s->e, NULL};
+    const fw_effect_case c = {s->arena, &s->m, &s->scene, &s->e, NULL, NULL};
     size_t count;
     const fw_effect_row *const *row = fw_effect_rows(&count);
     assert_int_equal(fw_effects_loads_new(s->arena, &s->m, &s->scene, &s->loads), FW_OK);
@@ -254,7 +254,7 @@ static void expressions(void **state) {
 }
 
 static const char *kept_for(lever *s) {
-    const fw_effect_case c = {s->arena, &s->m, &s->scene, &s->e, NULL};
+    const fw_effect_case c = {s->arena, &s->m, &s->scene, &s->e, NULL, NULL};
     const char *why = NULL;
     assert_int_equal(fw_effect_inertia.looked_at(&c, &why), FW_OK);
     return why;
