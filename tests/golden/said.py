@@ -62,6 +62,7 @@ CASES = {
     "plan_thrown": f"plan tests/data/said/thrown.xml {QUICK} -o OUT",
     "plan_drying": "plan tests/data/said/drying.xml --lab tests/data/said/drying-lab.xml --corners none --measurements none -o OUT",
     "plan_slender": "plan tests/data/said/slender.xml --corners none --measurements none --verbose -o OUT",
+    "plan_two_leaves": "plan tests/data/said/two-leaves.xml --lab tests/data/said/two-leaves-lab.xml --advice none --measurements all -o OUT",
     "check_leaf": "check tests/data/said/leaf.xml --json",
     "recipe_people": f"recipe tests/data/said/drying.xml {QUICK} --wafers 1 --operators 2 -o OUT "
                      "--day '08:00-12:00,13:00-18:00 from 2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3'",
@@ -235,6 +236,9 @@ class Said(unittest.TestCase):
 
     def test_plan_slender(self):
         self.keeps("plan_slender")
+
+    def test_plan_two_leaves(self):
+        self.keeps("plan_two_leaves")
 
     def test_check_leaf(self):
         self.keeps("check_leaf")

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
 #include "probe/probe.h"
+#include <float.h>
 #include <math.h>
 
 /* a device with one probe: the angle of its one body */
@@ -95,14 +96,37 @@ static void looks_at_what_is_asked_for(void **state) {
     for (int k = 0; k < 2; k++) {
         fixture f;
         begin(&f);
-        assert_int_equal(fw_probe_monitor_new(f.arena, &f.mechanism, &f.scene, NULL, k ? all : none,
-                                              &f.monitor),
-                         FW_OK);
+        assert_int_equal(
+            fw_probe_monitor_new(f.arena, &f.mechanism, &f.scene, NULL, k ? all : none, &f.monitor),
+            FW_OK);
         for (int i = 0; i < 3; i++)
             show(&f, i, 1 + i, i == 0);
         assert_int_equal(f.monitor.course->count, k ? 3 : 0);
         fw_arena_free(f.arena);
     }
+}
+
+/* 0, 2 and 1 rad at instants that two runs share: nothing lies between them and the runs agree, so that the error is what the
+   motion's own share and rounding make of the value, 64 spacings of doubles */
+static void an_error_has_the_share_of_the_motion_and_rounding(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f);
+    const double value[] = {0, 0, 2, 2, 1, 1};
+    for (int i = 0; i < 6; i++) /* level on either side of each extreme */
+        show(&f, i, value[i], i % 2 == 0);
+    fw_dynamics_peak peak = {.angle_rad = 2, .error_rad = 0};
+    fw_dynamics_motion motion = {.npin = 1, .peak = &peak, .stats = {.estimate_margin = 1}};
+    f.mechanism.npin = 1;
+    for (int i = 0; i < 2; i++) {
+        fw_probe_result r;
+        peak.error_rad = i * 0.01;
+        fw_probe_result_of(&f.monitor, &f.monitor, &motion, 0, &r);
+        assert_true(r.known && r.maximum == 2 && r.final == 1);
+        assert_relative(r.numeric, 2 * (i * 0.005 + 64 * DBL_EPSILON), 1e-12);
+        assert_relative(r.final_numeric, r.numeric, 1e-12);
+    }
+    fw_arena_free(f.arena);
 }
 
 static void values_have_a_prefix(void **state) {
@@ -120,6 +144,7 @@ int main(void) {
         cmocka_unit_test(a_jump_is_no_peak),
         cmocka_unit_test(settles_at_the_last_crossing),
         cmocka_unit_test(looks_at_what_is_asked_for),
+        cmocka_unit_test(an_error_has_the_share_of_the_motion_and_rounding),
         cmocka_unit_test(values_have_a_prefix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

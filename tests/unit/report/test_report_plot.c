@@ -120,6 +120,37 @@ static void picture_keeps_points_where_they_are(void **state) {
     assert_true(isfinite(none.scale) && none.scale > 0.0);
 }
 
+/* Where a motion has no peak of a hinge, its panel is as high as what the samples reach to either side, which is what it is where the
+   peak is the largest of them: the curve is drawn as it was. */
+static void a_plot_without_a_peak_is_as_high_as_its_samples(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.12);
+    fw_dynamics_motion motion = *f->variant_verdict[0].motion[0];
+    fw_dynamics_peak peak[SIX];
+    const fw_report_figure figure = {3, 40, true, "plot"};
+    const char *at[2];
+    memcpy(peak, motion.peak, sizeof peak);
+    motion.peak = peak;
+    for (int k = 0; k < SIX; k++)
+        f->mechanism[0].hinge[k].closed_form.limit_angle_rad =
+            12; /* far away: none of them is drawn */
+    for (int without = 0; without < 2; without++) {
+        fw_text text = fw_text_new(arena);
+        for (int k = 0; without && k < SIX; k++)
+            peak[k].angle_rad = (double)NAN;
+        assert_int_equal(fw_report_panels(arena, &f->mechanism[0], &motion, &figure, &text), FW_OK);
+        at[without] = text.data;
+    }
+    for (int k = 0; k < SIX; k++) {
+        for (int i = 0; i < 2; i++)
+            assert_non_null(at[i] = strstr(at[i] + 1, "#0072B2"));
+        const size_t n = strcspn(at[0], ">");
+        assert_true(n > 200 && strncmp(at[0], at[1], n) == 0);
+    }
+    fw_arena_free(arena);
+}
+
 static void only_plain_colours_pass(void **state) {
     (void)state;
     assert_string_equal(fw_report_layer_colour("#12aBcD", 0), "#12aBcD");
@@ -136,6 +167,7 @@ int main(void) {
         cmocka_unit_test(nice_steps),
         cmocka_unit_test(bent_flexure_meets_both_bodies),
         cmocka_unit_test(pose_is_the_sample_at_a_sample),
+        cmocka_unit_test(a_plot_without_a_peak_is_as_high_as_its_samples),
         cmocka_unit_test(picture_keeps_points_where_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
