@@ -129,6 +129,50 @@ static void an_error_has_the_share_of_the_motion_and_rounding(void **state) {
     fw_arena_free(f.arena);
 }
 
+/* A finer run is unsettled by twice the margin of what it and a coarser one differ by, above or below, of what the probe reaches,
+   against 30 times the accuracy wanted and 3 % at most. */
+static void a_run_is_unsettled_by_what_a_coarser_one_differs_by(void **state) {
+    (void)state;
+    static const struct {
+        double above, below, accuracy, worst;
+    } row[] = {{0, 0, 1e-4, 0},
+               {0.006, 0, 1e-4, 2 * 1.5 * 0.006 / (0.003 * 2)},
+               {0.006, -0.009, 1e-4, 2 * 1.5 * 0.009 / (0.003 * 2)},
+               {-0.006, 0, 1e-2, 2 * 1.5 * 0.006 / (0.03 * 2)}};
+    const double asked = 1;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        fixture f, coarse;
+        begin(&f), begin(&coarse);
+        const double value[] = {2, 2, -1, -1}, off[] = {row[k].above, row[k].below};
+        for (int i = 0; i < 4; i++) {
+            show(&f, i, value[i], i % 2 == 0);
+            show(&coarse, i, value[i] - off[i / 2], i % 2 == 0);
+        }
+        f.monitor.judged = &f.history, f.monitor.asked = &asked;
+        assert_near(fw_probe_monitor_unsettled(&f.monitor, &coarse.monitor, 1.5, row[k].accuracy),
+                    row[k].worst, 1e-9);
+        fw_arena_free(f.arena), fw_arena_free(coarse.arena);
+    }
+}
+
+/* a distance begins at what is drawn of it: between points, or along a direction that is stated in a body's frame */
+static void a_distance_begins_as_drawn(void **state) {
+    (void)state;
+    fw_device_probe asked = {
+        .row = FW_PROBE_IS_distance, .body = FW_GROUND, .direction_rad = (double)NAN};
+    fw_mechanism_mass mass = {.phi_rad = -0.5 * acos(-1.0)};
+    const fw_mechanism mechanism = {.body = &mass, .nbody = 1};
+    const fw_probe p = {.asked = &asked,
+                        .kind = &fw_device_probe_kinds[FW_PROBE_IS_distance],
+                        .mechanism = &mechanism,
+                        .drawn = {{1e-3, 2e-3}, {4e-3, 6e-3}}};
+    assert_near(fw_probe_origin(&p), 5e-3, 1e-15);
+    asked.direction_rad = 0.5 * acos(-1.0);
+    assert_near(fw_probe_origin(&p), 4e-3, 1e-15);
+    asked.body = 0;
+    assert_near(fw_probe_origin(&p), 3e-3, 1e-15);
+}
+
 static void values_have_a_prefix(void **state) {
     (void)state;
     char text[FW_PROBE_TEXT];
@@ -145,6 +189,8 @@ int main(void) {
         cmocka_unit_test(settles_at_the_last_crossing),
         cmocka_unit_test(looks_at_what_is_asked_for),
         cmocka_unit_test(an_error_has_the_share_of_the_motion_and_rounding),
+        cmocka_unit_test(a_run_is_unsettled_by_what_a_coarser_one_differs_by),
+        cmocka_unit_test(a_distance_begins_as_drawn),
         cmocka_unit_test(values_have_a_prefix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is said of a study at its end, of results that are stated here. */
+/* What is said of a study meanwhile and at its end, of results that are stated here. */
 #include "study/study.h"
 #include "study/study_parts.h"
 #include "test.h"
@@ -39,7 +39,35 @@ static void what_became_of_devices(void **state) {
     }
 }
 
+typedef struct heard {
+    long done, all;
+    int times;
+} heard;
+
+static void hear(void *context, long done, long all, double seconds) {
+    heard *h = context;
+    assert_true(seconds >= 0);
+    *h = (heard){done, all, h->times + 1};
+}
+
+/* a study of which only the most that it may judge is known tells it as a number below 0, in its own thread */
+static void what_is_told_meanwhile(void **state) {
+    (void)state;
+    heard h = {0};
+    fw_study_told told = {.most = 40, .thread = pthread_self()};
+    fw_study study = {.options = {.progress = hear, .progress_context = &h}};
+    fw_study_tell(&study);
+    assert_int_equal(h.times, 0);
+    study.told = &told;
+    atomic_store(&told.done, 7);
+    fw_study_tell(&study);
+    assert_int_equal(h.times, 1);
+    assert_int_equal(h.done, 7);
+    assert_int_equal(h.all, -40);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(what_became_of_devices)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(what_became_of_devices),
+                                       cmocka_unit_test(what_is_told_meanwhile)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
