@@ -42,7 +42,7 @@ CASES = {
     "assemble_toggle": "assemble docs/mechanisms/toggle.xml -o OUT",
     "assemble_squeezer": "assemble docs/mechanisms/squeezer.xml -o OUT",
     "assemble_hub": "assemble tests/data/figures/hub.xml -o OUT",
-    "assemble_return": "assemble tests/data/figures/qr.xml -o OUT",
+    "assemble_telescope": "assemble tests/data/figures/tele.xml -o OUT",
     "hinge_leaves": "hinge docs/gallery/leaf-four-bar/device.xml -o OUT",
     "hinge_paths": "hinge docs/gallery/free-form-four-bar/device.xml -o OUT",
     "simulate_guided": "simulate tests/data/figures/vm.xml --samples 201 -o OUT",
@@ -183,8 +183,8 @@ class Said(unittest.TestCase):
     def test_assemble_hub(self):
         self.keeps("assemble_hub")
 
-    def test_assemble_return(self):
-        self.keeps("assemble_return")
+    def test_assemble_telescope(self):
+        self.keeps("assemble_telescope")
 
     def test_hinge_leaves(self):
         self.keeps("hinge_leaves")

@@ -173,6 +173,54 @@ static void a_distance_begins_as_drawn(void **state) {
     assert_near(fw_probe_origin(&p), 3e-3, 1e-15);
 }
 
+/* A point that goes 1 mm sin t across its direction, and along it as far as it is drawn from the body's middle: the largest between
+   instants, and what the parabola may be off by; along a direction of 60 degrees both coordinates count. */
+static void what_is_across_has_its_extreme_between_instants(void **state) {
+    (void)state;
+    const double turn = acos(-1.0) / 3, c = cos(turn), s = sin(turn);
+    fixture f;
+    begin(&f);
+    f.probe = (fw_device_probe){.id = "tip", .row = FW_PROBE_IS_displacement, .body_b = FW_GROUND, .direction_rad = turn};
+    double last = 0;
+    for (int i = 0; i <= 30; i++) {
+        const double t = 0.1 * (i + 0.2 * sin(3.0 * i)), across = 1e-3 * sin(t), along = 2e-4 * t;
+        const double q[3] = {along * c - across * s, along * s + across * c, 0};
+        const fw_dynamics_instant now = {.t_s = t, .piece_s = t, .q = q, .loads = &f.loads, .begins = i == 0};
+        fw_probe_monitor_record(&f.monitor, &now);
+        last = along;
+    }
+    const fw_probe_course *course = f.monitor.course;
+    assert_relative(course->maximum.value, last, 1e-12);
+    assert_true(fabs(course->across.value - 1e-3) <= course->across.between);
+    assert_true(course->across.between > 0 && course->across.between < 1e-5);
+    fw_arena_free(f.arena);
+}
+
+/* the rate of an angle and of a place is the velocity that the motion has, also where bodies hang on each other */
+static void rates_are_of_the_motion(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f);
+    double t = 1, q[6] = {1e-3, 2e-3, 0.3, 4e-3, 5e-3, -0.2}, v[6] = {3e-3, -4e-3, 5, 0, 0, 7}, angle = -0.5, room[7];
+    fw_mechanism_mass mass[2] = {{0}, {0}};
+    fw_mechanism_pin pin = {.body_a = 0, .body_b = 1, .ax_m = 1e-3};
+    fw_mechanism m = {.device = &f.device, .body = mass, .nbody = 2, .pin = &pin, .npin = 1};
+    const fw_dynamics_motion motion = {.nbody = 2, .npin = 1, .nsample = 1, .t_s = &t, .q = q, .v = v, .angle_rad = &angle};
+    const fw_effects_loads loads = {.nbody = 2};
+    static const struct {
+        fw_device_probe_row row;
+        double direction_rad, rate;
+    } row[] = {{FW_PROBE_IS_angle, (double)NAN, 5}, {FW_PROBE_IS_displacement, 0, 3e-3}, {FW_PROBE_IS_displacement, 1.5707963267948966, -4e-3}};
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        fw_probe *p;
+        f.probe = (fw_device_probe){.id = "p", .row = row[k].row, .body_b = FW_GROUND, .direction_rad = row[k].direction_rad};
+        assert_int_equal(fw_probe_bind(f.arena, &m, &f.scene, &loads, &p), FW_OK);
+        assert_relative(fw_probe_rate_at_row(p, &motion, 0, room), row[k].rate, 1e-6);
+        assert_relative(room[6] - angle, (room[2] - q[2]) / v[2] * (v[5] - v[2]), 1e-9); /* the pin turns with both */
+    }
+    fw_arena_free(f.arena);
+}
+
 static void values_have_a_prefix(void **state) {
     (void)state;
     char text[FW_PROBE_TEXT];
@@ -191,6 +239,8 @@ int main(void) {
         cmocka_unit_test(an_error_has_the_share_of_the_motion_and_rounding),
         cmocka_unit_test(a_run_is_unsettled_by_what_a_coarser_one_differs_by),
         cmocka_unit_test(a_distance_begins_as_drawn),
+        cmocka_unit_test(what_is_across_has_its_extreme_between_instants),
+        cmocka_unit_test(rates_are_of_the_motion),
         cmocka_unit_test(values_have_a_prefix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
