@@ -65,6 +65,7 @@ CASES = {
     "plan_drying": "plan tests/data/said/drying.xml --lab tests/data/said/drying-lab.xml --corners none --measurements none -o OUT",
     "plan_slender": "plan tests/data/said/slender.xml --corners none --measurements none --verbose -o OUT",
     "plan_two_leaves": "plan tests/data/said/two-leaves.xml --lab tests/data/said/two-leaves-lab.xml --advice none --measurements all -o OUT",
+    "check_tendons": "check tests/data/effects/tendons.xml --corners none --advice none --json",
     "check_leaf": "check tests/data/said/leaf.xml --json",
     "recipe_people": f"recipe tests/data/said/drying.xml {QUICK} --wafers 1 --operators 2 -o OUT "
                      "--day '08:00-12:00,13:00-18:00 from 2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3'",
@@ -251,6 +252,9 @@ class Said(unittest.TestCase):
 
     def test_plan_two_leaves(self):
         self.keeps("plan_two_leaves")
+
+    def test_check_tendons(self):
+        self.keeps("check_tendons")
 
     def test_check_leaf(self):
         self.keeps("check_leaf")

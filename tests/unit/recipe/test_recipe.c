@@ -318,6 +318,11 @@ static void sections(void **state) {
     assert_non_null(strstr(out.data, "copper seed ?"));
     assert_null(strstr(out.data, "nan"));
     assert_int_equal(occurrences(out.data, "<svg "), 1);
+    double x0, y0, x1, y1; /* lines round the films go to the right, up or down, and none leaves the picture */
+    int lines = 0;
+    for (const char *at = out.data; (at = strchr(at, 'M')) != NULL; at++)
+        if (sscanf(at, "M%lf%*[ ,]%lfL%lf%*[ ,]%lf", &x0, &y0, &x1, &y1) == 4 && ++lines) assert_true(x0 >= 0 && x1 >= x0);
+    assert_true(lines > 10);
     out = fw_text_new(arena);
     assert_int_equal(fw_recipe_section_svg(f, 26, &out),
                      FW_OK); /* free: seed under the device only */
