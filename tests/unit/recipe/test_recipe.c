@@ -106,7 +106,8 @@ static void html(void **state) {
     }
 }
 
-/* two fillings of 80 mL, a price for one acid: 6.40, and besides what a machine takes for its hours; what is not known is a blank, and what is not in the sum is named */
+/* two fillings of 80 mL, a price for one acid: 6.40, and besides what a machine takes for its hours; what is not known is a blank,
+   and what is not in the sum is named */
 static void bill(void **state) {
     (void)state;
     fw_process_flow *f = computed("al-masked-rie");
