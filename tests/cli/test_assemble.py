@@ -72,6 +72,12 @@ class Assemble(unittest.TestCase):
         self.assertEqual(len(d["independent"]["coordinates"].split(",")), 3)
         self.assertNotIn("velocity", d)
 
+    def test_a_picture_that_cannot_be_saved(self):
+        """ends with what is wrong there, and nothing is said of a result"""
+        result = run("assemble", STREWN, "--svg", "/nowhere/a.svg")
+        self.assertEqual((result.returncode, result.stdout), (5, ""))
+        self.assertIn("FW-D222", result.stderr)
+
     def test_same_bytes(self):
         self.assertEqual(run("assemble", STREWN, "--json").stdout,
                          run("assemble", STREWN, "--json").stdout)

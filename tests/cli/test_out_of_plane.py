@@ -412,7 +412,8 @@ class OutOfPlane(unittest.TestCase):
         gap = all_["below"]["gap_m"]
         self.assertAlmostEqual(gap, 20e-6)
         per = one["lowest_at_rest_m"] / 9.80665
-        for share, verdict in ((0.5, "accept"), (1.02, "inconclusive"), (2, "reject")):
+        # the hollow is 22 um deep at most, and surely met where that is left with all that stiffness may be off by
+        for share, verdict in ((0.5, "accept"), (1.02, "inconclusive"), (1.1, "inconclusive"), (2, "reject")):
             pull = f'<gravity gz="{gap * share / per} m/s^2"/>'
             whole, _, now = self.across(pull, flow=GLASS)
             self.assertEqual(whole["verdict"], verdict)

@@ -251,6 +251,8 @@ class Study(unittest.TestCase):
         by = json.loads((self.place / "s/study.json").read_text())["responses"][0]["by"]
         self.assertAlmostEqual(by[0]["at_SI"], math.radians(246), delta=1e-6)
         self.assertEqual([d["at_description"] for d in by], [False, False])
+        for d, half in zip(by, (math.radians(4), 0.5e-6)):
+            self.assertAlmostEqual(d["half_range_effect"] / (d["derivative_SI"] * half), 1, 9)
         inside = self.write(path.read_text().replace("242 deg", "232 deg"), "inside.xml")
         done = run("study", inside, "--plan", *FLOW)
         self.assertNotIn("FW-D649", done.stderr)

@@ -113,6 +113,15 @@ class Workspace(InTemporary):
         self.assertEqual(result.returncode, 3)
         self.assertIn("FW-D217", result.stderr)
 
+    def test_without_a_limit(self):
+        """where a hinge has none there is no volume, and nothing is said of how well it is known"""
+        text = GALLERY.read_text().replace(' flexure="A"', "")
+        device = self.here / "limitless.xml"
+        device.write_text(text)
+        result = run("workspace", device, "-v")
+        self.assertIn("a hinge has no elastic limit", result.stdout, result.stderr)
+        self.assertNotIn("FW-D219", result.stderr)
+
 
 def scaled(links, poses):
     """the reference design with its links scaled, and a required box that is scaled besides; no scenes"""

@@ -42,8 +42,10 @@ CASES = {
     "assemble_toggle": "assemble docs/mechanisms/toggle.xml -o OUT",
     "assemble_squeezer": "assemble docs/mechanisms/squeezer.xml -o OUT",
     "assemble_hub": "assemble tests/data/figures/hub.xml -o OUT",
+    "assemble_telescope": "assemble tests/data/figures/tele.xml -o OUT",
     "hinge_leaves": "hinge docs/gallery/leaf-four-bar/device.xml -o OUT",
     "hinge_paths": "hinge docs/gallery/free-form-four-bar/device.xml -o OUT",
+    "simulate_guided": "simulate tests/data/figures/vm.xml --samples 201 -o OUT",
     "simulate_gripper": f"simulate {PADDLE} --samples 201 -o OUT",
     "simulate_comb": "simulate tests/data/effects/comb.xml --samples 201 -o OUT",
     "simulate_tendons": "simulate tests/data/effects/tendons.xml --samples 201 -o OUT",
@@ -62,13 +64,19 @@ CASES = {
     "plan_thrown": f"plan tests/data/said/thrown.xml {QUICK} -o OUT",
     "plan_drying": "plan tests/data/said/drying.xml --lab tests/data/said/drying-lab.xml --corners none --measurements none -o OUT",
     "plan_slender": "plan tests/data/said/slender.xml --corners none --measurements none --verbose -o OUT",
+    "plan_two_leaves": "plan tests/data/said/two-leaves.xml --lab tests/data/said/two-leaves-lab.xml --advice none --measurements all -o OUT",
+    "check_tendons": "check tests/data/effects/tendons.xml --corners none --advice none --json",
     "check_leaf": "check tests/data/said/leaf.xml --json",
     "recipe_people": f"recipe tests/data/said/drying.xml {QUICK} --wafers 1 --operators 2 -o OUT "
                      "--day '08:00-12:00,13:00-18:00 from 2026-10-23 CET-1CEST,M3.5.0,M10.5.0/3'",
     "mask_formats": f"mask tests/data/said/drying.xml {QUICK} --mask-format all -o OUT",
     "mask_no_flow": "mask tests/data/said/leaf.xml -o OUT",
+    "hinge_arcs": "hinge docs/gallery/reference-six-bar/device.xml --flow al-masked-rie -o OUT",
     "hinge_json": "hinge docs/gallery/leaf-four-bar/device.xml --json",
+    "workspace_six": "workspace docs/gallery/reference-six-bar/device.xml --flow al-masked-rie --corners none -o OUT",
     "study_size": "study tests/data/said/size.xml --jobs 1 -o OUT",
+    "study_limit": "study tests/data/said/limit.xml --jobs 1 -o OUT",
+    "study_fitted": "study tests/data/said/fitted.xml --jobs 1 -o OUT",
     "study_front": "study tests/data/said/front.xml --jobs 1 -o OUT",
 }
 # kept byte for byte by gallery.sh, of other devices
@@ -176,11 +184,17 @@ class Said(unittest.TestCase):
     def test_assemble_hub(self):
         self.keeps("assemble_hub")
 
+    def test_assemble_telescope(self):
+        self.keeps("assemble_telescope")
+
     def test_hinge_leaves(self):
         self.keeps("hinge_leaves")
 
     def test_hinge_paths(self):
         self.keeps("hinge_paths")
+
+    def test_simulate_guided(self):
+        self.keeps("simulate_guided")
 
     def test_simulate_gripper(self):
         self.keeps("simulate_gripper")
@@ -236,6 +250,12 @@ class Said(unittest.TestCase):
     def test_plan_slender(self):
         self.keeps("plan_slender")
 
+    def test_plan_two_leaves(self):
+        self.keeps("plan_two_leaves")
+
+    def test_check_tendons(self):
+        self.keeps("check_tendons")
+
     def test_check_leaf(self):
         self.keeps("check_leaf")
 
@@ -249,11 +269,23 @@ class Said(unittest.TestCase):
         """an accepted device that names no flow was called a rejected one"""
         self.keeps("mask_no_flow")
 
+    def test_hinge_arcs(self):
+        self.keeps("hinge_arcs")
+
     def test_hinge_json(self):
         self.keeps("hinge_json")
 
+    def test_workspace_six(self):
+        self.keeps("workspace_six")
+
     def test_study_size(self):
         self.keeps("study_size")
+
+    def test_study_limit(self):
+        self.keeps("study_limit")
+
+    def test_study_fitted(self):
+        self.keeps("study_fitted")
 
     def test_study_front(self):
         self.keeps("study_front")

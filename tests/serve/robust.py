@@ -742,11 +742,13 @@ def six(program, directory):
                 assert s.recv(12).decode() == f"HTTP/1.1 {status}"
 
 
-def in_a_terminal(program, directory, path):
-    """serve with a display and this PATH: its process, and the terminal's end of ours"""
+def in_a_terminal(program, directory, path, **display):
+    """serve with this PATH and a display, :9 where none is named: its process, and the terminal's end of ours"""
     ours, theirs = os.openpty()
+    display = display or {"DISPLAY": ":9"}
+    others = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
     run = subprocess.Popen([program, "serve"], stdout=theirs, stderr=theirs, stdin=theirs,
-                           env={**os.environ, "DISPLAY": ":9", "TMPDIR": str(directory), "PATH": str(path)})
+                           env={**others, **display, "TMPDIR": str(directory), "PATH": str(path)})
     os.close(theirs)
     return run, ours
 
@@ -782,6 +784,17 @@ def browser(program, directory):
         os.close(ours)
     words, page = said.read_text().split("\n", 1)
     assert words.startswith(f"1 {directory}/flexwright-serve-") and words.endswith("/open.html"), words
+    said.unlink()
+    for display, opens in (({"DISPLAY": ""}, False), ({"DISPLAY": "", "WAYLAND_DISPLAY": ""}, False), ({"WAYLAND_DISPLAY": "wayland-0"}, True)):
+        run, ours = in_a_terminal(program, directory, path, **display)
+        text = b""
+        while text.count(b"\n") < 2:  # the address, and what is said of it
+            text += os.read(ours, 1000)
+        if opens:
+            until(said.exists)
+        run.terminate()
+        assert run.wait(timeout=5) == 0 and b"FW-D285" not in text and said.exists() == opens, (display, text)
+        os.close(ours)
     token = url.split("token=")[1]
     assert token in page and token not in words, "the address is for the browser, not for a list of processes"
 

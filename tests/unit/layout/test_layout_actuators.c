@@ -470,6 +470,65 @@ static void eyelets_on_the_ground_are_in_the_frame(void **unused) {
     fw_arena_free(d.arena);
 }
 
+static bool is_letter(const fw_layout_piece *p) {
+    return p->role == FW_ROLE_TEXT || p->role == FW_ROLE_MARK;
+}
+
+static bool has_outline(const fw_layout *l, fw_geometry_box b) {
+    for (int i = 0; i < l->npiece; i++) {
+        const fw_geometry_box at = fw_geometry_contour_box(&l->piece[i].contour);
+        if (is_letter(&l->piece[i]) && at.x0 == b.x0 && at.y0 == b.y0 && at.x1 == b.x1 &&
+            at.y1 == b.y1)
+            return true;
+    }
+    return false;
+}
+
+/* Letters in the frame go where a ring's hole is: what comes within 10 um of the square about the hole of 80 um, on any side of its middle,
+   or is where the ring is closed; all others stay, and how many went is said. */
+static void letters_make_room_for_a_ring(void **unused) {
+    (void)unused;
+    static const double off[][2] = {{0, 0}, {0, 45e-6}, {0, -45e-6}, {45e-6, 0}, {-45e-6, 0}};
+    fixture f;
+    paddle_with_tendon(&f);
+    f.device.die.title = "PADDLE";
+    const drawn plain = draw(&f.device);
+    const fw_layout_piece *letter = NULL;
+    for (int i = 0; i < plain.layout->npiece && !letter; i++)
+        if (plain.layout->piece[i].role == FW_ROLE_TEXT) letter = &plain.layout->piece[i];
+    assert_non_null(letter);
+    const fw_geometry_box b = fw_geometry_contour_box(&letter->contour);
+    tendon.neyelet = 2;
+    for (size_t k = 0; k < sizeof off / sizeof *off; k++) {
+        const fw_geometry_vec2 at =
+            fw_v(0.5 * (b.x0 + b.x1) + off[k][0], 0.5 * (b.y0 + b.y1) + off[k][1]);
+        eyelet[1] = (fw_device_eyelet){.body = FW_GROUND, .x_m = at.x, .y_m = at.y};
+        const drawn d = draw(&f.device);
+        fw_geometry_box cap = {0, 0, 0, 0};
+        for (int i = 0; i < d.layout->npiece; i++)
+            if (d.layout->piece[i].role == FW_ROLE_FRAME &&
+                strcmp(d.layout->piece[i].label, "ring of tendon t") == 0)
+                cap = fw_geometry_contour_box(&d.layout->piece[i].contour);
+        int gone = 0;
+        for (int i = 0; i < plain.layout->npiece; i++) {
+            if (!is_letter(&plain.layout->piece[i])) continue;
+            const fw_geometry_box p = fw_geometry_contour_box(&plain.layout->piece[i].contour);
+            const double away =
+                fmax(fmax(p.x0 - at.x, at.x - p.x1), fmax(p.y0 - at.y, at.y - p.y1));
+            const bool stays =
+                away > 50e-6 && (p.x0 > cap.x1 || p.x1 < cap.x0 || p.y0 > cap.y1 || p.y1 < cap.y0);
+            if (has_outline(d.layout, p) != stays)
+                fail_msg("%s at (%g, %g)", plain.layout->piece[i].label, p.x0, p.y0);
+            gone += !stays;
+        }
+        char says[40];
+        snprintf(says, sizeof says, "; %d polygons of that are left out", gone);
+        assert_true(gone > 0 && said(&d, 258, says) == 1);
+        fw_arena_free(d.arena);
+    }
+    fw_arena_free(plain.arena);
+}
+
 /* two rings that would share material are refused, the first stays */
 static void rings_keep_apart(void **unused) {
     (void)unused;
@@ -510,6 +569,7 @@ int main(void) {
         cmocka_unit_test(a_ring_is_where_the_cable_pulls),
         cmocka_unit_test(a_bias_keeps_the_ring_closed),
         cmocka_unit_test(eyelets_on_the_ground_are_in_the_frame),
+        cmocka_unit_test(letters_make_room_for_a_ring),
         cmocka_unit_test(rings_keep_apart),
         cmocka_unit_test(stated_masses_are_kept_and_noted),
     };

@@ -139,12 +139,38 @@ static void a_track_turns(void **unused) {
         fixture f;
         paddle(&f, 4, 8e-6, 0.0);
         comb.direction_rad = M_PI / 6 + (k % 2 ? -0.5 : 0.5) * M_PI;
-        const double c = cos(comb.direction_rad), s = sin(comb.direction_rad), beside = k / 2 ? 100e-6 : 0.0;
+        const double c = cos(comb.direction_rad), s = sin(comb.direction_rad),
+                     beside = k / 2 ? 100e-6 : 0.0;
         comb.bx_m = 0.33e-3 * c - beside * s, comb.by_m = 0.33e-3 * s + beside * c;
         drawn d = draw(&f.device);
-        if (d.status != FW_OK) fail_msg("%s", d.diags.count ? d.diags.item[d.diags.count - 1].message : "");
+        if (d.status != FW_OK)
+            fail_msg("%s", d.diags.count ? d.diags.item[d.diags.count - 1].message : "");
         check_track(d.layout);
-        assert_int_equal(upright_edges(stator_of(d.layout), fw_layout_electrode_of(d.layout, &comb)->edge_pad), 2);
+        assert_int_equal(
+            upright_edges(stator_of(d.layout), fw_layout_electrode_of(d.layout, &comb)->edge_pad),
+            2);
+        fw_arena_free(d.arena);
+    }
+}
+
+/* Where only a tether stands between a pad and the edge, the track does not cross it: refused, and without tethers there is a way. */
+static void a_track_crosses_no_tether(void **unused) {
+    (void)unused;
+    for (int tethers = 0; tethers < 2; tethers++) {
+        fixture f;
+        paddle(&f, 4, 8e-6, 0.0);
+        f.device.die.tethers = tethers;
+        f.body[0].plate_width_m = 1.28e-3, f.body[0].plate_height_m = 0.54e-3,
+        f.body[0].plate_angle_rad = 1.164;
+        f.body[0].plate_x_m = f.body[0].x_m = 0.826e-3;
+        f.body[0].plate_y_m = f.body[0].y_m = 0.647e-3;
+        comb.direction_rad = 1.164 + 1.5 * M_PI; /* below the plate, to its right */
+        comb.bx_m = 0.35e-3 * sin(1.164) + 32e-6 * cos(1.164),
+        comb.by_m = -0.35e-3 * cos(1.164) + 32e-6 * sin(1.164);
+        drawn d = draw(&f.device);
+        assert_int_equal(d.status, tethers ? FW_GEOMETRY : FW_OK);
+        assert_int_equal(said(&d, 440), tethers);
+        if (!tethers) check_track(d.layout);
         fw_arena_free(d.arena);
     }
 }
@@ -215,9 +241,8 @@ static void no_way_is_refused_with_its_place(void **unused) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_track_reaches_the_edge),
-        cmocka_unit_test(a_track_turns),
-        cmocka_unit_test(the_frame_is_cut_once),
+        cmocka_unit_test(a_track_reaches_the_edge),         cmocka_unit_test(a_track_turns),
+        cmocka_unit_test(a_track_crosses_no_tether),        cmocka_unit_test(the_frame_is_cut_once),
         cmocka_unit_test(no_way_is_refused_with_its_place),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -29,6 +29,7 @@ static const char device_form[] =
     "<air kind=\"slide\" on=\"stage\" gap=\"%s\"/></scene>%s</device>";
 
 static const char *fx = "4 uN", *die = "";
+static bool turned; /* the frame of body "left" by 90 degrees, which makes no other device */
 static char folder[] = "fw-hollows-XXXXXX";
 
 /* a file of the data directory, with one text exchanged */
@@ -87,12 +88,26 @@ static int tear_down(void **state) {
     return 0;
 }
 
+static void exchange(char *text, const char *from, const char *to) {
+    char *at = strstr(text, from);
+    assert_non_null(at);
+    memmove(at + strlen(to), at + strlen(from), strlen(at + strlen(from)) + 1);
+    memcpy(at, to, strlen(to));
+}
+
 static fw_plan *asked(const char *gap, fw_status *loaded) {
     static char xml[4000];
     fw_plan_options options = fw_plan_options_default();
     options.data_directory = folder;
     fw_plan *plan = fw_plan_new(&options);
     snprintf(xml, sizeof xml, device_form, fx, gap, die);
+    if (turned) {
+        exchange(xml, "<body id=\"left\"", "<body id=\"left\" phi=\"90 deg\"");
+        exchange(xml, "b=\"left\" b-x=\"0 mm\" b-y=\"-0.75 mm\"",
+                 "b=\"left\" b-x=\"-0.75 mm\" b-y=\"0 mm\" free-angle=\"90 deg\"");
+        exchange(xml, "a=\"left\" a-x=\"0 mm\" a-y=\"0.75 mm\"",
+                 "a=\"left\" a-x=\"0.75 mm\" a-y=\"0 mm\" free-angle=\"-90 deg\"");
+    }
     *loaded = fw_plan_load_memory(plan, "stage.xml", xml, strlen(xml));
     return plan;
 }
@@ -139,7 +154,9 @@ static void wires_follow_the_pads(void **state) {
     const fw_layout *marked;
     fw_layout_no_room no_room;
     int pads = 0;
-    assert_int_equal(fw_mask_frame_marks(plan->arena, plan->flow[0].table, plan->layout, &marked, &no_room), FW_OK);
+    assert_int_equal(
+        fw_mask_frame_marks(plan->arena, plan->flow[0].table, plan->layout, &marked, &no_room),
+        FW_OK);
     for (int i = 0; i < marked->npiece; i++)
         pads += strcmp(marked->piece[i].label, "metal of a bond pad") == 0;
     assert_true(pads > 0);
@@ -171,7 +188,8 @@ static void marks_without_room_are_said(void **state) {
         fw_plan *plan = judged("20 um");
         die = "";
         assert_int_equal(said(plan, 619, "2 of the 2 marks frame-mark on the frame"), row[i].said);
-        assert_int_equal(said(plan, 619, "with <die frame=\"224 um\"> they are there"), row[i].said);
+        assert_int_equal(said(plan, 619, "with <die frame=\"224 um\"> they are there"),
+                         row[i].said);
         fw_plan_free(plan);
     }
 }
@@ -190,7 +208,8 @@ static void plates_without_any_mark_are_refused(void **state) {
         die = row[i].die;
         fw_plan *plan = judged("20 um");
         die = "";
-        assert_int_equal(reason_of(plan, "shows how its plates lie on each other") != NULL, row[i].refused);
+        assert_int_equal(reason_of(plan, "shows how its plates lie on each other") != NULL,
+                         row[i].refused);
         assert_int_equal(plan->flow[0].flow->manufacturable == 0, row[i].refused);
         fw_plan_free(plan);
     }
@@ -245,6 +264,17 @@ static void travel(void **state) {
     fw_plan_free(plan);
 }
 
+/* how far a body goes does not depend on the axes of the frame in which it is stated */
+static void axes_of_a_body_are_not_its_way(void **state) {
+    (void)state;
+    turned = true;
+    fw_plan *plan = judged("20 um");
+    turned = false;
+    const char *over = reason_of(plan, "it would run over bonded glass");
+    if (over) fail_msg("%s", over);
+    fw_plan_free(plan);
+}
+
 /* The etch of 20 um leaves corners round by as much: sqrt(2) m - (sqrt(2) - 1) 20 um beside a corner of what moves, against
    the overlay alone where nothing goes far. 3 um are left at m = 7.98 um. */
 static void corners_are_round(void **state) {
@@ -261,7 +291,8 @@ static void corners_are_round(void **state) {
         fw_plan *plan = judged("20 um");
         fx = "4 uN";
         const char *why = reason_of(plan, "it would run over bonded glass");
-        if ((why != NULL) != row[i].over) fail_msg("%s um: %s", row[i].margin, why ? why : "nothing");
+        if ((why != NULL) != row[i].over)
+            fail_msg("%s um: %s", row[i].margin, why ? why : "nothing");
         if (why) assert_non_null(strstr(why, "at its corners, which the etch leaves round"));
         if (why) assert_non_null(strstr(why, "margin=\"8 um\""));
         fw_plan_free(plan);
@@ -305,15 +336,16 @@ static fw_plan *up_by(double um) {
 }
 
 /* where the corner of two bars lies, at distances p and q from a and b, on the side on which it was drawn */
-static fw_geometry_vec2 knee(fw_geometry_vec2 a, fw_geometry_vec2 b, double p, double q, double side) {
+static fw_geometry_vec2 knee(fw_geometry_vec2 a, fw_geometry_vec2 b, double p, double q,
+                             double side) {
     double far = vec_distance(a, b), along = (far * far + p * p - q * q) / (2 * far);
     fw_geometry_vec2 u = vec_scale(1 / far, vec_sub(b, a));
     return vec_along(vec_along(a, along, u), side * sqrt(p * p - along * along), vec_left(u));
 }
 
 /* how far any corner of a body's outline goes where p goes to p1 and q to q1 */
-static double goes_at_most(const fw_layout *layout, int body, fw_geometry_vec2 p, fw_geometry_vec2 q, fw_geometry_vec2 p1,
-                           fw_geometry_vec2 q1) {
+static double goes_at_most(const fw_layout *layout, int body, fw_geometry_vec2 p,
+                           fw_geometry_vec2 q, fw_geometry_vec2 p1, fw_geometry_vec2 q1) {
     fw_geometry_vec2 u = vec_sub(q, p), v = vec_sub(q1, p1);
     double turn = atan2(vec_cross(u, v), vec_dot(u, v)), most = 0;
     for (int i = 0; i < layout->npiece; i++)
@@ -335,10 +367,13 @@ static double box_moves(const fw_layout *layout, double up_m) {
             fw_geometry_vec2 at[6], by = {(i - 5) * 1e-6, -5e-6 + 0.1 * k * (up_m + 5e-6)};
             memcpy(at, drawn, sizeof at);
             at[2] = vec_add(at[2], by), at[3] = vec_add(at[3], by);
-            at[1] = knee(at[0], at[2], vec_distance(drawn[0], drawn[1]), vec_distance(drawn[1], drawn[2]), 1);
-            at[4] = knee(at[5], at[3], vec_distance(drawn[5], drawn[4]), vec_distance(drawn[4], drawn[3]), -1);
+            at[1] = knee(at[0], at[2], vec_distance(drawn[0], drawn[1]),
+                         vec_distance(drawn[1], drawn[2]), 1);
+            at[4] = knee(at[5], at[3], vec_distance(drawn[5], drawn[4]),
+                         vec_distance(drawn[4], drawn[3]), -1);
             for (int b = 0; b < 5; b++)
-                most = fmax(most, goes_at_most(layout, b, drawn[b], drawn[b + 1], at[b], at[b + 1]));
+                most =
+                    fmax(most, goes_at_most(layout, b, drawn[b], drawn[b + 1], at[b], at[b + 1]));
         }
     return most;
 }
@@ -362,7 +397,9 @@ static void required_poses_count(void **state) {
             if (!(goes >= 0.99 * must && goes < 1.04 * must))
                 fail_msg("up %g um goes %g um: %s", up[i], must, why);
         }
-        assert_int_equal(why != NULL, i == 2); /* 33 um at 20 up: less than the margin of 40 and the overlay of 3 */
+        assert_int_equal(
+            why != NULL,
+            i == 2); /* 33 um at 20 up: less than the margin of 40 and the overlay of 3 */
         for (int k = 0; k < v->nstator; k++)
             if (strcmp(v->stator[k].scene, "workspace") == 0) least = fmin(least, v->stator[k].m);
         if (!(fabs(least - (40.0 - up[i]) * 1e-6) < 1e-6)) fail_msg("%g um left", 1e6 * least);
@@ -401,7 +438,8 @@ static void disagreements(void **state) {
          "aligns by 'back-mrk', which masks/silicon-on-glass.xml does not have"},
         {"processes", "marks=\"back-mark frame-mark\"", "marks=\"back-mark ladder\"", 372,
          "aligns by 'ladder', which in masks/silicon-on-glass.xml is a undercut-ladder: no plate"},
-        {"processes", "coupon=\"slots\"", "coupon=\"fill\"", 372, "reads coupon 'fill', which in masks/silicon-on-glass.xml is a fill"},
+        {"processes", "coupon=\"slots\"", "coupon=\"fill\"", 372,
+         "reads coupon 'fill', which in masks/silicon-on-glass.xml is a fill"},
         {"processes", "mask=\"pads\"", "mask=\"metal\"", 412, "next of the plates"},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
@@ -427,6 +465,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(as_it_is, set_up, tear_down),
         cmocka_unit_test_setup_teardown(other_air, set_up, tear_down),
         cmocka_unit_test_setup_teardown(travel, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(axes_of_a_body_are_not_its_way, set_up, tear_down),
         cmocka_unit_test_setup_teardown(corners_are_round, set_up, tear_down),
         cmocka_unit_test_setup_teardown(required_poses_count, set_up, tear_down),
         cmocka_unit_test_setup_teardown(disagreements, set_up, tear_down),

@@ -28,6 +28,8 @@ static const char lab[] = "<process xmlns='urn:flexwright:process:1' id='lab' ve
                           "<q id='drie.S' value='0.1' u='0.005' unit='1' status='measured' src='m'/>"
                           "<q id='drie.A' value='0.985' lo='0.984' hi='0.986' unit='1' status='measured' src='m'/></process>";
 
+static fw_verdict_corners corners = FW_CORNERS_NONE;
+
 static fw_plan *planned(const char *flows, const char *die, const char *sweep, const fw_device_set *set, int nset,
                         bool force) {
     static const fw_plan_lab_text text[] = {{"lab.xml", lab, sizeof lab - 1}};
@@ -37,7 +39,7 @@ static fw_plan *planned(const char *flows, const char *die, const char *sweep, c
     o.set = set, o.nset = nset, o.force = force;
     o.lab_text = text, o.nlab_text = strstr(flows, "'soi-deep-rie'") && !strstr(flows, "double") ? 1 : 0;
     o.verdict.with_advice = false;
-    o.verdict.corners = FW_CORNERS_NONE;
+    o.verdict.corners = corners;
     o.verdict.motion.accuracy = 3e-2;
     fw_plan *plan = fw_plan_new(&o);
     assert_non_null(plan);
@@ -139,8 +141,25 @@ static void headline(void **state) {
     fw_plan_free(plan);
 }
 
+/* the order says what a width may be off by: on a plate of several devices by what the one with the least room has */
+static void the_least_room_counts(void **state) {
+    (void)state;
+    corners = FW_CORNERS_AUTO;
+    fw_plan *plan = planned("<flow ref='al-masked-rie'/>", "", "<sweep parameter='w' from='8 um' to='12 um' steps='2'/>", NULL, 0, false);
+    corners = FW_CORNERS_NONE;
+    double room[2];
+    for (int v = 0; v < 2; v++) {
+        const fw_verdict_variant_verdict *judged = &plan->step[v]->verdict.variant[0];
+        assert_int_equal(judged->decision, FW_ACCEPT);
+        room[v] = 2 * judged->fabricated->room.edge_m;
+    }
+    assert_true(room[0] < 0.9 * room[1]);
+    assert_relative(plan->flow[0].wafer->effect.left_m, room[0], 1e-9);
+    fw_plan_free(plan);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(release_of_all), cmocka_unit_test(one_time_and_bias),
-                                       cmocka_unit_test(replaced_once), cmocka_unit_test(headline)};
+                                       cmocka_unit_test(replaced_once), cmocka_unit_test(headline), cmocka_unit_test(the_least_room_counts)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
    is replaced unless forced, and the process works with the number of dies. */
 #include "base/constants.h"
 #include "plan/plan.h"
+#include "plan/stages.h"
 #include "test.h"
 #include <stdlib.h>
 
@@ -27,7 +28,8 @@ static fw_plan *begun(const fw_device_set *set, int nset, bool force, int dies) 
 
 static fw_plan *planned(const fw_device_set *set, int nset, bool force, int dies) {
     fw_plan *plan = begun(set, nset, force, dies);
-    if (fw_plan_fabricate(plan) != FW_OK) fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "?");
+    if (fw_plan_fabricate(plan) != FW_OK)
+        fail_msg("%s", plan->diags.count ? plan->diags.item[0].message : "?");
     return plan;
 }
 
@@ -167,8 +169,7 @@ static void process_knows_dies(void **state) {
     fw_plan *one = planned(NULL, 0, false, 1);
     const fw_process_flow *single = one->flow[0].flow;
     const double D = quantity(single, "wafer.D")->value;
-    double times =
-        (0.25 * FW_PI * D * D - quantity(single, "mask.open-area")->value) * w->dies;
+    double times = (0.25 * FW_PI * D * D - quantity(single, "mask.open-area")->value) * w->dies;
     assert_true(fabs(whole - area->value - times) > 5e-3 * times);
     fw_plan_free(one);
 }
@@ -176,13 +177,34 @@ static void process_knows_dies(void **state) {
 /* as many dies as there is room for the largest of the sweep, whichever way it is larger */
 static void largest_step_counts(void **state) {
     (void)state;
-    const fw_device_set to_it[] = {{"sweep/@parameter", "room"}, {"sweep/@from", "400 um"}, {"sweep/@to", "1.2 mm"}, {"sweep/@steps", "2"}},
-                        at_it[] = {to_it[0], {"sweep/@from", "1.1 mm"}, to_it[2], to_it[3], {"room", "1.2 mm"}};
+    const fw_device_set to_it[] = {{"sweep/@parameter", "room"},
+                                   {"sweep/@from", "400 um"},
+                                   {"sweep/@to", "1.2 mm"},
+                                   {"sweep/@steps", "2"}},
+                        at_it[] = {to_it[0],
+                                   {"sweep/@from", "1.1 mm"},
+                                   to_it[2],
+                                   to_it[3],
+                                   {"room", "1.2 mm"}};
     fw_plan *sweep = begun(to_it, 4, false, 0), *alone = begun(at_it, 5, false, 0);
     assert_true(alone->dies > 1 && 2 * alone->dies < shared->dies);
     assert_int_equal(sweep->dies, alone->dies);
     fw_plan_free(sweep);
     fw_plan_free(alone);
+}
+
+/* a working day of five minutes is the shop's: the flow has no schedule there, and nothing is wrong with its windows */
+static void a_short_day_is_no_reason_against_a_flow(void **state) {
+    (void)state;
+    fw_plan *plan = begun(NULL, 0, false, 1);
+    plan->options.schedule.day = "08:00-08:05";
+    assert_int_equal(fw_plan_schedules(plan), FW_OK);
+    const fw_plan_flow *pf = &plan->flow[0];
+    assert_true(!pf->schedule->feasible && pf->schedule->pause_s);
+    assert_non_null(said(plan, 197));
+    for (int i = 0; i < pf->flow->nreason; i++)
+        assert_null(strstr(pf->flow->reason[i], "the hold windows of the steps cannot be kept"));
+    fw_plan_free(plan);
 }
 
 int main(void) {
@@ -192,6 +214,7 @@ int main(void) {
         cmocka_unit_test(rejected_steps),
         cmocka_unit_test(refused_steps),
         cmocka_unit_test(process_knows_dies),
+        cmocka_unit_test(a_short_day_is_no_reason_against_a_flow),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

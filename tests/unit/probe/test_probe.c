@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
 #include "probe/probe.h"
+#include <float.h>
 #include <math.h>
 
 /* a device with one probe: the angle of its one body */
@@ -95,14 +96,129 @@ static void looks_at_what_is_asked_for(void **state) {
     for (int k = 0; k < 2; k++) {
         fixture f;
         begin(&f);
-        assert_int_equal(fw_probe_monitor_new(f.arena, &f.mechanism, &f.scene, NULL, k ? all : none,
-                                              &f.monitor),
-                         FW_OK);
+        assert_int_equal(
+            fw_probe_monitor_new(f.arena, &f.mechanism, &f.scene, NULL, k ? all : none, &f.monitor),
+            FW_OK);
         for (int i = 0; i < 3; i++)
             show(&f, i, 1 + i, i == 0);
         assert_int_equal(f.monitor.course->count, k ? 3 : 0);
         fw_arena_free(f.arena);
     }
+}
+
+/* 0, 2 and 1 rad at instants that two runs share: nothing lies between them and the runs agree, so that the error is what the
+   motion's own share and rounding make of the value, 64 spacings of doubles */
+static void an_error_has_the_share_of_the_motion_and_rounding(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f);
+    const double value[] = {0, 0, 2, 2, 1, 1};
+    for (int i = 0; i < 6; i++) /* level on either side of each extreme */
+        show(&f, i, value[i], i % 2 == 0);
+    fw_dynamics_peak peak = {.angle_rad = 2, .error_rad = 0};
+    fw_dynamics_motion motion = {.npin = 1, .peak = &peak, .stats = {.estimate_margin = 1}};
+    f.mechanism.npin = 1;
+    for (int i = 0; i < 2; i++) {
+        fw_probe_result r;
+        peak.error_rad = i * 0.01;
+        fw_probe_result_of(&f.monitor, &f.monitor, &motion, 0, &r);
+        assert_true(r.known && r.maximum == 2 && r.final == 1);
+        assert_relative(r.numeric, 2 * (i * 0.005 + 64 * DBL_EPSILON), 1e-12);
+        assert_relative(r.final_numeric, r.numeric, 1e-12);
+    }
+    fw_arena_free(f.arena);
+}
+
+/* A finer run is unsettled by twice the margin of what it and a coarser one differ by, above or below, of what the probe reaches,
+   against 30 times the accuracy wanted and 3 % at most. */
+static void a_run_is_unsettled_by_what_a_coarser_one_differs_by(void **state) {
+    (void)state;
+    static const struct {
+        double above, below, accuracy, worst;
+    } row[] = {{0, 0, 1e-4, 0},
+               {0.006, 0, 1e-4, 2 * 1.5 * 0.006 / (0.003 * 2)},
+               {0.006, -0.009, 1e-4, 2 * 1.5 * 0.009 / (0.003 * 2)},
+               {-0.006, 0, 1e-2, 2 * 1.5 * 0.006 / (0.03 * 2)}};
+    const double asked = 1;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        fixture f, coarse;
+        begin(&f), begin(&coarse);
+        const double value[] = {2, 2, -1, -1}, off[] = {row[k].above, row[k].below};
+        for (int i = 0; i < 4; i++) {
+            show(&f, i, value[i], i % 2 == 0);
+            show(&coarse, i, value[i] - off[i / 2], i % 2 == 0);
+        }
+        f.monitor.judged = &f.history, f.monitor.asked = &asked;
+        assert_near(fw_probe_monitor_unsettled(&f.monitor, &coarse.monitor, 1.5, row[k].accuracy),
+                    row[k].worst, 1e-9);
+        fw_arena_free(f.arena), fw_arena_free(coarse.arena);
+    }
+}
+
+/* a distance begins at what is drawn of it: between points, or along a direction that is stated in a body's frame */
+static void a_distance_begins_as_drawn(void **state) {
+    (void)state;
+    fw_device_probe asked = {
+        .row = FW_PROBE_IS_distance, .body = FW_GROUND, .direction_rad = (double)NAN};
+    fw_mechanism_mass mass = {.phi_rad = -0.5 * acos(-1.0)};
+    const fw_mechanism mechanism = {.body = &mass, .nbody = 1};
+    const fw_probe p = {.asked = &asked,
+                        .kind = &fw_device_probe_kinds[FW_PROBE_IS_distance],
+                        .mechanism = &mechanism,
+                        .drawn = {{1e-3, 2e-3}, {4e-3, 6e-3}}};
+    assert_near(fw_probe_origin(&p), 5e-3, 1e-15);
+    asked.direction_rad = 0.5 * acos(-1.0);
+    assert_near(fw_probe_origin(&p), 4e-3, 1e-15);
+    asked.body = 0;
+    assert_near(fw_probe_origin(&p), 3e-3, 1e-15);
+}
+
+/* A point that goes 1 mm sin t across its direction, and along it as far as it is drawn from the body's middle: the largest between
+   instants, and what the parabola may be off by; along a direction of 60 degrees both coordinates count. */
+static void what_is_across_has_its_extreme_between_instants(void **state) {
+    (void)state;
+    const double turn = acos(-1.0) / 3, c = cos(turn), s = sin(turn);
+    fixture f;
+    begin(&f);
+    f.probe = (fw_device_probe){.id = "tip", .row = FW_PROBE_IS_displacement, .body_b = FW_GROUND, .direction_rad = turn};
+    double last = 0;
+    for (int i = 0; i <= 30; i++) {
+        const double t = 0.1 * (i + 0.2 * sin(3.0 * i)), across = 1e-3 * sin(t), along = 2e-4 * t;
+        const double q[3] = {along * c - across * s, along * s + across * c, 0};
+        const fw_dynamics_instant now = {.t_s = t, .piece_s = t, .q = q, .loads = &f.loads, .begins = i == 0};
+        fw_probe_monitor_record(&f.monitor, &now);
+        last = along;
+    }
+    const fw_probe_course *course = f.monitor.course;
+    assert_relative(course->maximum.value, last, 1e-12);
+    assert_true(fabs(course->across.value - 1e-3) <= course->across.between);
+    assert_true(course->across.between > 0 && course->across.between < 1e-5);
+    fw_arena_free(f.arena);
+}
+
+/* the rate of an angle and of a place is the velocity that the motion has, also where bodies hang on each other */
+static void rates_are_of_the_motion(void **state) {
+    (void)state;
+    fixture f;
+    begin(&f);
+    double t = 1, q[6] = {1e-3, 2e-3, 0.3, 4e-3, 5e-3, -0.2}, v[6] = {3e-3, -4e-3, 5, 0, 0, 7}, angle = -0.5, room[7];
+    fw_mechanism_mass mass[2] = {{0}, {0}};
+    fw_mechanism_pin pin = {.body_a = 0, .body_b = 1, .ax_m = 1e-3};
+    fw_mechanism m = {.device = &f.device, .body = mass, .nbody = 2, .pin = &pin, .npin = 1};
+    const fw_dynamics_motion motion = {.nbody = 2, .npin = 1, .nsample = 1, .t_s = &t, .q = q, .v = v, .angle_rad = &angle};
+    const fw_effects_loads loads = {.nbody = 2};
+    static const struct {
+        fw_device_probe_row row;
+        double direction_rad, rate;
+    } row[] = {{FW_PROBE_IS_angle, (double)NAN, 5}, {FW_PROBE_IS_displacement, 0, 3e-3}, {FW_PROBE_IS_displacement, 1.5707963267948966, -4e-3}};
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        fw_probe *p;
+        f.probe = (fw_device_probe){.id = "p", .row = row[k].row, .body_b = FW_GROUND, .direction_rad = row[k].direction_rad};
+        assert_int_equal(fw_probe_bind(f.arena, &m, &f.scene, &loads, &p), FW_OK);
+        assert_relative(fw_probe_rate_at_row(p, &motion, 0, room), row[k].rate, 1e-6);
+        assert_relative(room[6] - angle, (room[2] - q[2]) / v[2] * (v[5] - v[2]), 1e-9); /* the pin turns with both */
+    }
+    fw_arena_free(f.arena);
 }
 
 static void values_have_a_prefix(void **state) {
@@ -120,6 +236,11 @@ int main(void) {
         cmocka_unit_test(a_jump_is_no_peak),
         cmocka_unit_test(settles_at_the_last_crossing),
         cmocka_unit_test(looks_at_what_is_asked_for),
+        cmocka_unit_test(an_error_has_the_share_of_the_motion_and_rounding),
+        cmocka_unit_test(a_run_is_unsettled_by_what_a_coarser_one_differs_by),
+        cmocka_unit_test(a_distance_begins_as_drawn),
+        cmocka_unit_test(what_is_across_has_its_extreme_between_instants),
+        cmocka_unit_test(rates_are_of_the_motion),
         cmocka_unit_test(values_have_a_prefix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -106,7 +106,8 @@ static void html(void **state) {
     }
 }
 
-/* two fillings of 80 mL, a price for one acid: 6.40; what is not known is a blank, and what is not in the sum is named */
+/* two fillings of 80 mL, a price for one acid: 6.40, and besides what a machine takes for its hours; what is not known is a blank,
+   and what is not in the sum is named */
 static void bill(void **state) {
     (void)state;
     fw_process_flow *f = computed("al-masked-rie");
@@ -129,6 +130,16 @@ static void bill(void **state) {
     assert_string_equal(json_string_value(json_object_get(b, "currency")), "EUR");
     assert_near(json_number_value(json_object_get(b, "consumables_cost")), 6.4, 1e-9);
     json_decref(all);
+    const char *hour = "<process xmlns=\"urn:flexwright:process:1\" flow=\"al-masked-rie\"><source id=\"o\" kind=\"datasheet\">offer</source>"
+                       "<q id=\"rie.price\" value=\"60\" u=\"0\" unit=\"EUR/h\" status=\"stated\" src=\"o\"/></process>";
+    assert_int_equal(fw_process_lab_apply(arena, "hour.xml", hour, strlen(hour), f, &diags), FW_OK);
+    const char *sum = strstr(written(fw_recipe_write_html, f, "six", false, NULL), "as far as it is known: ");
+    double whole, consumables, machines; /* with the hours of one machine */
+    assert_non_null(sum);
+    assert_int_equal(sscanf(sum, "as far as it is known: %lf EUR</b>, of it consumables %lf and machine time %lf", &whole, &consumables, &machines), 3);
+    assert_near(consumables, 6.4, 1e-9);
+    assert_true(machines > 1);
+    assert_near(whole, consumables + machines, 0.011);
 }
 
 static void rejected_everywhere(void **state) {
@@ -308,6 +319,11 @@ static void sections(void **state) {
     assert_non_null(strstr(out.data, "copper seed ?"));
     assert_null(strstr(out.data, "nan"));
     assert_int_equal(occurrences(out.data, "<svg "), 1);
+    double x0, y0, x1, y1; /* lines round the films go to the right, up or down, and none leaves the picture */
+    int lines = 0;
+    for (const char *at = out.data; (at = strchr(at, 'M')) != NULL; at++)
+        if (sscanf(at, "M%lf%*[ ,]%lfL%lf%*[ ,]%lf", &x0, &y0, &x1, &y1) == 4 && ++lines) assert_true(x0 >= 0 && x1 >= x0);
+    assert_true(lines > 10);
     out = fw_text_new(arena);
     assert_int_equal(fw_recipe_section_svg(f, 26, &out),
                      FW_OK); /* free: seed under the device only */

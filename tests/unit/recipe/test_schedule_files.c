@@ -89,6 +89,31 @@ static void picture(void **state) {
     }
 }
 
+/* Round the clock, in pieces of twelve hours: one that nothing is done in is not drawn, neither where a load ends as it begins nor
+   where the next begins as it ends. */
+static void only_hours_with_loads_are_drawn(void **state) {
+    (void)state;
+    const fw_process_flow *f = computed(SILICON, NULL, NULL);
+    const fw_schedule *of;
+    const fw_schedule_options o = {.wafers = 1, .operators = 1, .day = "none", .effort = 1};
+    assert_int_equal(fw_schedule_make(arena, f, &o, &diags, &of), FW_OK);
+    for (
+        int k = 0; k < 4;
+        k++) { /* hours from 12 to 24 are full, touched at their begin, at their end, and at both */
+        const double half = 12 * 3600.0;
+        fw_schedule_run run[2] = {{.count = 1, .end_s = k % 2 ? half : half - 60},
+                                  {.count = 1, .start_s = 2 * half + (k / 2 ? 0 : 60)}};
+        run[1].end_s = run[1].start_s + 60;
+        if (k == 0) run[0].end_s = half + 60;
+        fw_schedule two = *of;
+        two.run = run, two.nrun = 2;
+        two.start_s = 0, two.makespan_s = run[1].end_s;
+        const char *svg = written(fw_recipe_write_schedule_svg, f, &two);
+        assert_int_equal(occurrences(svg, "class=\"d\">day 1<"), k == 0 ? 2 : 1);
+        assert_int_equal(occurrences(svg, "class=\"d\">day 2<"), 1);
+    }
+}
+
 /* the calendar: an event for every attended load, none outside the working day */
 static void calendar(void **state) {
     (void)state;
@@ -217,6 +242,6 @@ int main(void) {
         cmocka_unit_test(json_and_csv),    cmocka_unit_test(picture),
         cmocka_unit_test(calendar),        cmocka_unit_test(zones),
         cmocka_unit_test(lines_of_wafers), cmocka_unit_test(planning_times),
-        cmocka_unit_test(contradiction)};
+        cmocka_unit_test(contradiction),   cmocka_unit_test(only_hours_with_loads_are_drawn)};
     return cmocka_run_group_tests(tests, setup, teardown);
 }

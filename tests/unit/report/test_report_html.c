@@ -2,6 +2,7 @@
 #include "quantity/law_kind.h"
 #include "test.h"
 #include "report/fixture.h"
+#include "report/report_page.h"
 #include <ctype.h>
 #include <libxml/parser.h>
 
@@ -367,8 +368,57 @@ static void out_of_memory_is_said(void **state) {
     fw_arena_free(arena);
 }
 
+static const char *line_of(fw_arena *arena, fixture *f, const char *label) {
+    fw_report_summary s;
+    assert_int_equal(fw_report_summarise(arena, &f->input, &s), FW_OK);
+    for (int i = 0; i < s.nline; i++)
+        if (strncmp(s.line[i].label, label, strlen(label)) == 0) return s.line[i].text;
+    return "";
+}
+
+/* How much of their way until they meet, or have just what is asked for, parts take is said behind the nearest, where it is more than
+   half; of the nearest pair itself only where that is not seen: it comes down from 10 to 2 um, or to 6 um of which 5 are asked for. */
+static void the_way_that_parts_take(void **state) {
+    (void)state;
+    static const struct {
+        double m, required_m, share, of_other;
+        const char *says;
+    } row[] = {
+        {2e-6, 0, 0.8, 0, "A and B 2 um (2 to 2) in close"},
+        {6e-6, 5e-6, 0.8, 0,
+         "A and B 6 um (6 to 6) in close; A and B take 80 % of the way until they have just what "
+         "is asked for"},
+        {6e-6, 0, 0.4, 0, "A and B 6 um (6 to 6) in close"},
+        {6e-6, 0, 0.4, 0.54,
+         "A and B 6 um (6 to 6) in close; C and D take 54 % of the way until they meet in open"},
+    };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        fw_arena *arena = fw_arena_new(0);
+        fixture *f = fixture_new(arena, 0.12);
+        const double m = row[i].m;
+        fw_verdict_clearance c[2] = {
+            {.scene = "close",
+             .least = {.known = true, .m = m, .start_m = 10e-6, .at = {.a = "A", .b = "B"}},
+             .way = {row[i].share, "A", "B"},
+             .m = m,
+             .low_m = m,
+             .high_m = m,
+             .required_m = row[i].required_m},
+            {.scene = "open",
+             .least = {.known = true, .m = 9e-6, .start_m = 20e-6, .at = {.a = "C", .b = "D"}},
+             .way = {row[i].of_other, "C", "D"},
+             .m = 9e-6,
+             .low_m = 9e-6,
+             .high_m = 9e-6}};
+        f->variant_verdict[0].clearance = c, f->variant_verdict[0].nclearance = 2;
+        assert_string_equal(line_of(arena, f, "nearest"), row[i].says);
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_way_that_parts_take),
         cmocka_unit_test(every_picture_is_well_formed),
         cmocka_unit_test(banner_says_the_verdict),
         cmocka_unit_test(rejected_in_every_title),

@@ -113,6 +113,15 @@ static void workspace_not_asked_for(void **state) {
     assert_true(json_is_false(json_object_get(workspace, "certified")));
     assert_true(json_is_null(json_object_get(workspace, "volume")));
     json_decref(root);
+    /* what is required is of another flow's device: no box is told of this one */
+    static const bool no[1] = {false};
+    f->variant_verdict[0].workspace.required = true;
+    for (int k = 0; k < 2; k++) {
+        f->variant_verdict[0].workspace.asked = k ? no : NULL;
+        root = verdict_json(arena, &f->input);
+        assert_int_equal(json_array_size(json_object_get(json_object_get(root, "workspace"), "required")), 0);
+        json_decref(root);
+    }
     fw_arena_free(arena);
 }
 

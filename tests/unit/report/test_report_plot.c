@@ -120,6 +120,72 @@ static void picture_keeps_points_where_they_are(void **state) {
     assert_true(isfinite(none.scale) && none.scale > 0.0);
 }
 
+/* Where a motion has no peak of a hinge, its panel is as high as what the samples reach to either side, which is what it is where the
+   peak is the largest of them: the curve is drawn as it was. */
+static void a_plot_without_a_peak_is_as_high_as_its_samples(void **state) {
+    (void)state;
+    fw_arena *arena = fw_arena_new(0);
+    fixture *f = fixture_new(arena, 0.12);
+    fw_dynamics_motion motion = *f->variant_verdict[0].motion[0];
+    fw_dynamics_peak peak[SIX];
+    const fw_report_figure figure = {3, 40, true, "plot"};
+    const char *at[2];
+    memcpy(peak, motion.peak, sizeof peak);
+    motion.peak = peak;
+    for (int k = 0; k < SIX; k++)
+        f->mechanism[0].hinge[k].closed_form.limit_angle_rad =
+            12; /* far away: none of them is drawn */
+    for (int without = 0; without < 2; without++) {
+        fw_text text = fw_text_new(arena);
+        for (int k = 0; without && k < SIX; k++)
+            peak[k].angle_rad = (double)NAN;
+        assert_int_equal(fw_report_panels(arena, &f->mechanism[0], &motion, &figure, &text), FW_OK);
+        at[without] = text.data;
+    }
+    for (int k = 0; k < SIX; k++) {
+        for (int i = 0; i < 2; i++)
+            assert_non_null(at[i] = strstr(at[i] + 1, "#0072B2"));
+        const size_t n = strcspn(at[0], ">");
+        assert_true(n > 200 && strncmp(at[0], at[1], n) == 0);
+    }
+    fw_arena_free(arena);
+}
+
+/* A film of many flexures has fewer key frames of their outlines: as many numbers as make 0.5 to 1e5 of them; one of few has all 120. */
+static void a_film_of_many_flexures_has_fewer_frames(void **state) {
+    (void)state;
+    enum { TIMES = 5 };
+    for (int many = 0; many < 2; many++) {
+        fw_arena *arena = fw_arena_new(0);
+        fixture *f = fixture_new(arena, 0.12);
+        fw_layout layout = f->layout;
+        fw_layout_piece *piece =
+            fw_arena_array(arena, fw_layout_piece, (size_t)(TIMES * layout.npiece));
+        int n = 0, frames = 0;
+        size_t points = 0;
+        for (int i = 0; i < layout.npiece; i++)
+            for (int k = 0; k < (many && layout.piece[i].role == FW_ROLE_FLEXURE ? TIMES : 1); k++)
+                piece[n++] = layout.piece[i];
+        layout.piece = piece, layout.npiece = n;
+        fw_report_bends bends;
+        assert_int_equal(fw_report_bends_make(arena, &f->device, &layout, &bends), FW_OK);
+        for (int i = 0; i < bends.count; i++)
+            points += (size_t)bends.item[i].npoint;
+        fw_text out = fw_text_new(arena);
+        assert_int_equal(fw_report_animation_svg(arena, &f->device, &layout, &f->mechanism[0],
+                                                 f->variant_verdict[0].motion[0],
+                                                 &f->device.scene[0], &out),
+                         FW_OK);
+        for (const char *at = out.data; (at = strstr(at, ";M")) != NULL; at++)
+            frames++;
+        frames = frames / bends.count + 1;
+        const double numbers = 2.0 * (double)points * frames;
+        assert_int_equal(bends.count, many ? TIMES * SIX : SIX);
+        assert_true(many ? frames > 16 && numbers > 5e4 && numbers <= 1e5 : frames == 120);
+        fw_arena_free(arena);
+    }
+}
+
 static void only_plain_colours_pass(void **state) {
     (void)state;
     assert_string_equal(fw_report_layer_colour("#12aBcD", 0), "#12aBcD");
@@ -136,6 +202,8 @@ int main(void) {
         cmocka_unit_test(nice_steps),
         cmocka_unit_test(bent_flexure_meets_both_bodies),
         cmocka_unit_test(pose_is_the_sample_at_a_sample),
+        cmocka_unit_test(a_plot_without_a_peak_is_as_high_as_its_samples),
+        cmocka_unit_test(a_film_of_many_flexures_has_fewer_frames),
         cmocka_unit_test(picture_keeps_points_where_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -2,6 +2,7 @@
 /* Which check a verdict rests on: the worst decision first, then the largest share used; as made
    where a flow was judged so. */
 #include "verdict/verdict.h"
+#include "verdict/verdict_parts.h"
 #include "test.h"
 #include <math.h>
 
@@ -178,8 +179,22 @@ static void a_reason_names_the_flow_that_it_is_of(void **state) {
     fw_arena_free(e->arena);
 }
 
+/* rows of factors, of the hinges and of what bends besides: the most up and the least down, and never less than 1 */
+static void a_requirement_goes_by_the_largest_factor(void **state) {
+    (void)state;
+    const double factor[] = {1.1, 0.95, 1.3, 0.9, 1.2, 0.7}, small[] = {0.9, 1.2};
+    double most[2];
+    fw_verdict_requirement_factor(factor, 2, most);
+    assert_true(most[0] == 1.3 && most[1] == 0.7);
+    fw_verdict_requirement_factor(factor, 1, most);
+    assert_true(most[0] == 1.3 && most[1] == 0.9);
+    fw_verdict_requirement_factor(small, 0, most);
+    assert_true(most[0] == 1 && most[1] == 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_requirement_goes_by_the_largest_factor),
         cmocka_unit_test(the_largest_share_of_every_flow_and_corner),
         cmocka_unit_test(a_worse_decision_goes_before_a_larger_share),
         cmocka_unit_test(nothing_that_was_run_governs_nothing),

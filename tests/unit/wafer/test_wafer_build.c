@@ -521,6 +521,54 @@ static void test_small_sites(void **state) {
     }
 }
 
+/* A drawing that is to stand beside the dies is refused where it lies on the place of a die, meets its edge or leaves the plate, and
+   is on the plate elsewhere. The dies of 2 mm x 1.6 mm stand without a street on a plate of 3 inches. */
+static void test_cells_stand_beside_the_dies(void **state) {
+    (void)state;
+    const double side = 100e-6, nm = 1e-9;
+    for (int k = 0; k < 8; k++) {
+        plate *p = plate_new(240);
+        const fw_wafer *w = plate_build(p);
+        const fw_wafer_site *low = w->grid.site,
+                            *high = w->grid.site; /* first of the lowest row, last of the highest */
+        for (int i = 0; i < w->grid.nsite; i++) {
+            const fw_wafer_site *s = &w->grid.site[i];
+            if (s->y < low->y) low = s;
+            if (s->y >= high->y) high = s;
+        }
+        const double half = 0.5 * w->form.plate_m, top = (high->y + (double)w->grid.height) * nm;
+        const struct {
+            double x, y; /* its lower left corner */
+            bool beside;
+        } at[8] = {
+            {low->x * nm + 1e-3, low->y * nm + 1e-3, false},
+            {high->x * nm + 1e-3, top - 1e-3, false},
+            {high->x * nm + 1e-3, top - nm, false},
+            {high->x * nm + 1e-3, top + nm, true},
+            {low->x * nm + 1e-3, low->y * nm - side - nm, true},
+            {-half, half - side, true},
+            {half - side + nm, -half, false},
+            {-half, -half - nm, false},
+        };
+        fw_geometry_contour box;
+        const fw_geometry_box own = {at[k].x, at[k].y, at[k].x + side, at[k].y + side};
+        assert_int_equal(fw_geometry_contour_rectangle(p->arena, own, &box), FW_OK);
+        const fw_drawing_cell_layer drawn = {.to = "marks", .outline = &box, .n = 1, .box = own};
+        fw_device_cell_layer layer = {.to = "marks", .drawn = &drawn, .role = FW_ROLE_MARK};
+        fw_device_cell logo = {.name = "logo", .layer = &layer, .nlayer = 1};
+        p->device.wafer.cell = &logo, p->device.wafer.ncell = 1;
+        const fw_status status = fw_wafer_build(p->arena, &p->input, &p->diags, &w);
+        int refused = 0, there = 0;
+        for (size_t i = 0; i < p->diags.count; i++)
+            refused += p->diags.item[i].number == 571;
+        for (int i = 0; status == FW_OK && i < w->plate->nshape; i++)
+            there += strcmp(w->plate->shape[i].piece->label, "cell logo") == 0;
+        if (refused != !at[k].beside || there != at[k].beside || (status == FW_OK) != at[k].beside)
+            fail_msg("place %d", k);
+        fw_arena_free(p->arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_barcode),     cmocka_unit_test(test_flat_line),
@@ -528,7 +576,7 @@ int main(void) {
         cmocka_unit_test(test_ids),         cmocka_unit_test(test_id_sizes),
         cmocka_unit_test(test_spaces),      cmocka_unit_test(test_more_steps_than_columns),
         cmocka_unit_test(test_rejected),    cmocka_unit_test(test_gds),
-        cmocka_unit_test(test_small_sites),
+        cmocka_unit_test(test_small_sites), cmocka_unit_test(test_cells_stand_beside_the_dies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -173,12 +173,40 @@ static void required_box_is_regular_or_not(void **state) {
     fw_arena_free(arena);
 }
 
+/* Poses are bounded by what hinges turn elastically: a hinge without such a limit, or with one beyond 3 rad, up to which rotations
+   of the loop are told apart, gives no map; and all limits below do. */
+static void a_map_needs_every_limit(void **state) {
+    (void)state;
+    static const struct {
+        double limit_rad;
+        bool there;
+    } row[] = {{0.03, true}, {(double)NAN, false}, {0, false}, {3.1, false}};
+    const fw_workspace_effort rough = {.relative = 0.5, .most = 200, .level = 2};
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        fw_arena *arena = fw_arena_new(0);
+        six_bar_fixture f;
+        fw_mechanism_hinge hinge[6] = {0};
+        fw_workspace_map map;
+        six_bar_make(&f, six_bar_reference);
+        for (int i = 0; i < 6; i++) {
+            hinge[i].closed_form.limit_angle_rad = i == 4 ? row[k].limit_rad : 0.03;
+            f.pin[i].hinge = i;
+        }
+        f.mechanism.hinge = hinge, f.mechanism.nhinge = 6;
+        assert_int_equal(fw_workspace_map_make(arena, &f.mechanism, rough, &map), FW_OK);
+        assert_int_equal(map.none == NULL, row[k].there);
+        if (map.none) assert_non_null(strstr(map.none, "a hinge has no elastic limit"));
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(singularities_of_the_reference),
         cmocka_unit_test(shares_of_the_reference),
         cmocka_unit_test(extents_of_the_reference),
         cmocka_unit_test(required_box_is_regular_or_not),
+        cmocka_unit_test(a_map_needs_every_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
