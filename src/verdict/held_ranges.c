@@ -360,21 +360,6 @@ static double farther_than_drawn(const fw_verdict_search *s, const amid *a) {
 
 /* ---- what is met ---- */
 
-void fw_verdict_reach_gives(const fw_statics_modes *modes, int most, bool rests,
-                            fw_verdict_shaken *to) {
-    for (int c = 0; c < to->nreach; c++) {
-        fw_verdict_reach *r = &to->reach[c];
-        if (rests && !r->rests) continue;
-        r->gives_m_per_N = 0;
-        for (int k = 0; k < modes->count && k < most; k++) {
-            const fw_statics_mode *by = &modes->mode[k];
-            if (by->stiffness_per_s2 > 0 && by->shape)
-                r->gives_m_per_N += pow(fw_verdict_reach_by(r, modes->q, by->shape), 2) /
-                                    (by->modal_mass_kg_m2 * by->stiffness_per_s2);
-        }
-    }
-}
-
 static bool is_met(const fw_verdict_reach *r) {
     return r->closes_m >= r->gap_m;
 }

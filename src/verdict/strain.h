@@ -586,7 +586,7 @@ struct fw_verdict_shaken;
 /* shaken->reach, from the samples of the motion and the cubic through them and their rates; q: the pose of modes */
 fw_status fw_verdict_reach_find(fw_arena *arena, const fw_dynamics_motion *motion, double unit_m,
                                 const double *q, struct fw_verdict_shaken *shaken);
-/* held_ranges.c: gives_m_per_N, of all, or of what rests alone: by modes, of which at most `most` are taken */
+/* strain_monitor.c: gives_m_per_N, of all, or of what rests alone: by modes, of which at most `most` are taken */
 void fw_verdict_reach_gives(const fw_statics_modes *modes, int most, bool rests,
                             struct fw_verdict_shaken *shaken);
 /* by how much of its gap a small displacement u (3 nbody) about q takes, m */

@@ -526,3 +526,20 @@ fw_status fw_verdict_touching(fw_arena *arena, const fw_layout_hinge_layout *dra
                                                   .text = text};
     return FW_OK;
 }
+
+/* ---- what is met, of small motions ---- */
+
+void fw_verdict_reach_gives(const fw_statics_modes *modes, int most, bool rests,
+                            fw_verdict_shaken *to) {
+    for (int c = 0; c < to->nreach; c++) {
+        fw_verdict_reach *r = &to->reach[c];
+        if (rests && !r->rests) continue;
+        r->gives_m_per_N = 0;
+        for (int k = 0; k < modes->count && k < most; k++) {
+            const fw_statics_mode *by = &modes->mode[k];
+            if (by->stiffness_per_s2 > 0 && by->shape)
+                r->gives_m_per_N += pow(fw_verdict_reach_by(r, modes->q, by->shape), 2) /
+                                    (by->modal_mass_kg_m2 * by->stiffness_per_s2);
+        }
+    }
+}
