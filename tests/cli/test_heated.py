@@ -445,7 +445,7 @@ class Pressed(unittest.TestCase):
         self.assertIn("integrator radau5", said)
         steps = int(re.search(r"(\d+) steps,", said).group(1))
         self.assertLess(steps, 1000)
-        self.assertRegex(said, r"press +force +30\.6\d? uN")
+        self.assertRegex(said, r"press +force +29\.9\d? uN")
 
 
 def on_its_side(row, band):
