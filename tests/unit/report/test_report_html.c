@@ -399,14 +399,14 @@ static void the_way_that_parts_take(void **state) {
         fw_verdict_clearance c[2] = {
             {.scene = "close",
              .least = {.known = true, .m = m, .start_m = 10e-6, .at = {.a = "A", .b = "B"}},
-             .way = {row[i].share, "A", "B"},
+             .way = {.share = row[i].share, .a = "A", .b = "B"},
              .m = m,
              .low_m = m,
              .high_m = m,
              .required_m = row[i].required_m},
             {.scene = "open",
              .least = {.known = true, .m = 9e-6, .start_m = 20e-6, .at = {.a = "C", .b = "D"}},
-             .way = {row[i].of_other, "C", "D"},
+             .way = {.share = row[i].of_other, .a = "C", .b = "D"},
              .m = 9e-6,
              .low_m = 9e-6,
              .high_m = 9e-6}};
