@@ -175,11 +175,12 @@ static fw_quantity *slot(fw_device_material *m, int k) {
     return all[k];
 }
 
-double fw_device_material_expansion(const fw_device_material *m, double change_K) {
-    if (m->expansion.unknown) return (double)NAN;
-    const double slope = m->expansion_slope.unknown ? 0 : m->expansion_slope.value;
-    const double curvature = m->expansion_curvature.unknown ? 0 : m->expansion_curvature.value;
-    return m->expansion.value + change_K * (slope + change_K * curvature);
+double fw_device_mean_expansion(const fw_quantity *expansion, const fw_quantity *slope,
+                                const fw_quantity *curvature, double change_K) {
+    if (expansion->unknown) return (double)NAN;
+    const double rises = slope->unknown ? 0 : slope->value;
+    const double bends = curvature->unknown ? 0 : curvature->value;
+    return expansion->value + change_K * (rises + change_K * bends);
 }
 
 static int index_of(const char *id) {

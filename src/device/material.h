@@ -70,8 +70,9 @@ typedef struct fw_device_materials {
     int nsource;
 } fw_device_materials;
 
-/* mean coefficient over a change from 300 K; 1/K, NaN: not known */
-double fw_device_material_expansion(const fw_device_material *material, double change_K);
+/* mean coefficient over a change from 300 K, of three such quantities; 1/K, NaN: not known */
+double fw_device_mean_expansion(const fw_quantity *expansion, const fw_quantity *slope,
+                                const fw_quantity *curvature, double change_K);
 
 /* reads the <material> elements of a pack (base.xml) */
 fw_status fw_device_materials_read(fw_arena *arena, const char *file, const char *xml, size_t n,

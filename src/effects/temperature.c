@@ -19,18 +19,19 @@ static bool called_for(const fw_effect_case *c) {
 /* coefficient of the layer: what the scene states, else the material's in the mean over the change; NaN: not known */
 static double own_expansion(const fw_device_temperature *t, const fw_mechanism *m) {
     if (!isnan(t->expansion_per_K)) return t->expansion_per_K;
-    return m->variant ? fw_device_material_expansion(&m->variant->material, t->change_K)
-                      : (double)NAN;
+    if (!m->variant) return (double)NAN;
+    const fw_device_material *of = &m->variant->material;
+    return fw_device_mean_expansion(&of->expansion, &of->expansion_slope, &of->expansion_curvature,
+                                    t->change_K);
 }
 
 /* likewise of what the layer is anchored to */
 static double substrate_of(const fw_device_temperature *t, const fw_mechanism *m) {
     const fw_mechanism_variant *v = m->variant;
     if (!isnan(t->substrate_expansion_per_K)) return t->substrate_expansion_per_K;
-    if (!v || v->substrate_expansion.unknown) return (double)NAN;
-    const double slope = v->substrate_slope.unknown ? 0 : v->substrate_slope.value;
-    const double curvature = v->substrate_curvature.unknown ? 0 : v->substrate_curvature.value;
-    return v->substrate_expansion.value + t->change_K * (slope + t->change_K * curvature);
+    return v ? fw_device_mean_expansion(&v->substrate_expansion, &v->substrate_slope,
+                                        &v->substrate_curvature, t->change_K)
+             : (double)NAN;
 }
 
 /* relative change of Young's modulus; NaN: not known */

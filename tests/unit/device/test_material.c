@@ -119,6 +119,11 @@ static void what_is_absent_is_unknown(void **state) {
     fw_arena_free(arena);
 }
 
+static double mean_expansion(const fw_device_material *m, double change_K) {
+    return fw_device_mean_expansion(&m->expansion, &m->expansion_slope, &m->expansion_curvature,
+                                    change_K);
+}
+
 /* the mean over a change is that of Okada and Tokumaru's formula, integrated here, within 0.05 ppm/K from -150 to 300 K; of a
    material that does not say how it changes it is the coefficient itself */
 static void expansion_goes_with_temperature(void **state) {
@@ -138,13 +143,13 @@ static void expansion_goes_with_temperature(void **state) {
                 sum += 3.725 * (1 - exp(-5.88e-3 * (T - 124))) + 5.548e-4 * T;
             }
             const fw_device_material *si = fw_device_material_find(&m, crystal[k]);
-            assert_near(fw_device_material_expansion(si, change), 1e-9 * sum, 0.05e-6);
+            assert_near(mean_expansion(si, change), 1e-9 * sum, 0.05e-6);
         }
     const fw_device_material *cu = fw_device_material_find(&m, "copper-plated"),
                              *glass = fw_device_material_find(&m, "glass-carrier");
     /* over 100 K, of 16.7 and 17.6 ppm/K at its ends */
-    assert_near(fw_device_material_expansion(cu, 100), 17.15e-6, 0.1e-6);
-    assert_relative(fw_device_material_expansion(glass, 100), 3.3e-6, 1e-14);
+    assert_near(mean_expansion(cu, 100), 17.15e-6, 0.1e-6);
+    assert_relative(mean_expansion(glass, 100), 3.3e-6, 1e-14);
     fw_arena_free(arena);
 }
 
