@@ -177,7 +177,8 @@ static fw_status add_flat_line(fw_wafer_sheet *s, const fw_wafer_form *form, dou
                                bool *fits) {
     double half = 0.5 * scale * form->flat_m, r = 0.5 * scale * form->diameter_m;
     double away = sqrt(r * r - half * half), beyond = away + FLAT_LINE_M;
-    *fits = hypot(half, beyond) < 0.5 * form->diameter_m + BESIDE_M;
+    *fits =
+        beyond < 0.5 * form->diameter_m + BESIDE_M; /* title and barcode stand beyond that square */
     if (!*fits) return FW_OK;
     switch (form->side) {
     case FW_SIDE_BOTTOM:

@@ -454,9 +454,9 @@ static void test_barcode(void **state) {
    where that reaches the lettering */
 static void test_flat_line(void **state) {
     (void)state;
-    for (int k = 0; k < 12; k++) {
+    for (int k = 0; k < 16; k++) {
         const fw_device_wafer_side side = (fw_device_wafer_side)(k % 4);
-        const double scale = (const double[]){1, 0.98, 1.1}[k / 4];
+        const double scale = (const double[]){1, 0.98, 1.1, 1.04}[k / 4];
         plate *p = plate_new(240);
         p->device.wafer.order.scale = scale;
         p->device.wafer.side = side;
