@@ -266,7 +266,7 @@ set(FW_LONG_EACH_TIME
 # have little else of this table (270 s left an even turn 12 min 9 s, an odd one 9 min 36 s)
 set(FW_TURN_NUMBERS 0 1 2 3 4 5 6 7)
 foreach(turn ${FW_TURN_NUMBERS})
-    math(EXPR FW_TURN_SECONDS_${turn} "400 * (1 - ${turn} % 2)")
+    math(EXPR FW_TURN_SECONDS_${turn} "300 * (1 - ${turn} % 2)")
 endforeach()
 set_property(TEST build.sanitized APPEND PROPERTY LABELS turn-even)
 foreach(entry ${FW_LONG} ${FW_LONG_EACH_TIME})
