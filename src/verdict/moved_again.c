@@ -319,8 +319,9 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     const bool less = missing > 0 && fw_effects_levitation_may_be(m);
     fw_effects_load_scaling loads;
     fw_effects_find_loads(s, &loads);
-    if (!(softly || missing > 0) || x->ended || loads.count == 0 || !(e > 0) || isinf(e))
-        return FW_OK;
+    /* exact beams of stated stiffnesses are off by nothing, and electrodes pull more all the same */
+    const bool asks = (softly && e > 0) || missing > 0;
+    if (!asks || x->ended || loads.count == 0 || !(e >= 0) || isinf(e)) return FW_OK;
     once_more *now = fw_arena_array(arena, once_more, 2);
     double *far = fw_arena_array(arena, double, 3 * n);
     fw_probe_monitor *probe[2];
@@ -328,7 +329,7 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     FW_TRY(required->watch(arena, m, i, v, true, probe));
     now[0] = (once_more){.by = 1 + e, .pull = 1 + missing, .asked = true};
     now[1] = (once_more){
-        .by = 1 / (1 + e), .pull = less ? 1 / (1 + missing) : 1, .asked = softly || less};
+        .by = 1 / (1 + e), .pull = less ? 1 / (1 + missing) : 1, .asked = (softly && e > 0) || less};
     fw_verdict_farthest(m, x, far);
     double most = 1;
     for (int k = 0; k < 2 && now[k].asked; k++) {

@@ -253,8 +253,8 @@ static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *m
    these is asked for where the verdict is undecided, than the second for a device whose bands are
    shown, and neither for trials, first looks and corners. */
 static const double fw_hinges_good_enough = 0.03, fw_hinges_good = 0.01;
-/* and exact beams only where they take seconds; who wants to wait longer asks for them */
-static const long fw_most_beams = 100000;
+/* and exact beams only where they take a second, of an undecided device ten; who wants to wait longer asks for them */
+static const long fw_most_beams = 100000, fw_most_beams_undecided = 1000000;
 /* Evaluations after which a motion far beyond what hinges bear is followed no further, some seconds; of a trial some
    tenths of one. A scene of a device that works takes some thousand. */
 static const long fw_hopeless_rhs = 300000, fw_hopeless_trial_rhs = 20000;
@@ -285,7 +285,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     fw_dynamics_motion_options motion = options->motion;
     motion.within_limits = true;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = FW_TURN;
-    motion.most_beams = fw_most_beams;
+    motion.most_beams = motion.hinge_accuracy > 0 ? fw_most_beams_undecided : fw_most_beams;
     motion.sparing = options->coarse_first;
     motion.effects.untold = motion.effects.untold || options->decision_only || v->corner;
     motion.hopeless_rhs =
