@@ -328,8 +328,9 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     FW_NEED(now && far ? now : NULL);
     FW_TRY(required->watch(arena, m, i, v, true, probe));
     now[0] = (once_more){.by = 1 + e, .pull = 1 + missing, .asked = true};
-    now[1] = (once_more){
-        .by = 1 / (1 + e), .pull = less ? 1 / (1 + missing) : 1, .asked = (softly && e > 0) || less};
+    now[1] = (once_more){.by = 1 / (1 + e),
+                         .pull = less ? 1 / (1 + missing) : 1,
+                         .asked = (softly && e > 0) || less};
     fw_verdict_farthest(m, x, far);
     double most = 1;
     for (int k = 0; k < 2 && now[k].asked; k++) {
