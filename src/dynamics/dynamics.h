@@ -8,6 +8,8 @@
 #define FW_DYNAMICS_DYNAMICS_H
 #include "multibody/model.h"
 
+struct fw_statics_level_step;
+
 typedef struct fw_dynamics_instant { /* the mechanism at one time, on the dense output */
     double t_s;
     const double *q;          /* (3 nbody) m, rad */
@@ -84,6 +86,11 @@ typedef struct fw_dynamics_motion_options {
     double hinge_accuracy; /* by which auto chooses the model of hinges; 0: accuracy */
     long most_beams; /* auto takes exact beams only where the motion with the model before asked for
                         the forces of hinges no more often than this; 0: however often */
+    /* what the step to a better model of the hinges changes of the largest strain, over it; by that, too, auto climbs. NULL: by
+       places and angles alone */
+    fw_status (*strains_apart)(fw_arena *arena, const struct fw_mechanism *mechanism,
+                               const struct fw_effects_loads *loads,
+                               const struct fw_statics_level_step *step, double *share);
     bool within_limits; /* where hinges turn beyond their elastic limit auto takes no better model
                             of them: a verdict does not need it */
     fw_dynamics_observer observe; /* NULL: nobody looks */

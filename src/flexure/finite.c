@@ -372,16 +372,18 @@ void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result
     law->uneven_y = closed_form->uneven_y * y / (1 / more.ky_N_per_m.value - y);
 }
 
-/* a table of its own, whose compliances are 1/by times as large; pull: those of what a pull changes, too */
-static fw_status scale_table(fw_arena *arena, fw_flexure_hinge_law *law, double by, bool pull) {
+/* A table of its own, with compliances 1/`bend` times as large, those of axial and shear force along the chord 1/`rest_y` times, and
+   1/`pull` times what a pull changes */
+static fw_status scale_table(fw_arena *arena, fw_flexure_hinge_law *law, double bend, double rest_y,
+                             double pull) {
     if (!law->table) return FW_OK;
     struct fw_flexure_hinge_table *t = fw_arena_one(arena, struct fw_flexure_hinge_table);
     FW_NEED(t);
     *t = *law->table;
     for (int n = 0; n < FW_PATH_TERMS; n++) {
-        t->bend_x[n] /= by, t->bend_y[n] /= by;
-        t->rest_x[n] /= by, t->rest_y[n] /= by;
-        if (pull) t->pull_x[n] /= by, t->pull_y[n] /= by;
+        t->bend_x[n] /= bend, t->bend_y[n] /= bend;
+        t->rest_x[n] /= bend, t->rest_y[n] /= rest_y;
+        t->pull_x[n] /= pull, t->pull_y[n] /= pull;
     }
     law->table = t;
     return FW_OK;
@@ -391,17 +393,21 @@ fw_status fw_flexure_hinge_law_scale(fw_arena *arena, fw_flexure_hinge_law *law,
     law->stiffness_Nm_per_rad *= by;
     law->bend_m_per_N /= by, law->root_m_per_N /= by;
     law->axial_m_per_N /= by, law->shear_m_per_N /= by;
-    return scale_table(arena, law, by, true);
+    return scale_table(arena, law, by, by, by);
+}
+
+bool fw_flexure_hinge_law_straight(const fw_flexure_hinge_law *law) {
+    return law->table ? law->table->straight : law->half_angle_rad == 0;
 }
 
 fw_status fw_flexure_hinge_law_along(fw_arena *arena, fw_flexure_hinge_law *law, double by) {
-    if (!law->table && law->half_angle_rad == 0) {
+    if (fw_flexure_hinge_law_straight(law)) {
         law->axial_m_per_N /= by;
-        return FW_OK;
+        return scale_table(arena, law, 1, by, 1);
     }
     law->uneven_x = (1 + law->uneven_x) / by - 1, law->uneven_y = (1 + law->uneven_y) / by - 1;
     law->root_m_per_N /= by, law->axial_m_per_N /= by, law->shear_m_per_N /= by;
-    return scale_table(arena, law, by, false);
+    return scale_table(arena, law, by, by, 1);
 }
 
 bool fw_flexure_hinge_law_holds(const fw_flexure_hinge_law *law, double th) {

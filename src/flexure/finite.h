@@ -58,8 +58,9 @@ void fw_flexure_hinge_law_of(const fw_flexure_input *in, const fw_flexure_result
                              fw_flexure_hinge_law *law);
 /* all of its stiffness times `by` (above 0); a table becomes the law's own */
 fw_status fw_flexure_hinge_law_scale(fw_arena *arena, fw_flexure_hinge_law *law, double by);
-/* its stiffness against forces alone `by` times (above 0): of a straight strip of even width along itself, of all else
-   both ways */
+/* a strip along one line, of any width */
+bool fw_flexure_hinge_law_straight(const fw_flexure_hinge_law *law);
+/* its stiffness against forces alone `by` times (above 0): of a straight strip along itself, of all else both ways */
 fw_status fw_flexure_hinge_law_along(fw_arena *arena, fw_flexure_hinge_law *law, double by);
 void fw_flexure_hinge_law_at(const fw_flexure_hinge_law *law, double rotation_rad,
                              fw_flexure_hinge_at *at);

@@ -33,7 +33,8 @@ struct fw_flexure_hinge_table {
     double rest_x[FW_PATH_TERMS], rest_y[FW_PATH_TERMS];
     double drift_m[FW_PATH_TERMS];
     double pull_x[FW_PATH_TERMS], pull_y[FW_PATH_TERMS]; /* px, py of finite_force.c, 1/N */
-    int terms; /* behind them all are below 1e-14 of their series */
+    bool straight; /* a strip of any width along one line: y is along itself */
+    int terms;     /* behind them all are below 1e-14 of their series */
 };
 /* values and derivatives of two such series at a rotation; without `second` no second ones */
 void fw_flexure_hinge_series(const double *first, const double *other, int terms,

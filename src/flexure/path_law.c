@@ -291,7 +291,7 @@ fw_status fw_flexure_path_law(fw_arena *arena, const fw_flexure_input *in,
             t->pull_x[n] += by * pull_along(p, f.length_m);
             t->pull_y[n] += by * pull_across(p, f.length_m);
         }
-    t->terms = terms_of_all(t);
+    t->terms = terms_of_all(t), t->straight = in->kind == FW_FLEXURE_LEAF;
     fw_flexure_path_pose_at(way, 0, &at[0]);
     *law = (fw_flexure_hinge_law){.stiffness_Nm_per_rad = closed_form->stiffness_Nm_per_rad,
                                   .half_angle_rad = f.half_angle_rad,

@@ -278,7 +278,8 @@ fw_status fw_plan_simulate(fw_plan *plan, unsigned *wanted, const fw_dynamics_mo
     FW_TRY(status);
     const fw_probe_monitor *saw = options.context;
     if (saw && (saw[0].no_memory || saw[1].no_memory)) return FW_NOMEM;
-    FW_TRY(fw_verdict_level_strains(plan->arena, *mechanism, (*motion)->loads, (*motion)->level));
+    FW_TRY(fw_verdict_level_strains(plan->arena, *mechanism, (*motion)->loads, (*motion)->level,
+                                    NULL));
     FW_TRY(fw_statics_stability_find(plan->arena, *mechanism, *scene, *motion, &plan->diags,
                                      &stability, NULL));
     note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
@@ -412,7 +413,8 @@ fw_status fw_plan_statics(fw_plan *plan, const fw_statics **statics, const fw_me
     *scene = NULL;
     FW_TRY(fw_plan_start(plan, mechanism, scene, NULL));
     FW_TRY(fw_statics_solve(plan->arena, *mechanism, *scene, &o, &plan->diags, statics));
-    return fw_verdict_level_strains(plan->arena, *mechanism, (*statics)->loads, (*statics)->level);
+    return fw_verdict_level_strains(plan->arena, *mechanism, (*statics)->loads, (*statics)->level,
+                                    NULL);
 }
 
 /* ---- the workspace of every flow ---- */

@@ -456,18 +456,21 @@ static double thrown_back(const fw_mechanism *m, const fw_device_scene *scene,
 
 /* the step of a motion to the next level, with what an instant does not show: what rings along paths, and what contacts throw back */
 static fw_status level_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                          const fw_dynamics_motion *x, const fw_statics_level_step **out) {
-    double coupled = 0;
+                          const fw_dynamics_motion_options *options, const fw_dynamics_motion *x,
+                          const fw_statics_level_step **out) {
+    double coupled = 0, strains = 0;
     FW_TRY(fw_statics_level_of_motion(arena, m, scene, x, out));
     if (!*out) return FW_OK;
     const double blows = thrown_back(m, scene, x);
     if (!(*out)->why_not && (*out)->used == FW_HINGE_COMPLIANCE)
         FW_TRY(uncoupled(arena, m, scene, x, (*out)->relative, &coupled));
+    if (options->strains_apart && !(*out)->why_not && (*out)->next == FW_HINGE_ELASTICA)
+        FW_TRY(options->strains_apart(arena, m, x->loads, *out, &strains));
     const double relative = fmax(coupled, blows);
-    if (!(relative > (*out)->relative) && blows == 0) return FW_OK;
+    if (!(relative > (*out)->relative) && blows == 0 && strains == 0) return FW_OK;
     fw_statics_level_step *more = fw_arena_one(arena, fw_statics_level_step);
     FW_NEED(more);
-    *more = **out, more->blows = blows;
+    *more = **out, more->blows = blows, more->strains = strains;
     if (relative > more->relative) more->relative = relative; /* one that is not known stays so */
     *out = more;
     return FW_OK;
@@ -543,7 +546,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         if (!higher && !tried) fw_diags_take(diags, &own);
         FW_TRY(status);
         rows_of_peaks(mechanism, found);
-        FW_TRY(level_of(arena, mechanism, scene, found, &step));
+        FW_TRY(level_of(arena, mechanism, scene, &o, found, &step));
         /* pins that take a stated velocity away cannot say what flexures make of it */
         bool elsewhere = found->stats.velocity_moved > fw_assembly_another_start;
         bool stay_pins = tried && !elsewhere && fw_statics_level_is_below(step, stated);

@@ -207,9 +207,9 @@ fw_status fw_statics_level_note(fw_arena *arena, const fw_statics_level_step *st
                                 const fw_effect_choice *asked, fw_effects_hinge_use *use) {
     char by[32], wanted[32];
     if (!step || step->why_not) return FW_OK;
-    use->error = step->relative;
-    if (asked->hinge != FW_HINGE_AUTO || !(step->relative < accuracy) || !use->why) return FW_OK;
-    fw_percent_text(by, sizeof by, step->relative);
+    use->error = fw_statics_level_changes(step);
+    if (asked->hinge != FW_HINGE_AUTO || !(use->error < accuracy) || !use->why) return FW_OK;
+    fw_percent_text(by, sizeof by, use->error);
     fw_percent_text(wanted, sizeof wanted, accuracy);
     FW_NEED(use->why = fw_arena_printf(arena,
                                        "%s; the cheapest that is good enough: %s is computed to "
@@ -225,7 +225,7 @@ fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *s
                                  const char *why_not, fw_effects_hinge_use *use) {
     char by[32];
     const char *why = use->why ? use->why : "", *next = fw_effects_hinge_model_text(step->next);
-    fw_percent_text(by, sizeof by, step->relative);
+    fw_percent_text(by, sizeof by, fw_statics_level_changes(step));
     use->why = step->why_not
                    ? fw_arena_printf(arena, "%s; what %s changes is not known: %s, and %s", why,
                                      next, step->why_not, why_not)
@@ -236,6 +236,10 @@ fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *s
 }
 
 /* ---- whether another level is used ---- */
+
+double fw_statics_level_changes(const fw_statics_level_step *step) {
+    return step->strains > step->relative ? step->strains : step->relative;
+}
 
 bool fw_statics_level_far_apart(const fw_statics_level_step *step) {
     return step && !step->why_not && step->next == FW_HINGE_ELASTICA &&
@@ -268,13 +272,15 @@ bool fw_statics_level_goes_on(const fw_effect_choice *asked, const fw_diags *sai
 
 bool fw_statics_level_climb(const fw_statics_level_step *step, double accuracy,
                             const fw_effect_choice *asked, fw_effect_choice *choice) {
-    if (asked->hinge != FW_HINGE_AUTO || !step || step->why_not || step->relative < accuracy)
+    if (asked->hinge != FW_HINGE_AUTO || !step || step->why_not ||
+        fw_statics_level_changes(step) < accuracy)
         return false;
     /* a list, or none: what was left out by hand stays out */
     bool by_hand = asked->mode == FW_EFFECTS_NONE || asked->mode == FW_EFFECTS_LIST;
     if (by_hand && step->used == FW_HINGE_REVOLUTE) return false;
     choice->hinge = step->next;
-    choice->below = step->relative;
+    choice->below = fw_statics_level_changes(step);
+    choice->below_of = step->strains > step->relative ? "the largest strain" : NULL;
     return true;
 }
 

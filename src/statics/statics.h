@@ -341,6 +341,7 @@ typedef struct fw_statics_level_step {
         up;              /* at the level used and at the next; not filled where `why_not` */
     double angle_rad;    /* largest difference of a hinge's angle */
     double relative;     /* that over the largest hinge angle at the instant; NaN: not computed */
+    double strains;      /* of the largest strain what the next level changes; 0: nobody asked */
     double blows;        /* share of the limit that contacts may have left ringing along flexures */
     const char *why_not; /* NULL: computed */
     bool unknown;        /* not computed, and nothing else bounds what the level used is off by */
@@ -394,6 +395,8 @@ static const double fw_statics_level_rings_most = 0.029;
    did. step may be NULL. Test: judge.examples bistable-* */
 static const double fw_statics_level_bounds = 0.25;
 bool fw_statics_level_far_apart(const fw_statics_level_step *step);
+/* what it changes of places and angles, or of the largest strain where that is more */
+double fw_statics_level_changes(const fw_statics_level_step *step);
 /* it was computed, and changes less; step may be NULL */
 bool fw_statics_level_is_below(const fw_statics_level_step *step, double accuracy);
 

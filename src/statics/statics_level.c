@@ -6,10 +6,9 @@
 
      F_next(q', t) - M a + G'^T lambda' = 0,   Newton's method from q
 
-   and q' - q, the angles and the joint forces are what the level changes. So it is exact where the
-   loads are slow against the motion; where it swings it is what the hinges' law changes at that
-   instant, not what their frequencies add up to over many periods. In: SI; out: SI. Error:
-   round-off over the least stiffness. Cost: two models and 3 to 5 evaluations of 30 n^3, n = 3
+   and q' - q, the angles and the joint forces are what the level changes. So it is exact where the loads are slow against the
+   motion; where it swings it is what the hinges' law changes at that instant, not what their frequencies add up to over many
+   periods. In: SI; out: SI. Error: round-off over the least stiffness. Cost: two models and 3 to 5 evaluations of 30 n^3, n = 3
    nbody. Source: d'Alembert's principle. Test: test_hinge_models.c. */
 #include "statics/statics.h"
 #include "statics/statics_equilibrium.h"
@@ -84,13 +83,11 @@ static double opening(const fw_mechanism_pin *pin, const double *q) {
     return hypot(by.x, by.y);
 }
 
-/* below these, which are less than an atom, a mechanism that nothing moves only has round-off: two
-   models do not differ in it */
-static const double fw_still_rad = 1e-11, fw_still_m = 1e-14;
+/* below the first two, less than an atom, what nothing moves only has round-off, in which models do not differ */
+static const double fw_still_rad = 1e-11, fw_still_m = 1e-14, fw_hardly_deflected = 1e-7;
 
-/* Angles count against the largest deflection of any hinge, a displacement across a strip over its
-   length counting as one: a stage on leaves moves and hardly turns any. Places of bodies count
-   against the largest way of any. least: of both, in the rest of a motion. */
+/* Angles count against the largest deflection of any hinge, a displacement across a strip over its length counting as one: a
+   stage on leaves hardly turns any. Places count against the largest way of any body. least: of both, in the rest of a motion */
 static void compare(const fw_mechanism *m, const double *rest, const double least[2],
                     fw_statics_level_step *step) {
     double deflected = least[0], way = least[1], apart = 0;
@@ -188,33 +185,38 @@ static fw_status next_loads(fw_arena *arena, const fw_mechanism *m, const fw_dev
 
 /* ---- an instant of a motion ---- */
 
-/* the row in which some hinge is deflected most: turned, or displaced by that share of its length;
-   the peaks of angles are between rows, those of displacements in one */
+/* the row in which some hinge is deflected most: turned, or displaced by that share of its length; peaks of angles are between
+   rows. Where heat or stress presses what is its own mirror image nothing is deflected: that of the largest force */
 static int row_of_peak(const fw_mechanism *m, const fw_dynamics_motion *x) {
-    double largest = -1, t = 0, across = -1;
-    int best = 0, moved = 0;
+    double largest = -1, t = 0, across = -1, force = -1;
+    int best = 0, moved = 0, pressed = 0;
     for (int k = 0; k < m->nhinge; k++) {
         const fw_dynamics_peak *p = &x->peak[m->hinge[k].pin];
         if (fabs(p->angle_rad) > largest) largest = fabs(p->angle_rad), t = p->t_s;
     }
-    for (int i = 0; i < x->nsample; i++) {
-        if (fabs(x->t_s[i] - t) < fabs(x->t_s[best] - t)) best = i;
+    const bool presses = fw_effects_has_growth(x->loads) && largest < fw_hardly_deflected;
+    if (presses) fw_dynamics_motion_rows(x, 0, x->nsample);
+    for (size_t i = 0; i < (size_t)x->nsample; i++) {
+        const double *q = x->q + 3 * i * (size_t)m->nbody,
+                     *f = x->reaction_N + 2 * i * (size_t)m->npin;
+        if (fabs(x->t_s[i] - t) < fabs(x->t_s[best] - t)) best = (int)i;
         for (int k = 0; k < m->nhinge && x->loads->nreleased > 0; k++) {
-            double L = m->hinge[k].law.length_m;
-            const double *q = x->q + (size_t)i * 3 * (size_t)m->nbody;
-            double share = L > 0 ? opening(&m->pin[m->hinge[k].pin], q) / L : 0;
-            if (share > across) across = share, moved = i;
+            const double L = m->hinge[k].law.length_m,
+                         share = L > 0 ? opening(&m->pin[m->hinge[k].pin], q) / L : 0;
+            if (share > across) across = share, moved = (int)i;
         }
+        for (int k = 0; k < 2 * m->npin && presses; k++)
+            if (fabs(f[k]) > force) force = fabs(f[k]), pressed = (int)i;
     }
+    if (presses && across < fw_hardly_deflected) return pressed;
     return across > largest ? moved : best;
 }
 
 enum { FW_ON_THE_WAY = 2 };
-
 typedef struct fw_statics_extent {
     double size[2]; /* largest deflection of a hinge, and way of a body */
-    int row
-        [FW_ON_THE_WAY]; /* in which it has first come a quarter and half of its largest way, places and turns together */
+    /* in which it has first come a quarter and half of its largest way, places and turns together */
+    int row[FW_ON_THE_WAY];
 } fw_statics_extent;
 
 /* Of the whole motion: the instant that is looked at may be one where everything is near its rest. Where it snaps those rows

@@ -177,8 +177,8 @@ static fw_status effects(const fw_study_problem *p, fw_study_tradeoff *t) {
 
 static fw_status solids(const fw_study_problem *p, fw_study_tradeoff *t) {
     if (p->mechanism->nhinge == 0) return FW_OK;
-    FW_TRY(
-        fw_verdict_level_strains(p->arena, p->mechanism, p->by_itself->loads, p->by_itself->level));
+    FW_TRY(fw_verdict_level_strains(p->arena, p->mechanism, p->by_itself->loads,
+                                    p->by_itself->level, NULL));
     fw_study_tradeoff_model *m = add(t, "solid", "what the verdict allows for");
     m->change = m->bound = fw_verdict_motion_model_error(p->mechanism, p->by_itself);
     m->chosen = true;

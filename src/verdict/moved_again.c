@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes that are moved again, since one motion does not give the band: longer, where the device still goes up at their end;
    with larger and smaller loads, where these leave little of the stiffness; with other stiffnesses, where contacts throw the
-   device; with bending and stiffness along flexures apart, where the layer presses them. And scenes in which nothing moves (FW-D655).
+   device; with bending and stiffness along flexures apart, where the layer presses them.
 
    Longer: a hinge whose peak is at the last instant and that still turns on, by more than a few per cent of it in the lowest mode:
    v/omega. The same scene then lasts a period of that mode longer, in which every single mode comes to its next peak, and
@@ -10,7 +10,6 @@
 #include "base/constants.h"
 #include "base/sort.h"
 #include "effects/effects.h"
-#include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "verdict/body.h"
@@ -468,8 +467,10 @@ fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int i,
    other, which no common factor has. So a scene whose layer grows is moved again, with bending softer and stiffer by what it is off
    by, and the stiffness along strips the other way and the same way; bodies, which are in series with that, give where it is
    softer. Bands take in all four; where one of them does not stand the device may have buckled: undecided.
-   In: v->motion, v->probed. Error: all flexures are off the same way. Cost: four motions, of such scenes alone. Source:
-   docs/theory/probes.md. Test: test_heated.py, Ratio */
+   Exact beams have the roots of the closed form and so its errors; where a flexure is no straight strip they have nothing to turn
+   that is stiff against forces alone, and all is compared with closed forms.
+   In: v->motion, v->probed. Error: all flexures are off the same way. Cost: four motions, of such scenes alone; of exact beams that
+   are curved five. Source: docs/theory/probes.md. Test: test_heated.py, Ratio */
 
 /* what was accepted there is open */
 static fw_status tell_lost(fw_arena *arena, const fw_device_scene *s, int scene, double bending,
@@ -497,9 +498,9 @@ static fw_status tell_lost(fw_arena *arena, const fw_device_scene *s, int scene,
 
 /* *told: a reason is given where it does not stand then, or has no such motion */
 static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
-                           const fw_dynamics_motion_options *given, const fw_verdict_hold *h,
-                           const fw_verdict_required *required, fw_verdict_variant_verdict *v,
-                           bool *told) {
+                           const fw_dynamics_motion *like, const fw_dynamics_motion_options *given,
+                           const fw_verdict_hold *h, const fw_verdict_required *required,
+                           fw_verdict_variant_verdict *v, bool *told) {
     const long hopeless = 300000;
     const fw_device_scene *s = &m->device->scene[i];
     double bending, along;
@@ -518,7 +519,7 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
     o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
     o.within_limits = true, o.hopeless_rhs = hopeless, o.effects.along = way.along;
     o.whole = probe[0] != NULL, o.trace = probe[0] ? fw_verdict_clearance_trace : NULL;
-    FW_TRY(fw_statics_move_stiffer(arena, m, s, way.stiffer, v->motion[i], &o, &x));
+    FW_TRY(fw_statics_move_stiffer(arena, m, s, way.stiffer, like, &o, &x));
     if (monitor.no_memory || (probe[0] && probe[0]->no_memory)) return FW_NOMEM;
     const bool found = x && !x->ended;
     if (found) FW_TRY(fw_statics_stability_find(arena, m, s, x, &own, &falls, NULL));
@@ -534,6 +535,32 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
     return FW_OK;
 }
 
+static bool all_straight(const fw_mechanism *m) {
+    for (int k = 0; k < m->nhinge; k++)
+        if (!fw_flexure_hinge_law_straight(&m->hinge[k].law)) return false;
+    return true;
+}
+
+/* *like: what ways are compared with, where not with the motion itself; *saw is then of it; unchanged where it has none */
+static fw_status by_closed_forms(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                                 const fw_dynamics_motion_options *given,
+                                 fw_verdict_strain_monitor *saw, fw_dynamics_motion *closed,
+                                 const fw_dynamics_motion **like) {
+    fw_dynamics_motion_options o = *given;
+    const fw_dynamics_motion *x;
+    if ((*like)->ledger.hinge.used != FW_HINGE_ELASTICA || all_straight(m)) return FW_OK;
+    *closed = **like, closed->ledger.hinge.used = FW_HINGE_COMPLIANCE;
+    FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, saw));
+    o.observe = fw_verdict_strain_monitor_record, o.context = saw, o.most_angle_rad = FW_TURN;
+    o.within_limits = true, o.whole = false, o.trace = NULL;
+    FW_TRY(fw_statics_move_stiffer(arena, m, s, 0, closed, &o, &x));
+    if (saw->no_memory) return FW_NOMEM;
+    if (!x || x->ended) return FW_OK;
+    *closed = *x;
+    *like = closed;
+    return FW_OK;
+}
+
 fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
                                  const fw_dynamics_motion_options *options,
                                  const fw_verdict_required *required,
@@ -542,54 +569,19 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
     if (!fw_verdict_grows(v, i) || nh == 0 || x->ended || !x->observed) return FW_OK;
     if (has_reason_of(v, &m->device->scene[i], UNSTABLE)) return FW_OK; /* as it is */
-    fw_verdict_hold h = {.saw = x->observed, .more = 1};
+    fw_verdict_strain_monitor saw;
+    fw_dynamics_motion closed;
+    const fw_dynamics_motion *like = x;
+    FW_TRY(by_closed_forms(arena, m, &m->device->scene[i], options, &saw, &closed, &like));
+    fw_verdict_hold h = {.saw = like == x ? x->observed : &saw, .more = 1};
     bool told = false;
     FW_NEED(h.far = fw_arena_array(arena, double, 2 * n + 2 * nh + 2));
     h.now = h.far + n, h.f = v->shaken[i].grown = h.now + n;
     for (size_t k = 0; k < 2 * nh + 2; k++)
         h.f[k] = 1;
-    fw_verdict_farthest(m, x, h.far);
+    fw_verdict_farthest(m, like, h.far);
     const bool pins = x->ledger.hinge.used == FW_HINGE_REVOLUTE; /* which have nothing along */
     for (int k = 0; k < (pins ? 2 : FW_VERDICT_WAYS); k++)
-        FW_TRY(grown_way(arena, m, i, k, options, &h, required, v, &told));
+        FW_TRY(grown_way(arena, m, i, k, like, options, &h, required, v, &told));
     return FW_OK;
-}
-
-/* ---- scenes in which nothing moves ---- */
-
-/* Nothing goes by more than 1e-8 of the longest arm, or turns by more than 1e-8, from its first pose, which is the drawn one
-   but for what closing the loops moved; and no hinge uses 1e-5 of what it bears, where that is known already: what integrators
-   leave of a start at rest. Of small devices that is below an atom. Equilibria under one load do not move, either, but away
-   from the drawn pose they stand. Test: test_probe.py, test_equilibria_under_one_load_have_bands */
-static bool goes(const fw_mechanism *m, const fw_dynamics_motion *motion, double arm_m) {
-    const size_t n = 3 * (size_t)m->nbody;
-    const double share = 1e-8, closed_m = 2 * motion->stats.assembly_moved_m;
-    for (size_t i = 0; i < n; i++) {
-        const fw_mechanism_mass *body = &m->body[i / 3];
-        const double drawn[3] = {body->x_m, body->y_m, body->phi_rad};
-        const bool turn = i % 3 == 2;
-        const double little = share * (turn ? 1 : arm_m),
-                     closed = turn && arm_m > 0 ? closed_m / arm_m : closed_m;
-        if (fabs(motion->q[i] - drawn[i % 3]) > little + closed) return true;
-        for (int r = 1; r < motion->nsample; r++)
-            if (fabs(motion->q[(size_t)r * n + i] - motion->q[i]) > little) return true;
-    }
-    return false;
-}
-
-bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene) {
-    const double unused = 1e-5;
-    const fw_mechanism *m = v->mechanism;
-    const fw_dynamics_motion *motion = v->motion[scene];
-    const size_t columns = (size_t)m->device->nscene + 1;
-    double arm_m = 0;
-    const fw_device_scene *s = &m->device->scene[scene];
-    if (!motion || motion->ended) return false;
-    if (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)) return false; /* across the plane */
-    for (int i = 0; i < m->npin; i++)
-        arm_m = fmax(arm_m, fmax(hypot(m->pin[i].ax_m, m->pin[i].ay_m),
-                                 hypot(m->pin[i].bx_m, m->pin[i].by_m)));
-    for (int k = 0; k < v->nhinge; k++)
-        if (v->used[(size_t)k * columns + (size_t)scene] > unused) return false;
-    return !goes(m, motion, arm_m);
 }

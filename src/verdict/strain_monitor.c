@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue counts, of hinges and of what
-   they and loads bring to bodies. Theory: docs/theory/verdict.md. Test: test_fatigue.c, test_body_arms.c */
+   they and loads bring to bodies; scenes in which nothing is strained (FW-D655), and what a better level of hinges strains
+   otherwise. Theory: docs/theory/verdict.md. Test: test_fatigue.c, test_body_arms.c */
 #include "base/constants.h"
 #include "base/text.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "verdict/body.h"
 #include "verdict/strain.h"
@@ -525,6 +527,59 @@ fw_status fw_verdict_touching(fw_arena *arena, const fw_layout_hinge_layout *dra
                                                   .keep = keep,
                                                   .text = text};
     return FW_OK;
+}
+
+/* ---- scenes in which nothing moves ---- */
+
+/* Nothing goes by more than 1e-8 of the longest arm, or turns by more than 1e-8, from its first pose, which is the drawn one
+   but for what closing the loops moved; and no hinge uses 1e-5 of what it bears, where that is known already: what integrators
+   leave of a start at rest. Of small devices that is below an atom. Equilibria under one load do not move, either, but away
+   from the drawn pose they stand. Test: test_probe.py, test_equilibria_under_one_load_have_bands */
+static bool goes(const fw_mechanism *m, const fw_dynamics_motion *motion, double arm_m) {
+    const size_t n = 3 * (size_t)m->nbody;
+    const double share = 1e-8, closed_m = 2 * motion->stats.assembly_moved_m;
+    for (size_t i = 0; i < n; i++) {
+        const fw_mechanism_mass *body = &m->body[i / 3];
+        const double drawn[3] = {body->x_m, body->y_m, body->phi_rad};
+        const bool turn = i % 3 == 2;
+        const double little = share * (turn ? 1 : arm_m),
+                     closed = turn && arm_m > 0 ? closed_m / arm_m : closed_m;
+        if (fabs(motion->q[i] - drawn[i % 3]) > little + closed) return true;
+        for (int r = 1; r < motion->nsample; r++)
+            if (fabs(motion->q[(size_t)r * n + i] - motion->q[i]) > little) return true;
+    }
+    return false;
+}
+
+bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene) {
+    const double unused = 1e-5;
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *motion = v->motion[scene];
+    const size_t columns = (size_t)m->device->nscene + 1;
+    double arm_m = 0;
+    const fw_device_scene *s = &m->device->scene[scene];
+    if (!motion || motion->ended) return false;
+    if (s->gz_m_per_s2 != 0 || fw_mechanism_plates_shaken(s)) return false; /* across the plane */
+    for (int i = 0; i < m->npin; i++)
+        arm_m = fmax(arm_m, fmax(hypot(m->pin[i].ax_m, m->pin[i].ay_m),
+                                 hypot(m->pin[i].bx_m, m->pin[i].by_m)));
+    for (int k = 0; k < v->nhinge; k++)
+        if (v->used[(size_t)k * columns + (size_t)scene] > unused) return false;
+    return !goes(m, motion, arm_m);
+}
+
+/* ---- what the step to a better level of hinges changes ---- */
+
+double fw_verdict_level_apart(const fw_mechanism *m, const fw_statics_level_step *s,
+                              double *largest) {
+    double off = 0;
+    *largest = 0;
+    for (int k = 0; k < m->nhinge; k++) {
+        const double at = s->at.strain[k], up = s->up.strain[k];
+        if (!isfinite(at) || !isfinite(up)) return isinf(at) || isinf(up) ? HUGE_VAL : at + up;
+        off = fmax(off, fabs(up - at)), *largest = fmax(*largest, at);
+    }
+    return *largest > 0 ? off / *largest : 0;
 }
 
 /* ---- what is met, of small motions ---- */

@@ -286,6 +286,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
     motion.within_limits = true;
     if (motion.most_angle_rad <= 0) motion.most_angle_rad = FW_TURN;
     motion.most_beams = motion.hinge_accuracy > 0 ? fw_most_beams_undecided : fw_most_beams;
+    motion.strains_apart = fw_verdict_level_strains;
     motion.sparing = options->coarse_first;
     motion.effects.untold = motion.effects.untold || options->decision_only || v->corner;
     motion.hopeless_rhs =
@@ -346,7 +347,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_verdict_courses_end(arena, &monitor[i]));
         FW_TRY(fw_verdict_courses_end(arena, &other[i]));
         if (v->motion[i])
-            FW_TRY(fw_verdict_level_strains(arena, m, v->motion[i]->loads, v->motion[i]->level));
+            FW_TRY(
+                fw_verdict_level_strains(arena, m, v->motion[i]->loads, v->motion[i]->level, NULL));
         FW_TRY(fw_verdict_bending_judge(arena, (int)i, v->motion[i], v));
         const bool told = options->ways && !options->decision_only; /* of a corner: how near */
         FW_TRY(fw_verdict_clearance_judge(arena, scene, (int)i, layout,

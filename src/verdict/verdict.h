@@ -129,7 +129,8 @@ typedef struct fw_verdict_pull {
     bool known;
     /* of a liquid that wets (angle 0): the least that may pull it in, and the least that surely does; HUGE_VAL: none does */
     double tension_N_per_m[2];
-    double number[2]; /* elastocapillary, of the flow's own drying: low, high; HUGE_VAL: nothing pulls */
+    /* elastocapillary, of the flow's own drying: low, high; HUGE_VAL: nothing pulls */
+    double number[2];
     const char *a, *b; /* what meets; b NULL: the carrier */
     /* lowered: at rest, by weight and stress, at most; stiffness: of a across the plane, NaN: beside */
     double gap_m, lowered_m, stiffness_N_per_m;
@@ -306,7 +307,7 @@ typedef struct fw_verdict_variant_verdict { /* one flow: a material and a thickn
     const fw_clearance_things *things;      /* NULL: nothing is drawn */
     fw_verdict_clearance *clearance;        /* (nclearance) none of what is not drawn */
     int nclearance;
-    double bends_m; /* what bodies bend beside hinges may take of distances at a corner */
+    double bends_m;          /* what bodies bend beside hinges may take of distances at a corner */
     fw_wiring_moved *stator; /* (nstator) of every scene, as drawn; low_m: at all corners */
     int nstator;
     fw_probe_result *probed;             /* (nscene x nprobe); NULL: no probe has a course */
@@ -468,17 +469,15 @@ typedef struct fw_verdict_model_errors {
 extern const fw_verdict_model_errors fw_verdict_model_error;
 extern const double fw_verdict_first_accuracy; /* of a first look */
 
-/* What bodies, which the motion takes as rigid, would give of the displacement where the loads act, as a
-   share, at most to first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a
-   verdict, or NULL */
+/* What bodies, which the motion takes as rigid, would give of the displacement where the loads act, as a share, at most to
+   first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a verdict, or NULL */
 double fw_verdict_bending_share(const fw_dynamics_motion *motion);
 /* and what hinges store at most, J; 0: they do not move, but for round-off */
 double fw_verdict_bending_stored_J(const fw_dynamics_motion *motion);
 /* the same, but 0 where the device is pressed along its flexures and no end of one goes or turns by what matters */
 double fw_verdict_bending_moving(const fw_dynamics_motion *motion);
-enum {
-    FW_VERDICT_RIMS = 575
-}; /* FW-Dnnn: rims of release holes do not bear, or are not known to */
+/* FW-Dnnn: rims of release holes do not bear, or are not known to */
+enum { FW_VERDICT_RIMS = 575 };
 /* What the rims of release holes bear in a motion, over what the material is allowed. At most three times (Kirsch) the
    stress of a strip between holes that bears everything alone; at least what equilibrium asks of a cut through the whole
    body. NaN: there are no holes. at: for low and high 2 times the number of the hinge, and 1 for its second body */
@@ -497,11 +496,14 @@ double fw_verdict_motion_lasting_error(const fw_mechanism *mechanism);
 /* of it what may make a strain more, and what may make it less beside what the strain itself is off by */
 double fw_verdict_motion_lasting_above(const fw_mechanism *mechanism);
 double fw_verdict_motion_lasting_below(const fw_mechanism *mechanism);
-/* fills the strains of a step to the next level (may be NULL), on both levels; loads: what acted */
+/* Fills the strains of a step to the next level (may be NULL), on both levels; loads: what acted. share: of the largest what the
+   step changes, 0 where that is not known; NULL: it is not asked for. It is `strains_apart` of a motion's options */
 fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
-                                   const fw_effects_loads *loads,
-                                   const fw_statics_level_step *step);
-
+                                   const fw_effects_loads *loads, const fw_statics_level_step *step,
+                                   double *share);
+/* the share, infinite where a strain is not known, NaN where one was not computed; largest: of them */
+double fw_verdict_level_apart(const fw_mechanism *mechanism, const fw_statics_level_step *step,
+                              double *largest);
 /* one variant: every scene's motion and the required workspace. layout may be NULL: joint forces
    are then bounded instead of resolved along the flexure. */
 fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,
@@ -536,10 +538,9 @@ typedef struct fw_verdict_made { /* one device that a flow may make */
     fw_verdict_decision decision;
     const char *why; /* what speaks against it beside its hinges, or NULL */
 } fw_verdict_made;
-/* The device at a point x (ninput, SI) of what the flow may make, after fw_verdict_variant with the same device,
-   layout and options; v is left alone, so that several threads may ask at once, each with an arena of
-   its own. Error: that of a first look (fw_verdict_first_accuracy) at least. Cost: that of a corner.
-   Test: tests/unit/study/test_made_at.c */
+/* The device at a point x (ninput, SI) of what the flow may make, after fw_verdict_variant with the same device, layout and
+   options; v is left alone, so that several threads may ask at once, each with an arena of its own. Error: that of a first
+   look (fw_verdict_first_accuracy) at least. Cost: that of a corner. Test: tests/unit/study/test_made_at.c */
 fw_status fw_verdict_made_at(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                              const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
                              const double *x, fw_verdict_made *out);
@@ -567,10 +568,9 @@ void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]
 fw_status fw_verdict_run(fw_arena *arena, const fw_device *device,
                          const fw_verdict_options *options, fw_diags *diags, fw_verdict *verdict,
                          const fw_layout **layout);
-/* What governs. made: each flow as it makes the device, where that was judged, else as drawn; not
-   made: as drawn. The worst decision goes first, then the largest share used. kinds: FW_CHECK_... of
-   them that are looked at. *found is false where nothing of them was run.
-   Test: tests/unit/verdict/test_governing.c */
+/* What governs. made: each flow as it makes the device, where that was judged, else as drawn; not made: as drawn. The worst
+   decision goes first, then the largest share used. kinds: FW_CHECK_... of them that are looked at. *found is false where
+   nothing of them was run. Test: tests/unit/verdict/test_governing.c */
 fw_status fw_verdict_governing(fw_arena *arena, const fw_verdict *verdict, int kinds, bool made,
                                fw_verdict_check *check, bool *found);
 extern const char fw_verdict_at_rest[]; /* the scene of a reason that is of none */

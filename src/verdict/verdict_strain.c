@@ -367,8 +367,10 @@ static void strains(const fw_mechanism *m, const fw_effects_loads *loads, double
 }
 
 fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *m,
-                                   const fw_effects_loads *loads,
-                                   const fw_statics_level_step *step) {
+                                   const fw_effects_loads *loads, const fw_statics_level_step *step,
+                                   double *share) {
+    double largest;
+    if (share) *share = 0;
     if (!step || step->why_not || !m->device || m->device->nflexure == 0) return FW_OK;
     const bool exact = step->used == FW_HINGE_ELASTICA || step->next == FW_HINGE_ELASTICA;
     fw_mark mark = fw_arena_mark(arena);
@@ -379,6 +381,8 @@ fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *m,
     strains(m, loads, step->t_s, step->used, beam, &step->at);
     strains(m, loads, step->t_s, step->next, beam, &step->up);
     fw_arena_rewind(arena, mark);
+    if (share) *share = fw_verdict_level_apart(m, step, &largest);
+    if (share && !isfinite(*share)) *share = 0;
     return FW_OK;
 }
 
@@ -461,20 +465,17 @@ static double peak_strain(const fw_mechanism *m, const fw_dynamics_motion *x) {
 static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     const fw_statics_level_step *s = x->level;
     double usual = fw_verdict_model_error.motion, common = fw_verdict_motion_lasting_error(m),
-           off = 0, largest = 0;
+           largest;
     if (x->ledger.hinge.used == FW_HINGE_ELASTICA) return fmin(usual, common) + (s ? s->blows : 0);
     if (s && s->unknown) return fw_verdict_model_not_known;
     if (fw_statics_level_far_apart(s)) return 1; /* of another motion nothing is known */
     if (!s || s->why_not || m->nhinge == 0) return usual;
-    for (int k = 0; k < m->nhinge; k++) {
-        if (isinf(s->at.strain[k]) || isinf(s->up.strain[k])) return fw_verdict_model_not_known;
-        if (isnan(s->at.strain[k]) || isnan(s->up.strain[k])) return usual;
-        off = fmax(off, fabs(s->up.strain[k] - s->at.strain[k]));
-        largest = fmax(largest, s->at.strain[k]);
-    }
+    const double apart = fw_verdict_level_apart(m, s, &largest);
+    if (isinf(apart)) return fw_verdict_model_not_known;
+    if (isnan(apart)) return usual;
     if (fw_effects_has_growth(x->loads) && largest < fw_compared_at_least * peak_strain(m, x))
         return 1;
-    double computed = fmax(largest > 0 ? off / largest : 0, s->relative) + common;
+    double computed = fmax(apart, s->relative) + common;
     bool swings = x->loads && !x->loads->quasi_static;
     return s->used == FW_HINGE_REVOLUTE && swings ? fmax(usual, computed) : computed;
 }
@@ -541,7 +542,7 @@ void fw_verdict_off_by_itself(const fw_mechanism *m, double *bending, double *al
     for (int k = 0; k < m->nhinge; k++) {
         const fw_mechanism_hinge *h = &m->hinge[k];
         const fw_flexure_error *e = &h->closed_form.error;
-        const bool leaf = h->law.half_angle_rad == 0 && !h->law.table;
+        const bool leaf = fw_flexure_hinge_law_straight(&h->law);
         *bending = fmax(*bending, fmax(h->stated ? 0 : e->stiffness, leaf ? e->kx : 0));
         *along = fmax(*along, leaf ? e->ky : fmax(e->kx, e->ky));
     }

@@ -23,7 +23,7 @@ STRAIGHT = ("leaf", "varying")  # kinds that stages are made of
 def classes():
     """(topology, kind, load) of all classes, evenly mixed"""
     out = [(topology, kind, load) for topology in TOPOLOGIES
-           for kind in (KINDS if topology in ("rotation", "four-bar") else STRAIGHT) for load in LOADS[topology]]
+           for kind in KINDS for load in LOADS[topology]]
     random.Random(7).shuffle(out)
     return out
 
