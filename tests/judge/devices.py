@@ -17,7 +17,7 @@ LOADS = {"rotation": ("moment", "force", "turn", "velocity", "voltage", "shock",
          "fixed-fixed": ("force", "slide", "rod", "velocity", "voltage", "shock", "step", "heat", "fatigue"),
          "folded": ("force", "slide", "rod", "velocity", "voltage", "shock", "heat", "fatigue"),
          "four-bar": ("moment", "force", "rod", "velocity", "shock", "fatigue")}
-STRAIGHT = ("leaf", "varying")  # kinds that stages are made of
+STRAIGHT = ("leaf", "varying")  # kinds that may be of silicon in stages, as solids of it are
 
 
 def classes():
