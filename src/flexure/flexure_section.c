@@ -64,6 +64,18 @@ double fw_flexure_fillet_concentration(double width_m, double fillet_m) {
     return 0.944 + 0.2113 * pow(fitted_ratio(width_m, fillet_m), -2 / 3.0);
 }
 
+/* Concentration of tension where a strip enters a wide block by a fillet rho (plane stress):
+
+     Kt = 0.4675 + 0.2494 (t/rho)^(2/3) + 0.5447 (t/rho)^0.3
+
+   in: m; out: 1. Validity: rho/t 0.05 to 1, held to that; within 0.009 of the solids of tests/judge/tension.py, whose own error
+   is 2 %. Test: test_strip_strain.c */
+double fw_flexure_tension_concentration(double width_m, double fillet_m) {
+    if (!(fillet_m > 0)) return 1;
+    double x = width_m / fmin(fmax(fillet_m, 0.05 * width_m), width_m);
+    return 0.4675 + 0.2494 * cbrt(x * x) + 0.5447 * pow(x, 0.3);
+}
+
 /* Where the moment falls along a strip, its peak at a root is that of an even moment as large as here:
 
      s = 1.07 rho - 0.10 t + 0.6 t^2/R,  0 <= s <= rho

@@ -129,8 +129,8 @@ typedef struct fw_flexure_path_point {
     double part;          /* of the length, 0 to 1 */
     double strain_per_Nm; /* largest there per section moment; roots with their concentration */
     double strain_per_N;  /* per axial force; likewise */
-    double face[2];     /* share of strain_per_Nm that the right and the left face have: 1, less at
-                             the outside of an arc's root */
+    /* share of strain_per_Nm that the right and the left face have: of an arc one has less */
+    double face[2];
     double soft_per_Nm; /* rotation by a moment, per part of the length: L/EI */
 } fw_flexure_path_point;
 

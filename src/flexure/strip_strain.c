@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strain along a strip that carries a force and a moment at each root. With xi = 0..1 along it, F =
-   (X, Y) on the second body along and across the axis in the frame half turned, M1 and M2 the moments
-   at the roots (equilibrium in the displaced place, so exact), y the pull of finite_force.c:
+/* Strain along a strip that carries a force and a moment at each root. With xi = 0..1 along it, F = (X, Y) on the second body along
+   and across the axis in the frame half turned, M1 and M2 the moments at the roots (displaced, so exact), y the pull of finite_force.c:
 
      M(xi) = (M1 + M2)/2 C + (M2 - M1)/2 S + e(xi) 2 (1 - C)/(y xi (1 - xi))
      C = cosh(z (2 xi - 1))/cosh z,  S = sinh(z (2 xi - 1))/sinh z,  z = sqrt(y)/2  (y < 0: cos, sin)
@@ -9,16 +8,10 @@
      N(xi) = F.t,  t turned with the section
      strain of a face = +-k M + n N, k of an arc's outer fillet by 1 - t/3R less
 
-   k is strain per moment, n per axial force, at a root each with its own concentration. For a leaf
-   M(xi) is the beam column's, for an arc without pull equilibrium of a piece as drawn, exact at both
-   ends; where the pull is not strong it is then taken once more over the strip as M(xi) bends it. Concentration of tension where a strip enters a wide block by a fillet rho (plane stress):
-
-     Kt = 0.4675 + 0.2494 (t/rho)^(2/3) + 0.5447 (t/rho)^0.3
-
-   in: m, rad, N, N m; out: 1. Validity: rho/t 0.05 to 1; Kt within 0.009 of the solids of
-   tests/judge/tension.py, whose own error is 2 %. Error of M between the roots: a tenth of what the
-   strip's displacement takes of its arms. Cost 0.2 us (17 places). Source: docs/theory/verdict.md;
-   stability functions as in finite_force.c. Test: test_strip_strain.c. */
+   k is strain per moment, n per axial force, at a root each with its own concentration. For a leaf M(xi) is the beam
+   column's, for an arc without pull equilibrium of a piece as drawn, exact at both ends; where the pull is not strong it is
+   then taken once more over the strip as M(xi) bends it. in: m, rad, N, N m; out: 1. Validity: rho/t 0.05 to 1. Error of M between the roots: a tenth of what the strip's displacement takes of its arms. Cost 0.2
+   us (17 places). Source: docs/theory/verdict.md; stability functions as in finite_force.c. Test: test_strip_strain.c. */
 #include "flexure/path.h"
 #include "base/constants.h"
 #include "flexure/section.h"
@@ -26,10 +19,8 @@
 #include <stdint.h>
 #include <string.h>
 
-double fw_flexure_tension_concentration(double width_m, double fillet_m) {
-    if (!(fillet_m > 0)) return 1;
-    double x = width_m / fmin(fmax(fillet_m, 0.05 * width_m), width_m);
-    return 0.4675 + 0.2494 * cbrt(x * x) + 0.5447 * pow(x, 0.3);
+static inline double larger(double a, double b) {
+    return b > a ? b : a;
 }
 
 /* ---- the places ---- */
@@ -49,13 +40,27 @@ static fw_flexure_path_point place_of(const fw_flexure_input *in, fw_geometry_po
                                    .strain_per_N = kt / (width_m * in->depth_m * in->youngs_Pa)};
 }
 
-/* The outer fillet of an arc is strained less by a moment than the inner one. 24 isotropic solids, a
-   random choice of tests/data/hinge/root_strain.csv: 0.85 to 0.998 of this, which is a bound, t/3R
-   from 0.013 to 0.05. Of a crystal either may be the worse one. curved: t/3R, > 0 to the left */
+/* The outer fillet of an arc is strained less by a moment than the inner one. 24 isotropic solids, a random choice of
+   tests/data/hinge/root_strain.csv: 0.85 to 0.998 of this, which is a bound, t/3R from 0.013 to 0.05. Of a crystal either
+   may be the worse one. curved: t/3R, > 0 to the left */
 static const double fw_outer_least = 0.85;
 
-static void outer_fillet(const fw_flexure_input *in, double curved, fw_flexure_path_point *p) {
+static void outer_fillet(const fw_flexure_input *in, double curved, double width_m,
+                         fw_flexure_path_point *p) {
+    (void)width_m;
     if (!in->crystal.known && in->fillet_m >= 0) p->face[curved < 0] = fmax(1 - fabs(curved), 0);
+}
+
+/* and between the roots, where strain_per_Nm is the larger of both; of a crystal either may be that */
+static void both_fibres(const fw_flexure_input *in, double curved, double width_m,
+                        fw_flexure_path_point *p) {
+    const double w = fabs(curved);
+    if (in->crystal.known || w == 0) return;
+    const fw_flexure_depth hoop =
+        fw_flexure_depth_at(in->depth_m * sqrt(3 * w) / width_m, in->poisson);
+    const double in_there = (1 + w) * hoop.inner, out_there = (1 - w) * hoop.outer;
+    p->face[curved < 0] = fmin(out_there / in_there, 1);
+    p->face[curved >= 0] = fmin(in_there / out_there, 1);
 }
 
 /* ends_stiffer: strains are those of the closed form's stiffness, which does not have it */
@@ -90,7 +95,7 @@ static fw_status varying_places(fw_arena *arena, const fw_flexure_input *in, dou
             one[out->n] = ends_stiffer * fibre * at.depth.stiffness * at.golovin / between;
             out->point[out->n++] = place_of(in, at.pose, at.width_m, (before + s) / length,
                                             by * fibre, length * at.bend_per_Nm2, root);
-            if (root) outer_fillet(in, at.curved, &out->point[out->n - 1]);
+            (root ? outer_fillet : both_fibres)(in, at.curved, at.width_m, &out->point[out->n - 1]);
         }
     if (m.by_stress)
         fw_flexure_neighbours_reach(in, m.elastic.bow_per_Pa * m.youngs_Pa, length, one, out);
@@ -125,7 +130,7 @@ static fw_status even_places(fw_arena *arena, const fw_flexure_input *in,
         out->point[out->n++] =
             place_of(in, at, in->width_m, (double)k / LAST,
                      root ? per_Nm : per_Nm * fibre / c->concentration, soft, root);
-        if (root && arc) outer_fillet(in, curved, &out->point[k]);
+        if (arc) (root ? outer_fillet : both_fibres)(in, curved, in->width_m, &out->point[k]);
     }
     return FW_OK;
 }
@@ -239,7 +244,6 @@ static double about(const arms *f, double x, double y, double part) {
 
      M(xi) = A cos z (2 xi - 1) + (M2 - M1)/2 S + 2 e(xi)/(y xi (1 - xi))
      A from int M/EI ds = K th int ds/EI
-
    The cosine in the factor of e is in A, too. */
 static const double fw_pressed = -6;
 
@@ -327,10 +331,6 @@ static void bend_once(const fw_flexure_path_strain *s, const fw_flexure_strip_lo
 /* ---- the strain ---- */
 
 /* as fmax, which is a call; a stays where b is none */
-static inline double larger(double a, double b) {
-    return b > a ? b : a;
-}
-
 /* largest |M| between the outer two of three places evenly apart: of the parabola through them */
 static double crest(double a, double b, double c) {
     double bend = a - 2 * b + c, rise = c - a;
@@ -368,8 +368,8 @@ static double moment_at(const fw_flexure_path_strain *s, int end, double from_m,
     return M[root];
 }
 
-/* A strip that narrows over its fillet: the peak and both faces by moment and width at its end, where
-   these are more than at the face */
+/* A strip that narrows over its fillet: the peak and both faces by moment and width at its end, where these are more than
+   at the face */
 static void narrowed(const fw_flexure_path_strain *s, int end, const double *M, const double *N,
                      fw_flexure_strip_strains *out) {
     if (!(s->narrows[end] > 1)) return;
@@ -381,10 +381,10 @@ static void narrowed(const fw_flexure_path_strain *s, int end, const double *M, 
     out->peak = fmax(out->peak, fmax(fabs(out->root[end][0]), fabs(out->root[end][1])));
 }
 
-/* What the peak is at least. At a fillet it stands s into the strip (fw_flexure_root_reach_m), and the
-   moment there is another one than at the block's face (solids of tests/judge/README.md: up to 6 %
-   less); and of given places of its ends a strip is pulled less by as much as the blocks give, which
-   is 1.6 t of strip each at most. A strip that the pull straightens has moments like the pull's root:
+/* What the peak is at least. At a fillet it stands s into the strip (fw_flexure_root_reach_m), and the moment there is
+   another one than at the block's face (solids of tests/judge/README.md: up to 6 % less); and of given places of its ends a
+   strip is pulled less by as much as the blocks give, which is 1.6 t of strip each at most. A strip that the pull
+   straightens has moments like the pull's root:
 
      strain = k min(|M(0)|, |M(s)|) (1 - g y/(2 (y + 10))) + n (1 - g) |N|,
      g = 3.2 t/(L + 3.2 t),  y = N L^2/EI
@@ -411,15 +411,22 @@ static double least_at_root(const fw_flexure_path_strain *s, int end, const doub
     return (1 - s->less[end]) * least;
 }
 
-/* The same between the roots, where nothing is concentrated: both faces have as much */
+/* The same between the roots, where nothing is concentrated: an arc's outer face has less of a moment than its inner one */
 static double least_between(const fw_flexure_path_strain *s, const double *M, const double *N) {
     const double g = s->stretched;
     double least = 0;
     for (int i = 1; i < s->n - 1; i++) {
         const fw_flexure_path_point *p = &s->point[i];
         double pull = fmax(N[i] * s->length_m * p->soft_per_Nm, 0);
-        double bent = fabs(p->strain_per_Nm * M[i]) * (1 - 0.5 * g * pull / (pull + 10));
-        least = larger(least, bent + (1 - g) * fabs(p->strain_per_N * N[i]));
+        double most = fabs(p->strain_per_Nm * M[i]), drawn = fabs(p->strain_per_N * N[i]);
+        double bent = most * (1 - 0.5 * g * pull / (pull + 10));
+        for (int face = 0; face < 2; face++) {
+            const bool both = (face == 0) == (M[i] * N[i] >= 0); /* have one sign there */
+            const double share = p->face[face];
+            least =
+                larger(least, both ? share * bent + (1 - g) * drawn
+                                   : larger(share * bent - drawn, (1 - g) * drawn - share * most));
+        }
     }
     return (1 - s->less[2]) * least;
 }
@@ -450,9 +457,9 @@ static inside inside_of(const fw_flexure_path_strain *s, const double *M, const 
     return most;
 }
 
-/* The pin's strip, four places at a time: section forces, and the largest strain between the roots. Each place has
-   what it has by itself, to the last bit, whatever the width of the processor's vectors. M has room for three
-   numbers more on either side, N behind. */
+/* The pin's strip, four places at a time: section forces, and the largest strain between the roots. Each place has what
+   it has by itself, to the last bit, whatever the width of the processor's vectors. M has room for three numbers more on
+   either side, N behind. */
 static inline __attribute__((always_inline)) inside pin_places(const fw_flexure_path_strain *s,
                                                                const arms *f, double mean,
                                                                double half, double *M, double *N) {
