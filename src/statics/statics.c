@@ -237,6 +237,17 @@ fw_status fw_statics_level_stays(fw_arena *arena, const fw_statics_level_step *s
 
 /* ---- whether another level is used ---- */
 
+double fw_statics_level_strains(const fw_statics_level_step *s, int nhinge, double *largest) {
+    double off = 0;
+    *largest = 0;
+    for (int k = 0; k < nhinge; k++) {
+        const double at = s->at.strain[k], up = s->up.strain[k];
+        if (!isfinite(at) || !isfinite(up)) return isinf(at) || isinf(up) ? HUGE_VAL : at + up;
+        off = fmax(off, fabs(up - at)), *largest = fmax(*largest, at);
+    }
+    return *largest > 0 ? off / *largest : 0;
+}
+
 double fw_statics_level_changes(const fw_statics_level_step *step) {
     return step->strains > step->relative ? step->strains : step->relative;
 }

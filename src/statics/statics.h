@@ -395,6 +395,9 @@ static const double fw_statics_level_rings_most = 0.029;
    did. step may be NULL. Test: judge.examples bistable-* */
 static const double fw_statics_level_bounds = 0.25;
 bool fw_statics_level_far_apart(const fw_statics_level_step *step);
+/* of the largest strain what it changes, once strains are there: infinite where one is not known, NaN where one was not computed.
+   largest: of the level used */
+double fw_statics_level_strains(const fw_statics_level_step *step, int nhinge, double *largest);
 /* what it changes of places and angles, or of the largest strain where that is more */
 double fw_statics_level_changes(const fw_statics_level_step *step);
 /* it was computed, and changes less; step may be NULL */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Strains of all hinges followed along a motion: their peaks, and the cycles that fatigue counts, of hinges and of what
-   they and loads bring to bodies; scenes in which nothing is strained (FW-D655), and what a better level of hinges strains
-   otherwise. Theory: docs/theory/verdict.md. Test: test_fatigue.c, test_body_arms.c */
+   they and loads bring to bodies; scenes in which nothing is strained (FW-D655). Theory: docs/theory/verdict.md. Test: test_fatigue.c, test_body_arms.c */
 #include "base/constants.h"
 #include "base/text.h"
 #include "geometry/segment.h"
@@ -566,20 +565,6 @@ bool fw_verdict_stands_still(const fw_verdict_variant_verdict *v, int scene) {
     for (int k = 0; k < v->nhinge; k++)
         if (v->used[(size_t)k * columns + (size_t)scene] > unused) return false;
     return !goes(m, motion, arm_m);
-}
-
-/* ---- what the step to a better level of hinges changes ---- */
-
-double fw_verdict_level_apart(const fw_mechanism *m, const fw_statics_level_step *s,
-                              double *largest) {
-    double off = 0;
-    *largest = 0;
-    for (int k = 0; k < m->nhinge; k++) {
-        const double at = s->at.strain[k], up = s->up.strain[k];
-        if (!isfinite(at) || !isfinite(up)) return isinf(at) || isinf(up) ? HUGE_VAL : at + up;
-        off = fmax(off, fabs(up - at)), *largest = fmax(*largest, at);
-    }
-    return *largest > 0 ? off / *largest : 0;
 }
 
 /* ---- what is met, of small motions ---- */

@@ -501,9 +501,6 @@ double fw_verdict_motion_lasting_below(const fw_mechanism *mechanism);
 fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *mechanism,
                                    const fw_effects_loads *loads, const fw_statics_level_step *step,
                                    double *share);
-/* the share, infinite where a strain is not known, NaN where one was not computed; largest: of them */
-double fw_verdict_level_apart(const fw_mechanism *mechanism, const fw_statics_level_step *step,
-                              double *largest);
 /* one variant: every scene's motion and the required workspace. layout may be NULL: joint forces
    are then bounded instead of resolved along the flexure. */
 fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_layout *layout,

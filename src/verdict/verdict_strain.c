@@ -381,7 +381,7 @@ fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *m,
     strains(m, loads, step->t_s, step->used, beam, &step->at);
     strains(m, loads, step->t_s, step->next, beam, &step->up);
     fw_arena_rewind(arena, mark);
-    if (share) *share = fw_verdict_level_apart(m, step, &largest);
+    if (share) *share = fw_statics_level_strains(step, m->nhinge, &largest);
     if (share && !isfinite(*share)) *share = 0;
     return FW_OK;
 }
@@ -470,7 +470,7 @@ static double level_error(const fw_mechanism *m, const fw_dynamics_motion *x) {
     if (s && s->unknown) return fw_verdict_model_not_known;
     if (fw_statics_level_far_apart(s)) return 1; /* of another motion nothing is known */
     if (!s || s->why_not || m->nhinge == 0) return usual;
-    const double apart = fw_verdict_level_apart(m, s, &largest);
+    const double apart = fw_statics_level_strains(s, m->nhinge, &largest);
     if (isinf(apart)) return fw_verdict_model_not_known;
     if (isnan(apart)) return usual;
     if (fw_effects_has_growth(x->loads) && largest < fw_compared_at_least * peak_strain(m, x))
