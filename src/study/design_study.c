@@ -5,6 +5,7 @@
 #include "plan/live_request.h"
 #include "report/report.h"
 #include "study/study_parts.h"
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -241,11 +242,14 @@ static fw_status take(void *context, const fw_study_sample *sample) {
 }
 
 static void point_json(const fw_study *study, const fw_study_sample *s, fw_json *out) {
+    char way[17];
     fw_json_line(out, 0);
     fw_json_object(out, NULL);
     fw_json_text(out, "state", fw_study_state_text(s->run, s->decision));
     fw_json_text(out, "why", s->run ? NULL : s->why);
     fw_json_real(out, "limit_used", s->used);
+    if (s->run) snprintf(way, sizeof way, "%016" PRIx64, s->way);
+    fw_json_text(out, "way", s->run && s->decision >= 0 ? way : NULL);
     fw_json_list(out, "values");
     for (int k = 0; k < study->nresponse; k++)
         fw_json_real(out, NULL, s->response[k]);

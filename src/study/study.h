@@ -85,6 +85,7 @@ typedef struct fw_study_sample {
     double *part;
     int looks[FW_VERDICT_LOOKS]; /* (nlook) which, in order (fw_verdict_refinement) */
     int nlook;                   /* 0: it has other hinges or requirements than the description */
+    uint64_t way;                /* fw_study_way, where the study asks for it; else 0 */
     bool run;                    /* false: `why` says why not */
     char why[FW_STUDY_WHY];
 } fw_study_sample;
@@ -133,6 +134,7 @@ typedef struct fw_study {
     fw_study_response *response; /* (nresponse) */
     int nresponse;
     unsigned stages; /* FW_STUDY_STAGE_..., what the responses need */
+    bool ways;       /* samples say the way that their verdict came about */
     /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
     int npart, nhinge;
     int neach; /* of a die: how many of them each hinge has (scenes and workspace); else 0 */
@@ -182,6 +184,11 @@ int fw_study_decision(const fw_study *study);
    has to live as long. Nothing is run: a response that is not there has no value (NaN). Cost: that of reading it. */
 fw_status fw_study_open_points(const fw_study_options *options, const fw_device_study *asked,
                                fw_study **study);
+
+struct fw_verdict;
+/* What a verdict says in words and whole numbers (decisions, what governs where and by which limit, how closely it was looked at, what
+   acts, by which model), as one number. Between devices that have it alike what governs is not known to have an edge or a step. */
+uint64_t fw_study_way(const struct fw_verdict *verdict, int scenes);
 
 struct fw_plan_live;
 struct fw_plan_live_answer;

@@ -256,6 +256,7 @@ void fw_study_state_take(const char *state, fw_study_sample *sample) {
 
 void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to) {
     to->i = from->i, to->decision = from->decision, to->run = from->run, to->used = from->used;
+    to->way = from->way;
     memcpy(to->why, from->why, FW_STUDY_WHY);
     memcpy(to->text, from->text, (size_t)study->ninput * sizeof *to->text);
     memcpy(to->value, from->value, (size_t)study->ninput * sizeof *to->value);
@@ -527,7 +528,7 @@ bool fw_study_same_files(const fw_study *study, fw_design *design) {
 
 static void blank(const fw_study *study, fw_study_sample *sample) {
     sample->run = false, sample->decision = -1, sample->why[0] = '\0';
-    sample->used = (double)NAN, sample->nlook = 0;
+    sample->used = (double)NAN, sample->nlook = 0, sample->way = 0;
     for (int k = 0; k < study->nresponse; k++)
         sample->response[k] = (double)NAN;
 }
@@ -556,6 +557,8 @@ int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sam
         if (sample->decision >= 0 && study->asked && study->asked->fitted > 0)
             fw_study_parts_take(study, &plan->verdict, sample);
         if (sample->decision >= 0) sample->used = used_of(&plan->verdict, sample->decision);
+        if (sample->decision >= 0 && study->ways)
+            sample->way = fw_study_way(&plan->verdict, plan->device->nscene);
     }
     return status;
 }

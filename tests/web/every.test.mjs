@@ -14,7 +14,7 @@ const turns = [
     ["laboratory", "attached"],
     ["draw", "probes"],
     ["page"],
-    ["explore", "touch", "file"],
+    ["explore", "telling", "touch", "file"],
     ["compare", "write", "looks"],
 ];
 const files = turns.flat();

@@ -13,6 +13,8 @@ after(finish);
 
 const LONG = 120000; // of a machine that others use, too
 const whole = (page) => page.waitForFunction(() => globalThis.flexwright.parts.explore.whole && globalThis.flexwright.parts.explore.showing.element.dataset.of === "present", null, { timeout: LONG });
+/** Values that are told between the points. */
+const toldOf = (page) => page.evaluate(() => globalThis.flexwright.parts.explore.told);
 const points = (page) => page.evaluate(() => [...globalThis.flexwright.parts.explore.done.values()]);
 const check = (file, ...options) => JSON.parse(spawnSync(program, ["check", file, "--json", ...options], { cwd: source }).stdout);
 /** The first point of the present input, which is today's value: not yet the others. */
@@ -144,7 +146,7 @@ describe("a range", () => {
     test("the pointer tells the nearest device beside it, and what is kept below stays", async () => {
         const kept = await page.textContent(".explore-readout");
         const box = await page.locator(".explore-plot").boundingBox();
-        const list = await points(page);
+        const list = [...(await points(page)), ...(await toldOf(page))];
         const { from, to } = await page.evaluate(() => globalThis.flexwright.parts.explore.spec.inputs[0]);
         for (const share of [0.3, 0.7]) {
             await page.mouse.move(box.x + share * box.width, box.y + box.height / 3);
@@ -152,6 +154,7 @@ describe("a range", () => {
             const [, x, value] = /^\S.* ([\d.]+) um: \w+, ([\d.]+) %/.exec(said) ?? assert.fail(said);
             const there = list.find((p) => p.x === Number(x));
             assert.equal(value, String(Number(there.value.toPrecision(4))));
+            assert.equal(/; told between judged devices, by at most \S+ % off/.test(said), Boolean(there.told), said);
             const mark = await page.locator(".explore-under").boundingBox(); // it stands at that device, and none is nearer to the pointer
             const apart = Math.min(...list.map((p) => Math.abs(p.x - (there.x + ((box.x + share * box.width - mark.x - mark.width / 2) / (box.width - 72)) * (to - from)))));
             assert.ok(Math.abs(box.x + share * box.width - mark.x - mark.width / 2) <= (apart / (to - from)) * box.width + 2, said);
@@ -222,8 +225,15 @@ describe("a range", () => {
     test("saved as CSV and SVG: every point, and a picture that is drawn by itself", async () => {
         const [csv] = await Promise.all([page.waitForEvent("download"), page.click('.explore-body button:has-text("Save as CSV")')]);
         const rows = readFileSync(await csv.path(), "utf8").trim().split("\n");
-        assert.equal(rows.length - 1, (await points(page)).length);
+        const told = await toldOf(page), judged = await points(page);
+        assert.equal(rows.length - 1, judged.length + told.length);
         assert.match(rows[0], /^width \(um\),.*low,high,decision$/);
+        assert.match(rows[0], /^width \(um\),judged or told,off by at most \(%\),/);
+        for (const [list, word, off] of [[judged, "judged", ""], [told, "told", null]])
+            for (const p of list) {
+                const row = rows.find((x) => x.startsWith(`${p.x},`)).split(",");
+                assert.deepEqual([row[1], row[2], row.at(-1)], [word, off ?? String(Math.max(p.off.value, p.off.low, p.off.high)), p.state]);
+            }
         const [svg] = await Promise.all([page.waitForEvent("download"), page.click("#explore-svg")]);
         assert.match(readFileSync(await svg.path(), "utf8"), /^<svg [^]*Share of the limit that governs[^]*<\/svg>\n$/);
     });
@@ -246,6 +256,84 @@ describe("a range", () => {
         await page.evaluate(axeSource);
         const found = await page.evaluate(() => globalThis.axe.run("#panel-explore", { resultTypes: ["violations"] }));
         assert.deepEqual(found.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes.map((n) => n.html)]), []);
+        await page.selectOption('select[aria-label="and vary"]', "");
+    });
+});
+
+describe("what is told", () => {
+    let server, page;
+    before(async () => {
+        server = await serve("reference-six-bar");
+        page = await open(server, SMALL);
+        await view(page, "explore");
+        await whole(page);
+    });
+    after(async () => {
+        await close(page);
+        await server.stop();
+    });
+
+    test("a curve of 200 values stands after few judged devices, and others that are judged behind it come as told", async () => {
+        const { filled, checked, missed, places } = await page.evaluate(() => {
+            const { filled, checked, missed, places } = globalThis.flexwright.parts.explore;
+            return { filled, checked, missed, places };
+        });
+        assert.ok(filled.judged <= 40, `${filled.judged} devices were judged`); // a second of two processors has some 55
+        assert.ok(checked >= 15 && missed === 0, `${missed} of ${checked}`);
+        const judged = await points(page), told = await toldOf(page);
+        const there = new Set([...judged, ...told].map((p) => p.x));
+        assert.equal(places.length, 201);
+        assert.ok(told.length > 100 && places.every((x) => there.has(x)));
+        assert.match(await page.textContent(".explore-summary"), new RegExp(`Values at ${told.length} places between them are told, by at most \\S+ % off; ${checked} that were told and then judged came as told\\.$`));
+        // told stretches of the line look otherwise, and only judged devices have signs
+        assert.ok((await page.locator(".explore-line.told").count()) > 0);
+        assert.ok((await page.locator(".explore-sign:not(.explore-key-sign *)").count()) <= judged.length);
+    });
+
+    test("it is what check says of these devices, within what it is said to be off by", async () => {
+        const told = await toldOf(page);
+        for (let k = 0, seed = 5; k < 8; k++) {
+            seed = (seed * 48271) % 2147483647;
+            const p = told[seed % told.length];
+            const is = check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `arc=${p.x} deg`);
+            assert.equal(p.state, is.verdict);
+            for (const [name, v] of [["value", is.governing.utilisation], ["low", is.governing.utilisation_band[0]], ["high", is.governing.utilisation_band[1]]])
+                assert.ok(Math.abs(p[name] - 100 * v) <= p.off[name] && p.off[name] < 0.5, `${name} at ${p.x}: ${p[name]} for ${100 * v}, off by ${p.off[name]}`);
+        }
+    });
+
+    test("where one that was told is judged otherwise nothing is told", async () => {
+        const answerOtherwise = async (route) => {
+            const { points: asked } = route.request().postDataJSON();
+            const answer = await route.fetch(), json = await answer.json();
+            json.points.forEach((p, k) => {
+                const i = (Number.parseFloat(asked[k][0]) - 110) / 0.45;
+                if (Math.abs((i % 8) - 4) < 1e-6) p.values = p.values.map((v) => 1.02 * v);
+            });
+            await route.fulfill({ response: answer, json });
+        };
+        await page.route("**/api/explore", answerOtherwise);
+        await page.selectOption('select[aria-label="Vary"]', "link");
+        await page.waitForFunction(() => globalThis.flexwright.parts.explore.spec.inputs[0].what === "link", null, { timeout: LONG });
+        await whole(page);
+        await page.unroute("**/api/explore", answerOtherwise);
+        assert.deepEqual(await toldOf(page), []);
+        assert.match(await page.textContent(".explore-summary"), / Nothing is told between these devices: one that was told and then judged came otherwise\.$/);
+        assert.equal(await page.locator(".explore-line.told").count(), 0);
+    });
+
+    test("a map is told from its first cells on, and judged behind that", async () => {
+        await page.selectOption('select[aria-label="Vary"]', "arc");
+        await page.selectOption('select[aria-label="and vary"]', "link");
+        await page.waitForFunction(() => globalThis.flexwright.parts.explore.spec?.inputs.length === 2 && globalThis.flexwright.parts.explore.told.length > 500, null, { timeout: LONG });
+        const { judged, told } = await page.evaluate(() => ({ judged: globalThis.flexwright.parts.explore.done.size, told: globalThis.flexwright.parts.explore.told }));
+        assert.ok(judged <= 200, String(judged));
+        for (const p of [told[17], told[Math.floor(told.length / 2)], told.at(-40)]) {
+            const is = check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `arc=${p.x} deg`, "--set", `link=${p.y} um`);
+            assert.ok(p.state === is.verdict && Math.abs(p.value - 100 * is.governing.utilisation) <= p.off.value, JSON.stringify(p));
+        }
+        assert.ok((await page.locator(".explore-judged").count()) > 20);
+        await page.click("#panel-explore .job-bar .cancel");
         await page.selectOption('select[aria-label="and vary"]', "");
     });
 });

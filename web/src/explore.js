@@ -6,22 +6,22 @@ import { post } from "./api.js";
 import { begin, deviceText, FORMER, inputKey, isFormer, mayChange, requestKey, Shown } from "./belong.js";
 import { edit, isPresent, lab, taken } from "./design.js";
 import { announce, button, h, select, setOptions } from "./dom.js";
-import { bendOf, bent, CELLS, endOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, POINTS, rounds, stretches, textOf, told, unitSizes } from "./exploring.js";
-import { ExplorePlot, legendOf, WORDS } from "./exploreplot.js";
+import { ALWAYS, bendOf, bent, CELLS, endOf, heightOf, inputsOf, mapRounds, numbersToLookAt, optionsOf, pointOf, POINTS, rounds, stretches, textOf, told, unitSizes } from "./exploring.js";
+import { alone, ExplorePlot, legendOf, WORDS } from "./exploreplot.js";
 import { number, percent } from "./format.js";
 import { csvOf, saveAs, svgOf } from "./plotfile.js";
 import { on, state } from "./store.js";
 import { Studies } from "./studies.js";
+import { nextOf, SHOWN, tell, tellMap } from "./telling.js";
 
 const HOW = [["quick", "at a first look: hinges as pins", "as the live verdict: what a better model of the hinges would change is in the band"],
     ["full", "as drawn, as check does", "the model of the hinges that the accuracy needs; slower"], ["made", "as it will be made", "what each flow may make of it, at the corners of its ranges; slowest"]];
 const QUIET_MS = 400; // that nothing changes before it is asked for by itself
 const REQUEST_MS = 250; // that a request is to take: progress is seen, and cancelling is quick
-const FIRST = 3; // points of the first request
+const FIRST = 4; // points of the first request
 const TOO_LONG = "FW-D286"; // a request was ended: it took longer than the server gives to one
-const LANES = navigator.hardwareConcurrency > 1 ? 2 : 1; // requests at a time: the server has two processes that compute
 const MOST = 64;
-const HALVINGS = 6; // of an interval in which the decision changes
+const HALVINGS = 6; // of an interval between two places in which the decision changes
 const EDGES = 8;
 const KEPT = 12; // exact inputs whose points are remembered
 
@@ -31,6 +31,7 @@ export class Explore {
         this.rangesOf = new Map(); // what -> [from, to] as somebody has typed them
         this.points = [];
         this.done = new Map();
+        this.told = []; // between those that are done
         this.kept = new Map(); // exact input -> values of the inputs -> point
         this.at = null;
         this.asked = 0;
@@ -217,15 +218,15 @@ export class Explore {
         const control = (this.control = new AbortController());
         const key = this.#keyOf(requestKey);
         this.judged = { quick: "As drawn, at a first look", full: "As drawn", made: "As it will be made" }[this.how.value];
-        Object.assign(this, { byItself, stopped: null, tried: key, doing: key, whole: false, spec, asked: 0, inAll: 1 });
+        Object.assign(this, { byItself, stopped: null, tried: key, doing: key, whole: false, spec, asked: 0, inAll: 1, filled: null, checked: 0, missed: 0 });
         this.done = new Map();
+        this.told = [];
         this.points = [];
         this.at = null;
         this.errors.replaceChildren();
         this.wrong.take(null);
         const end = begin({ words: "Exploring", cancel: () => this.#stop("cancelled") });
         this.begun = performance.now();
-        this.lanes = undefined;
         try {
             if (spec.inputs.length === 2) await this.#askMap(spec, key, control.signal);
             else await this.#askLine(spec, key, control.signal);
@@ -269,6 +270,7 @@ export class Explore {
         const show = (n) => {
             this.asked += n;
             this.showing.take(key);
+            this.#tell(spec);
             this.#draw(spec);
             this.#say();
         };
@@ -278,55 +280,88 @@ export class Explore {
         const values = [...n.value, ...n.low, ...n.high, "governing.utilisation"]; // the last one: that it is judged
         const body = { text: state.text, set, ...lab(), options: this.#options(), inputs: spec.inputs.map((x) => x.what), values };
         for (let i = 0; i < missing.length; ) {
-            const lanes = this.lanes ?? LANES;
-            const some = missing.slice(i, i + lanes * (this.chunk ?? FIRST));
-            const parts = Array.from({ length: Math.min(lanes, some.length) }, (_, lane) => some.filter((_, j) => j % lanes === lane));
+            const some = missing.slice(i, i + (this.chunk ?? FIRST));
             const since = performance.now();
-            let answers;
+            let answer;
             try {
-                answers = await Promise.all(parts.map((part) => post("/api/explore", { ...body, points: part.map((k) => texts[k]) }, { signal })));
+                answer = await post("/api/explore", { ...body, points: some.map((k) => texts[k]) }, { signal });
             } catch (error) {
                 if (signal.aborted || error.body?.error?.code !== TOO_LONG || some.length === 1) throw error;
-                this.chunk = Math.max(Math.floor((this.chunk ?? FIRST) / 4), 1); // a machine that does other work, too: fewer at once
-                if (parts[0].length === 1) this.lanes = 1;
+                this.chunk = Math.max(Math.floor(some.length / 4), 1); // a machine that does other work, too: fewer at once
                 continue;
             }
             if (signal.aborted) throw new Error("given up");
-            answers.forEach((answer, lane) => {
-                if (answer.status !== "ok") throw new Error(answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "this cannot be computed");
-                answer.points.forEach((p, j) => {
-                    const k = parts[lane][j], found = point(p, n);
-                    kept.set(nameOf(k), found);
-                    take(found, k);
-                });
+            if (answer.status !== "ok") throw new Error(answer.diagnostics?.find((d) => d.severity === "error")?.message ?? "this cannot be computed");
+            answer.points.forEach((p, j) => {
+                const k = some[j], found = pointOf(p, n);
+                kept.set(nameOf(k), found);
+                take(found, k);
             });
             i += some.length;
-            const each = (performance.now() - since) / parts[0].length;
-            this.chunk = Math.min(Math.max(Math.round(REQUEST_MS / each), 1), MOST);
+            const each = (performance.now() - since) / some.length;
+            this.chunk = Math.min(Math.max(2 * Math.round(REQUEST_MS / each / 2), 1), MOST); // by twos: two of them are judged at a time
             show(some.length);
         }
     }
 
+    /** What is told between the devices that are judged. The places that are to be judged, for that nothing can be told there. */
+    #tell(spec) {
+        const { number: n, inputs } = spec, share = n.unit === "%", limits = n.limits.map((v) => v * n.factor);
+        this.told = [];
+        if (this.missed) return []; // what was told turned out to be otherwise: all that is shown is judged
+        const { height, top } = heightOf([...this.done.values()], limits, share);
+        if (inputs.length === 2) {
+            const [w, hh] = inputs.map((v) => (v.to - v.from) / CELLS);
+            this.told = tellMap(this.done, CELLS, height, top).map((p) => ({ ...p, x: placeOf(inputs[0], p.i / CELLS), y: placeOf(inputs[1], p.j / CELLS), w, h: hh }));
+            return [];
+        }
+        const found = tell(this.#sorted(), this.places, height, top);
+        this.told = found.told;
+        return found.open;
+    }
+
+    /** A device that is judged where one was told: is it as it was told? */
+    #check(told, p) {
+        if (!told) return;
+        this.checked++;
+        if (told.state !== p.state || SHOWN.some((f) => Math.abs(told[f] - p[f]) > told.off[f])) this.missed++;
+    }
+
     async #askLine(spec, key, signal) {
-        const [x] = spec.inputs;
-        const at = (share) => Number(textOf(x.from + share * (x.to - x.from), "").trim());
+        const [x] = spec.inputs, at = (share) => placeOf(x, share);
         let round = 0;
         const ask = async (list) => {
-            await this.#ask(spec, list.map((v) => [textOf(v, x.unit)]), key, signal, (p, i) => this.done.set(list[i], { x: list[i], round, bend: 0, ...p }));
+            await this.#ask(spec, list.map((v) => [textOf(v, x.unit)]), key, signal, (p, i) => {
+                this.#check(this.told.find((q) => q.x === list[i]), p);
+                this.done.set(list[i], { x: list[i], round, bend: 0, ...p });
+            });
             const points = this.#sorted();
             points.forEach((p, k) => p.round === round && (p.bend = bendOf(points, k)));
             round++;
         };
+        const others = (list) => list.map((i) => at(i / POINTS)).filter((v) => !this.done.has(v));
+        this.places = Array.from({ length: POINTS + 1 }, (_, i) => at(i / POINTS));
         this.inAll = POINTS + 2;
-        if (x.now >= x.from && x.now <= x.to) await ask([x.now]);
-        for (const { list, stride } of rounds()) {
-            const some = bent(list.map((i) => at(i / POINTS)).filter((v) => !this.done.has(v)), this.#sorted(), stride);
-            this.inAll -= list.length - some.length;
+        const all = rounds(), first = all.filter((r) => r.stride > ALWAYS), later = all.filter((r) => r.stride <= ALWAYS);
+        const list = first.flatMap((r) => others(r.list));
+        await ask(x.now >= x.from && x.now <= x.to ? [x.now, ...list.filter((v) => v !== x.now)] : list);
+        for (let open = this.#tell(spec); open.length; open = this.#tell(spec)) await ask(nextOf(open));
+        this.filled = { judged: this.done.size, seconds: (performance.now() - this.begun) / 1e3 };
+        await this.#halve(ask, x);
+        for (const { list, stride } of later) {
+            const left = others(list), some = bent(left, this.#sorted(), stride);
+            this.inAll -= left.length - some.length;
             if (some.length) await ask(some);
         }
-        for (let k = 0; k < HALVINGS; k++) { // where the decision changes
+        await this.#halve(ask, x);
+    }
+
+    /** Where the decision changes it is found closer. */
+    async #halve(ask, x) {
+        const least = ((x.to - x.from) / POINTS / 2 ** HALVINGS) * 1.01;
+        for (let k = 0; k < HALVINGS; k++) {
             const points = this.#sorted();
-            const between = points.slice(1).map((p, i) => [points[i], p]).filter(([a, b]) => a.state !== b.state).slice(0, EDGES);
+            const between = points.slice(1).map((p, i) => [points[i], p]).filter(([a, b]) => a.state !== b.state && b.x - a.x > least).slice(0, EDGES);
             const list = between.map(([a, b]) => Number(textOf((a.x + b.x) / 2, "").trim())).filter((v) => !this.done.has(v));
             if (!list.length) return;
             this.inAll = Math.max(this.inAll, this.asked + list.length * (HALVINGS - k));
@@ -335,13 +370,15 @@ export class Explore {
     }
 
     async #askMap(spec, key, signal) {
-        const at = (input, i) => Number(textOf(input.from + (i / CELLS) * (input.to - input.from), "").trim());
         const [x, y] = spec.inputs;
         this.inAll = (CELLS + 1) ** 2;
         for (const { stride, list } of mapRounds()) {
             const [w, hh] = [x, y].map((v) => (stride * (v.to - v.from)) / CELLS);
-            await this.#ask(spec, list.map(([i, j]) => [textOf(at(x, i), x.unit), textOf(at(y, j), y.unit)]), key, signal,
-                (p, k) => this.done.set(list[k].join(" "), { x: at(x, list[k][0]), y: at(y, list[k][1]), w, h: hh, ...p }));
+            await this.#ask(spec, list.map(([i, j]) => [textOf(placeOf(x, i / CELLS), x.unit), textOf(placeOf(y, j / CELLS), y.unit)]), key, signal, (p, k) => {
+                const [i, j] = list[k];
+                this.#check(this.told.find((q) => q.i === i && q.j === j), p);
+                this.done.set(list[k].join(" "), { x: placeOf(x, i / CELLS), y: placeOf(y, j / CELLS), w, h: hh, ...p });
+            });
             // what was coarse is as fine as all others now
             for (const cell of this.done.values()) Object.assign(cell, { w, h: hh });
         }
@@ -358,6 +395,11 @@ export class Explore {
         return [...this.done.values()].sort((a, b) => a.x - b.x);
     }
 
+    /** Judged and told. */
+    #all() {
+        return [...this.done.values(), ...this.told];
+    }
+
     #draw(spec = this.spec) {
         if (!spec || !this.done.size) return;
         const { number: n, inputs } = spec;
@@ -365,8 +407,8 @@ export class Explore {
         const limits = n.limits.map((v) => v * n.factor);
         if (this.legendOf !== map) this.legend.replaceChildren(...legendOf(map ? "map" : "line"));
         this.legendOf = map;
-        if (map) this.plot.show({ kind: "map", x: inputs[0], y: inputs[1], cells: [...this.done.values()].sort((a, b) => b.w - a.w), limit: limits[0] ?? null, unit: n.unit, at: this.at });
-        else this.plot.show({ kind: "line", x: inputs[0], points: this.#sorted(), whole: this.whole, limits, unit: n.unit, ylabel: `${n.label} (${n.unit})`, at: this.at });
+        if (map) this.plot.show({ kind: "map", x: inputs[0], y: inputs[1], cells: this.#all().sort((a, b) => b.w - a.w), limit: limits[0] ?? null, unit: n.unit, at: this.at });
+        else this.plot.show({ kind: "line", x: inputs[0], points: this.#sorted(), told: this.told, whole: this.whole, limits, unit: n.unit, ylabel: `${n.label} (${n.unit})`, at: this.at });
         this.summary.textContent = map ? this.#mapWords() : this.#lineWords(inputs[0]);
         this.plot.svg.setAttribute("aria-label", `${n.label} over ${inputs.map((x) => x.label).join(" and ")}. ${this.summary.textContent}`);
         this.slider.hidden = map;
@@ -380,13 +422,21 @@ export class Explore {
         const text = words.join("; ");
         const why = [...this.done.values()].find((p) => p.why)?.why;
         const said = this.whole ? `${this.judged}: ${text}` : `${this.judged}, so far, by ${this.done.size} ${this.done.size === 1 ? "device" : "devices"}: ${text}`;
-        return `${said}.${why ? ` ${why}` : ""}`;
+        return `${said}.${why ? ` ${why}` : ""}${this.#toldWords()}`;
     }
 
     #mapWords() {
         const all = [...this.done.values()];
         const count = (s) => all.filter((p) => p.state === s).length;
-        return `${this.judged}: ${["accept", "inconclusive", "reject", "run", "failed"].filter(count).map((s) => `${count(s)} of ${all.length} ${WORDS[s]}`).join(", ")}. The pointer on a place tells its value.`;
+        return `${this.judged}: ${["accept", "inconclusive", "reject", "run", "failed"].filter(count).map((s) => `${count(s)} of ${all.length} ${WORDS[s]}`).join(", ")}. The pointer on a place tells its value.${this.#toldWords()}`;
+    }
+
+    /** What is told and not judged, and how sure that is. */
+    #toldWords() {
+        const n = this.told.length;
+        if (!n) return this.missed ? " Nothing is told between these devices: one that was told and then judged came otherwise." : "";
+        const off = Math.max(...this.told.map(offOf));
+        return ` Values at ${n} places between them are told, by at most ${number(off, 2)} ${this.spec.number.unit} off${this.checked ? `; ${this.checked} that were told and then judged came as told` : ""}.`;
     }
 
     #say() {
@@ -441,7 +491,7 @@ export class Explore {
         if (at === null || !this.done.size) return null;
         const [x, y] = this.spec.inputs;
         const far = (p) => (Array.isArray(at) ? ((p.x - at[0]) / (x.to - x.from)) ** 2 + ((p.y - at[1]) / (y.to - y.from)) ** 2 : Math.abs(p.x - at));
-        return [...this.done.values()].reduce((a, b) => (far(b) < far(a) ? b : a));
+        return this.#all().reduce((a, b) => (far(b) < far(a) ? b : a));
     }
 
     /** The device under the pointer, and its words: {x, y, value, words}; null: there is none. */
@@ -466,7 +516,7 @@ export class Explore {
         const where = inputs.map((x, i) => `${x.label} ${textOf(i ? p.y : p.x, x.unit)}`).join(", ");
         const band = Number.isFinite(p.low) && Number.isFinite(p.high) ? ` (${number(p.low)} to ${number(p.high)})` : "";
         const other = p.state !== "accept" && p.used > 1 && n.unit === "%" && (p.high ?? p.value) <= 100 ? `; what decides is another limit, used to ${percent(p.used)}` : "";
-        return `${where}: ${WORDS[p.state]}${Number.isFinite(p.value) ? `, ${number(p.value, 4)} ${n.unit}${band}` : ""}${other}${p.why ? `. ${p.why}` : ""}`;
+        return `${where}: ${WORDS[p.state]}${Number.isFinite(p.value) ? `, ${number(p.value, 4)} ${n.unit}${band}` : ""}${other}${p.told ? `; told between judged devices, by at most ${number(offOf(p), 2)} ${n.unit} off` : ""}${p.why ? `. ${p.why}` : ""}`;
     }
 
     /** The values that are looked at become text, as one step of the history. */
@@ -486,11 +536,11 @@ export class Explore {
     #csv() {
         if (!this.done.size) return;
         const { inputs, number: n } = this.spec;
-        const points = inputs.length === 2 ? [...this.done.values()] : this.#sorted();
+        const points = inputs.length === 2 ? this.#all() : this.#all().sort((a, b) => a.x - b.x);
         const column = (key) => points.map((p) => p[key]);
         const head = (x) => `${x.what}${x.unit ? ` (${x.unit})` : ""}`;
         const t = column("x");
-        const series = [...(inputs.length === 2 ? [{ name: head(inputs[1]), values: column("y") }] : []), { name: `${n.label} (${n.unit})`, values: column("value") }, { name: "low", values: column("low") }, { name: "high", values: column("high") },
+        const series = [...(inputs.length === 2 ? [{ name: head(inputs[1]), values: column("y") }] : []), { name: "judged or told", values: points.map((p) => (p.told ? "told" : "judged")) }, { name: `off by at most (${n.unit})`, values: points.map((p) => (p.told ? offOf(p) : "")) }, { name: `${n.label} (${n.unit})`, values: column("value") }, { name: "low", values: column("low") }, { name: "high", values: column("high") },
             { name: "decision", values: column("state") }];
         saveAs(`${this.#name()}.csv`, csvOf({ t, series: series.map((x) => ({ ...x, values: x.values.map((v) => (typeof v === "number" && !Number.isFinite(v) ? "" : v)) })) }, "", head(inputs[0])), "text/csv", this.body);
     }
@@ -499,8 +549,9 @@ export class Explore {
         if (!this.done.size) return;
         const { inputs: [x, y], number: n } = this.spec;
         if (y) return saveAs(`${this.#name()}.svg`, alone(this.plot.svg), "image/svg+xml", this.body);
-        const points = this.#sorted();
-        const series = [{ name: n.label, values: points.map((p) => p.value), key: 0, solid: true }, { name: "least", values: points.map((p) => p.low), key: 0, then: true }, { name: "most", values: points.map((p) => p.high), key: 0, then: true }];
+        const points = this.#all().sort((a, b) => a.x - b.x);
+        const judged = this.told.length ? [{ name: "judged; told between", values: points.map((p) => (p.told ? NaN : p.value)), key: 0, dots: true }] : [];
+        const series = [{ name: n.label, values: points.map((p) => p.value), key: 0, solid: true }, ...judged, { name: "least", values: points.map((p) => p.low), key: 0, then: true }, { name: "most", values: points.map((p) => p.high), key: 0, then: true }];
         const all = series.flatMap((v) => v.values).filter(Number.isFinite);
         const limits = n.limits.map((v) => v * n.factor);
         const [low, high] = [Math.min(...all, ...limits), Math.max(...all, ...limits)];
@@ -509,33 +560,14 @@ export class Explore {
     }
 }
 
-/** A point of an answer in the unit of the number. */
-function point(p, n) {
-    const v = p.values.map((x) => (x === null ? NaN : x * n.factor));
-    const first = (list) => list.find(Number.isFinite) ?? NaN;
-    const [a, b] = [n.value.length, n.value.length + n.low.length];
-    return { state: p.state, why: p.why, used: p.limit_used, value: n.least ? Math.min(...v.slice(0, a)) : first(v.slice(0, a)), low: first(v.slice(a, b)), high: first(v.slice(b, b + n.high.length)) };
-}
+/** A place of a range, as it is written. */
+const placeOf = (input, share) => Number(textOf(input.from + share * (input.to - input.from), "").trim());
+
+/** The most that a told value or an end of its band is off by. */
+const offOf = (p) => Math.max(...SHOWN.map((f) => p.off[f] ?? 0));
 
 function group(list) {
     const out = new Map();
     for (const x of list) out.set(x.group, [...(out.get(x.group) ?? []), x]);
     return out;
-}
-
-const DRAWN = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "opacity", "font-size"];
-
-/** A picture of the page as a file that looks the same without its sheets. */
-function alone(svg) {
-    const copy = svg.cloneNode(true);
-    const own = [...svg.querySelectorAll("*")];
-    [...copy.querySelectorAll("*")].forEach((e, i) => {
-        const style = getComputedStyle(own[i]);
-        for (const name of DRAWN) e.setAttribute(name, style.getPropertyValue(name));
-        e.removeAttribute("class");
-    });
-    for (const e of copy.querySelectorAll('[visibility="hidden"]')) e.remove(); // the pointer's mark
-    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-    copy.setAttribute("font-family", "system-ui, sans-serif");
-    return `${new XMLSerializer().serializeToString(copy)}\n`;
 }

@@ -4,7 +4,7 @@
 import { scale } from "./colours.js";
 import { h, s } from "./dom.js";
 import { number } from "./format.js";
-import { stretches } from "./exploring.js";
+import { rangeOf, stretches } from "./exploring.js";
 import { ticks } from "./plotfile.js";
 
 const [LEFT, RIGHT, TOP, STRIP, BELOW] = [58, 14, 12, 12, 44];
@@ -48,8 +48,8 @@ export class ExplorePlot {
         });
     }
 
-    /** what: {kind: "line", x: {label, unit, from, to, now}, points: [{x, state, value, low, high}] sorted, limits, unit} or
-     *  {kind: "map", x, y, cells: [{x, y, w, h, state, value}], limit, unit}; at: what is looked at */
+    /** what: {kind: "line", x: {label, unit, from, to, now}, points: [{x, state, value, low, high}] sorted, told: likewise, limits, unit} or
+     *  {kind: "map", x, y, cells: [{x, y, w, h, state, value, told}], limit, unit}; at: what is looked at */
     show(what) {
         this.what = what;
         this.draw();
@@ -93,22 +93,18 @@ export class ExplorePlot {
     }
 
     #line(w, height) {
-        const { x, points, limits, unit, at, whole } = this.what;
-        const good = points.filter((p) => Number.isFinite(p.value));
-        const all = [...good.flatMap((p) => [p.value, p.low, p.high]), ...limits].filter(Number.isFinite);
-        let [low, high] = all.length ? [Math.min(...all), Math.max(...all)] : [0, 1];
-        const most = limits.length ? 4 * Math.max(...limits.map(Math.abs)) : Infinity; // a share far beyond its limit is as bad as any other
-        if (high > most && low < most) high = most;
+        const { x, points, told, limits, unit, at, whole } = this.what;
+        const line = [...points, ...told].sort((a, b) => a.x - b.x);
+        let { low, high } = rangeOf(line, limits, false);
         const flat = high - low < FLAT * Math.max(Math.abs(low), Math.abs(high)); // a number that this input does nothing to
         const pad = (flat ? Math.abs(high) || 1 : high - low) * PAD;
         if (unit === "%" && low >= 0) low = Math.min(0, low);
         const { out, px, py, right, bottom } = this.#axes(w, height, x, { from: unit === "%" && !flat ? low : low - pad, to: high + pad }, this.what.ylabel);
         const area = s("clipPath", { id: "explore-area" }, s("rect", { x: LEFT - MARK, y: TOP, width: right - LEFT + 2 * MARK, height: bottom - TOP }));
         const inside = s("g", { "clip-path": "url(#explore-area)" });
-        const banded = good.filter((p) => Number.isFinite(p.low) && Number.isFinite(p.high));
-        for (const run of runs(points, (p) => banded.includes(p))) inside.append(s("path", { class: "explore-band", d: `M${run.map((p) => `${px(p.x)} ${py(p.high)}`).join("L")}L${[...run].reverse().map((p) => `${px(p.x)} ${py(p.low)}`).join("L")}Z` }));
+        for (const run of runs(line, (p) => [p.value, p.low, p.high].every(Number.isFinite))) inside.append(s("path", { class: "explore-band", d: `M${run.map((p) => `${px(p.x)} ${py(p.high)}`).join("L")}L${[...run].reverse().map((p) => `${px(p.x)} ${py(p.low)}`).join("L")}Z` }));
         for (const v of limits) inside.append(s("path", { class: "explore-limit", d: `M${LEFT} ${py(v)}H${right}` }));
-        for (const run of runs(points, (p) => Number.isFinite(p.value))) inside.append(s("path", { class: "explore-line", d: `M${run.map((p) => `${px(p.x)} ${py(p.value)}`).join("L")}` }));
+        for (const run of runs(line, (p) => Number.isFinite(p.value)).flatMap(alike)) inside.append(s("path", { class: `explore-line${run.some((p) => p.told) ? " told" : ""}`, d: `M${run.map((p) => `${px(p.x)} ${py(p.value)}`).join("L")}` }));
         const step = Math.max(1, Math.ceil(points.length / MOST_SIGNS));
         points.forEach((p, i) => {
             const edge = points[i - 1]?.state !== p.state || points[i + 1]?.state !== p.state;
@@ -134,6 +130,7 @@ export class ExplorePlot {
         const [low, high] = coloured(cells, limit);
         const inside = s("g", { "clip-path": "url(#explore-area)" });
         out.push(s("clipPath", { id: "explore-area" }, s("rect", { x: LEFT, y: TOP, width: right - LEFT, height: bottom - TOP })));
+        const marks = [], some = cells.some((c) => c.told); // then those that are judged are marked
         for (const c of cells) { // coarse ones first, finer ones over them
             const [a, b, e, f] = [px(c.x - c.w / 2), px(c.x + c.w / 2), py(c.y + c.h / 2), py(c.y - c.h / 2)];
             const fill = Number.isFinite(c.value) ? scale((c.value - low) / (high - low || 1)) : "transparent";
@@ -141,7 +138,9 @@ export class ExplorePlot {
             if (c.state !== "accept") inside.append(s("rect", { x: a, y: e, width: b - a + 0.4, height: f - e + 0.4, class: `explore-veil ${c.state}` }));
             if (c.state === "reject" || c.state === "failed") inside.append(s("path", { class: "explore-veil-line", d: `M${a} ${f}L${b} ${e}${c.state === "failed" ? `M${a} ${e}L${b} ${f}` : ""}` }));
             if (c.state === "inconclusive") inside.append(s("path", { class: "explore-veil-line", d: `M${(a + b) / 2 - 1.5} ${(e + f) / 2}h3` }));
+            if (some && !c.told) marks.push(s("circle", { class: "explore-judged", cx: px(c.x), cy: py(c.y), r: 1.6 }));
         }
+        inside.append(...marks);
         if (Number.isFinite(x.now) && Number.isFinite(y.now)) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}M${LEFT} ${py(y.now)}H${right}` }));
         if (at) inside.append(s("circle", { class: "explore-at", cx: px(at[0]), cy: py(at[1]), r: 7 }));
         out.push(inside, ...this.#bar(right + BAR.gap, bottom, low, high));
@@ -192,9 +191,37 @@ function runs(points, has) {
     return out;
 }
 
+/** Of a run the pieces between judged places that follow each other, and those in which places are told. */
+function alike(run) {
+    const out = [];
+    run.slice(1).forEach((p, i) => {
+        const told = Boolean(p.told || run[i].told), last = out.at(-1);
+        if (last?.told === told) last.list.push(p);
+        else out.push({ told, list: [run[i], p] });
+    });
+    return out.map((x) => x.list);
+}
+
 /** What colours and signs of a picture mean. */
 export function legendOf(kind) {
     const sign = (state) => h("span", { class: "explore-key" }, s("svg", { viewBox: "-5 -5 10 10", class: "explore-key-sign", "aria-hidden": "true" }, s("path", { class: `explore-sign ${state}`, d: SIGNS[state] })), WORDS[state]);
-    if (kind === "map") return [h("span", { class: "explore-key" }, "the scale at the right says what a colour stands for; hatched: rejected, a dash: inconclusive, crossed: refused; lines: now")];
-    return [sign("accept"), sign("inconclusive"), sign("reject"), h("span", { class: "explore-key" }, h("i", { class: "explore-band-key" }), "error band"), h("span", { class: "explore-key" }, h("i", { class: "explore-now-key" }), "as it is now")];
+    if (kind === "map") return [h("span", { class: "explore-key" }, "the scale at the right says what a colour stands for; hatched: rejected, a dash: inconclusive, crossed: refused; dots: judged, told between them; lines: now")];
+    return [sign("accept"), sign("inconclusive"), sign("reject"), h("span", { class: "explore-key" }, h("i", { class: "explore-band-key" }), "error band"), h("span", { class: "explore-key" }, h("i", { class: "explore-told-key" }), "told between judged devices"), h("span", { class: "explore-key" }, h("i", { class: "explore-now-key" }), "as it is now")];
+}
+
+const DRAWN = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "opacity", "font-size"];
+
+/** A picture of the page as a file that looks the same without its sheets. */
+export function alone(svg) {
+    const copy = svg.cloneNode(true);
+    const own = [...svg.querySelectorAll("*")];
+    [...copy.querySelectorAll("*")].forEach((e, i) => {
+        const style = getComputedStyle(own[i]);
+        for (const name of DRAWN) e.setAttribute(name, style.getPropertyValue(name));
+        e.removeAttribute("class");
+    });
+    for (const e of copy.querySelectorAll('[visibility="hidden"]')) e.remove(); // the pointer's mark
+    copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+    copy.setAttribute("font-family", "system-ui, sans-serif");
+    return `${new XMLSerializer().serializeToString(copy)}\n`;
 }

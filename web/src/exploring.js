@@ -11,7 +11,7 @@ const ROUND = 4; // digits of an end that was not stated
 export const POINTS = 200; // intervals of a range
 export const CELLS = 32; // of each of two
 const STRIDES = [40, 8, 4, 2, 1];
-const ALWAYS = 4; // up to this stride all points are asked for, beyond it where the line bends
+export const ALWAYS = 4; // up to this stride all points are asked for, beyond it where the line bends
 const FLAT = 1 / 1000; // of the height of what is shown: less cannot be seen
 const MAP_STRIDES = [8, 4, 2, 1];
 
@@ -122,6 +122,32 @@ export function numbersToLookAt(v, made) {
 }
 
 // ---- points ----
+
+/** A point of an answer in the unit of the number. */
+export function pointOf(p, n) {
+    const v = p.values.map((x) => (x === null ? NaN : x * n.factor));
+    const first = (list) => list.find(Number.isFinite) ?? NaN;
+    const [a, b] = [n.value.length, n.value.length + n.low.length];
+    return { state: p.state, way: p.way, why: p.why, used: p.limit_used, value: n.least ? Math.min(...v.slice(0, a)) : first(v.slice(0, a)), low: first(v.slice(a, b)), high: first(v.slice(b, b + n.high.length)) };
+}
+
+const BEYOND = 4; // a share so many times its limit is as bad as any other
+const ALIKE = 1e-4; // of itself: less is no height
+
+/** What a picture of these points shows, {low, high}, the limits in it; share: from nothing on. */
+export function rangeOf(points, limits, share) {
+    const all = [...points.filter((p) => Number.isFinite(p.value)).flatMap((p) => [p.value, p.low, p.high]), ...limits].filter(Number.isFinite);
+    let [low, high] = all.length ? [Math.min(...all), Math.max(...all)] : [0, 1];
+    const top = limits.length ? BEYOND * Math.max(...limits.map(Math.abs)) : Infinity;
+    if (high > top && low < top) high = top;
+    return { low: share && low >= 0 ? 0 : low, high };
+}
+
+/** How high that is, and where it ends: what cannot be seen need not be known closer. */
+export function heightOf(points, limits, share) {
+    const { low, high } = rangeOf(points, limits, share);
+    return { height: Math.max(high - low, ALIKE * Math.max(Math.abs(low), Math.abs(high))), top: high };
+}
 
 /** Indices 0..POINTS in the order in which they are asked for, in rounds. */
 export function rounds() {

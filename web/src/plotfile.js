@@ -56,7 +56,8 @@ export function svgOf({ t, series, marks }, { title, unit, x, y, log }) {
     out.push(`<rect x="${LEFT}" y="${TOP}" width="${W - LEFT - RIGHT}" height="${H - TOP - BOTTOM}" fill="none" stroke="#8592a0"/>`, '<g clip-path="url(#area)" fill="none">');
     for (const m of marks) out.push(`<path d="M${LEFT} ${f(py(m.y))}H${W - RIGHT}" stroke="#a53304" stroke-dasharray="5 4"/>`, m.text ? `<text x="${W - RIGHT - 6}" y="${f(py(m.y) + (m.y < 0 ? -5 : 14))}" text-anchor="end" fill="#a53304">${escaped(m.text)}</text>` : "");
     const style = (one, i) => `stroke="${DARK_ON_WHITE[(one.key ?? i) % 8]}" stroke-width="${one.then ? 1 : 1.8}"${one.then ? ' stroke-dasharray="1.5 2.5"' : one.solid || !DASHES[(one.key ?? i) % 8] ? "" : ` stroke-dasharray="${DASHES[(one.key ?? i) % 8]}"`}`;
-    series.forEach((one, i) => out.push(`<path d="${line(one.values)}" ${style(one, i)}/>`));
+    const dots = (values) => values.map((v, i) => (Number.isFinite(v) ? `M${f(px(t[i]) - 2)} ${f(py(v))}h4` : "")).join("");
+    series.forEach((one, i) => out.push(one.dots ? `<path d="${dots(one.values)}" stroke="${DARK_ON_WHITE[(one.key ?? i) % 8]}" stroke-width="4"/>` : `<path d="${line(one.values)}" ${style(one, i)}/>`));
     out.push("</g>");
     series.forEach((one, i) => {
         const at = LEFT + (i % 8) * ((W - LEFT - RIGHT) / 8);

@@ -173,6 +173,31 @@ static void a_pack_of_the_laboratory_counts(void **state) {
     fw_plan_live_free(live);
 }
 
+static const char *way_at(const json_t *answer, size_t i) {
+    return text_at(json_array_get(json_object_get(answer, "points"), i), "way");
+}
+
+/* Between devices whose way is the same numbers go on smoothly: it changes with the decision and with what governs (hinge A below
+   some 7.4 um of hinge C, else hinge C), and with nothing that has no word or whole number. */
+static void the_way_of_a_verdict_is_told(void **state) {
+    (void)state;
+    fw_plan_live *live = live_new();
+    json_t *a = explore(
+        live, "\"inputs\":[\"flexure[C]/@width\"],\"values\":[\"governing.utilisation\"],"
+              "\"options\":{\"detail\":\"quick\"},\"points\":[[\"9 um\"],[\"9.01 um\"],[\"10 um\"],"
+              "[\"6 um\"],[\"6.01 um\"],[\"13 um\"],[\"-3 um\"]]");
+    assert_string_equal(way_at(a, 0), way_at(a, 1));
+    assert_string_equal(way_at(a, 0), way_at(a, 2));
+    assert_string_equal(way_at(a, 3), way_at(a, 4));
+    assert_string_not_equal(way_at(a, 0), way_at(a, 3)); /* another hinge governs */
+    assert_string_not_equal(way_at(a, 0), way_at(a, 5)); /* not accepted any more */
+    assert_int_equal(strlen(way_at(a, 0)), 16);
+    assert_true(json_is_null(json_object_get(
+        json_array_get(json_object_get(a, "points"), 6), "way"))); /* it cannot be judged */
+    json_decref(a);
+    fw_plan_live_free(live);
+}
+
 static void what_is_no_request_is_refused(void **state) {
     (void)state;
     static const char *const wrong[] = {
@@ -225,6 +250,7 @@ int main(void) {
         cmocka_unit_test(what_was_asked_before_does_not_matter),
         cmocka_unit_test(a_device_that_cannot_be_is_told),
         cmocka_unit_test(a_pack_of_the_laboratory_counts),
+        cmocka_unit_test(the_way_of_a_verdict_is_told),
         cmocka_unit_test(what_is_no_request_is_refused),
         cmocka_unit_test(a_request_that_was_stopped_leaves_nothing),
     };
