@@ -64,7 +64,7 @@ test("a decision is told where nothing comes near it, and a device that could no
     const { told } = look(whole(f), 100);
     assert.ok(told.every((p) => Math.abs(p.used - 1) > p.off.used));
     const near = (x) => 95;
-    near.more = (x) => ({ used: 0.9999 }); // within what it may be off by
+    near.more = (x) => ({ used: 0.991 }); // too near its limit
     assert.equal(look(whole(near)).told.length, 0);
     const holes = (x) => 50;
     holes.more = (x) => (x % 40 < 3 ? { state: "failed", way: null, value: NaN, low: NaN, high: NaN, used: null } : {});

@@ -23,6 +23,7 @@ const TOO_LONG = "FW-D286"; // a request was ended: it took longer than the serv
 const MOST = 64;
 const HALVINGS = 6; // of an interval between two places in which the decision changes
 const EDGES = 8;
+const FILLED = 100; // devices that are judged before what is left to tell is left to the rounds behind
 const KEPT = 12; // exact inputs whose points are remembered
 
 export class Explore {
@@ -345,7 +346,7 @@ export class Explore {
         const all = rounds(), first = all.filter((r) => r.stride > ALWAYS), later = all.filter((r) => r.stride <= ALWAYS);
         const list = first.flatMap((r) => others(r.list));
         await ask(x.now >= x.from && x.now <= x.to ? [x.now, ...list.filter((v) => v !== x.now)] : list);
-        for (let open = this.#tell(spec); open.length; open = this.#tell(spec)) await ask(nextOf(open));
+        for (let open = this.#tell(spec); open.length && this.done.size < FILLED; open = this.#tell(spec)) await ask(nextOf(open));
         this.filled = { judged: this.done.size, seconds: (performance.now() - this.begun) / 1e3 };
         await this.#halve(ask, x);
         for (const { list, stride } of later) {

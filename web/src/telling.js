@@ -12,18 +12,14 @@ const LEAST = 5; // in a row that are alike, to tell anything
 const MARGIN = 3;
 const FLOOR = 1 / 2000; // of the height that is shown
 const SEEN = 1 / 250; // of it: what would be off by more is judged
-const CUTS = 3; // edges that a row may have which its verdicts say nothing of, before it is cut into so many pieces by halves
+const CLOSE = 1 / 100; // of a limit: what is accepted and uses as much as that is judged
+const CUTS = 3; // a row is cut in two, its parts again, so often: at edges that its verdicts say nothing of
 const BENT = [3, 4, 5]; // devices that the end of a row is foretold from
 
-/** Shares of judged places in the value at x. */
-function shares(places, x) {
-    return places.map((a, i) => places.reduce((w, b, j) => (j === i ? w : (w * (x - b)) / (a - b)), 1));
-}
+/** Shares that the values of a list have in that at x: of the polynomial through them all. */
+const sharesOf = (list, x) => list.map((a) => list.reduce((w, b) => (b === a ? w : (w * (x - b.x)) / (a.x - b.x)), 1));
 
-const at = (list, field, x) => {
-    const w = shares(list.map((p) => p.x), x);
-    return list.reduce((sum, p, i) => sum + w[i] * p[field], 0);
-};
+const sum = (shares, list, field) => list.reduce((v, p, i) => v + shares[i] * p[field], 0);
 
 /** From and to of `most` in a row of n around k to l. */
 function around(n, k, l, most) {
@@ -35,16 +31,28 @@ function around(n, k, l, most) {
     return [from, to];
 }
 
-/** How far a judged device is from what the others around it say. The end of a row is foretold by few and by more of them: what is smooth is
- *  met by one of these, what has an edge before its end is met by none. */
-function missed(row, k, field) {
+/** How far a judged device is, field by field, from what the others around it say. The end of a row is foretold by few and by more of them:
+ *  what is smooth is met by one of these, what has an edge before its end is met by none. */
+function missed(row, k, fields) {
     const p = row[k], last = row.length - 1;
-    if (k === 0 || k === last) {
-        const others = k === 0 ? row.slice(1) : row.slice(0, -1).reverse();
-        return Math.min(...BENT.filter((n) => n <= others.length).map((n) => Math.abs(at(others.slice(0, n), field, p.x) - p[field])));
+    const by = (list) => {
+        const shares = sharesOf(list, p.x);
+        return fields.map((f) => Math.abs(sum(shares, list, f) - p[f]));
+    };
+    if (k > 0 && k < last) {
+        const [from, to] = around(row.length, k, k, AROUND + 1);
+        return by(row.slice(from, to + 1).filter((q) => q !== p));
     }
-    const [from, to] = around(row.length, k, k, AROUND + 1);
-    return Math.abs(at(row.slice(from, to + 1).filter((q) => q !== p), field, p.x) - p[field]);
+    const others = k === 0 ? row.slice(1) : row.slice(0, -1).reverse();
+    const all = BENT.filter((n) => n <= others.length).map((n) => by(others.slice(0, n)));
+    return fields.map((_, i) => Math.min(...all.map((m) => m[i])));
+}
+
+/** Likewise of each device of a row, and what is usual in it. */
+function missedAll(row) {
+    const fields = FIELDS.filter((f) => known(row, f));
+    const each = row.map((_, k) => missed(row, k, fields));
+    return { fields, each, usual: fields.map((_, i) => middle(each.map((m) => m[i]))) };
 }
 
 const middle = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
@@ -58,16 +66,11 @@ const known = (row, field) => {
 const heightOf = (field, height) => (field === "used" ? 1 : height);
 
 /** A row of judged devices that are alike, with what is told between each and the next one may be off by: {row, off, open: how many are too far off}. */
-function piece(row, usual, scale) {
-    if (row.length < LEAST) return { row, off: null, open: row.length - 1 };
-    const off = row.slice(1).map(() => ({}));
-    for (const f of FIELDS.filter((x) => known(row, x))) {
-        const miss = row.map((_, k) => missed(row, k, f));
-        off.forEach((o, k) => {
-            const [from, to] = around(row.length, k, k + 1, AROUND);
-            o[f] = MARGIN * (Math.max(...miss.slice(from, to + 1)) + usual[f]) + FLOOR * heightOf(f, scale.height);
-        });
-    }
+function piece(row, usual, scale, miss = missedAll(row)) {
+    const off = row.slice(1).map((_, k) => {
+        const [from, to] = around(row.length, k, k + 1, AROUND), some = miss.each.slice(from, to + 1);
+        return Object.fromEntries(miss.fields.map((f, i) => [f, MARGIN * (Math.max(...some.map((m) => m[i])) + usual[i]) + FLOOR * heightOf(f, scale.height)]));
+    });
     return { row, off, open: off.filter((o, k) => tooFar(o, row[k], scale)).length };
 }
 
@@ -78,14 +81,15 @@ const tooFar = (off, p, { height, top }) => SHOWN.some((f) => off[f] > SEEN * (M
 function step(row, k) {
     const left = row.slice(Math.max(0, k - 2), k + 1), right = row.slice(k + 1, k + 4);
     if (left.length < 2 || right.length < 2) return 0;
-    const x = (row[k].x + row[k + 1].x) / 2;
-    return Math.max(...SHOWN.filter((f) => known(row, f)).map((f) => Math.abs(at(left, f, x) - at(right, f, x))));
+    const x = (row[k].x + row[k + 1].x) / 2, [a, b] = [sharesOf(left, x), sharesOf(right, x)];
+    return Math.max(...SHOWN.filter((f) => known(row, f)).map((f) => Math.abs(sum(a, left, f) - sum(b, right, f))));
 }
 
 /** Where a row has an edge that no verdict speaks of it is cut, if more is told so. */
-function pieces(row, usual, scale, cuts) {
-    const whole = piece(row, usual, scale);
-    if (!whole.off || !whole.open || !cuts) return [whole];
+function pieces(row, usual, scale, cuts, miss) {
+    if (row.length < LEAST) return [{ row, off: null, open: row.length - 1 }];
+    const whole = piece(row, usual, scale, miss);
+    if (!whole.open || !cuts) return [whole];
     const steps = row.slice(1).map((_, k) => step(row, k));
     const k = steps.indexOf(Math.max(...steps)) + 1;
     const two = [row.slice(0, k), row.slice(k)].flatMap((part) => pieces(part, usual, scale, cuts - 1));
@@ -103,15 +107,15 @@ function rowsOf(points) {
 }
 
 /** One that is accepted uses no more than its limits, and any other more. */
-const decided = (p) => (p.state === "accept" ? p.used + p.off.used <= 1 : p.used - p.off.used >= 1);
+const decided = (p) => (p.state === "accept" ? p.used + p.off.used <= 1 - CLOSE : p.used - p.off.used >= 1);
 
 function tellAt(row, k, off, x) {
     const [from, to] = around(row.length, k, k + 1, AROUND), list = row.slice(from, to + 1);
-    const w = shares(list.map((p) => p.x), x);
+    const w = sharesOf(list, x);
     const p = { x, told: true, state: row[k].state, way: row[k].way, off: {} };
     for (const f of FIELDS) {
-        p[f] = list.reduce((sum, q, i) => sum + w[i] * q[f], 0);
-        if (off[f] !== undefined) p.off[f] = off[f] + list.reduce((sum, q, i) => sum + Math.abs(w[i]) * (q.off?.[f] ?? 0), 0);
+        p[f] = sum(w, list, f);
+        if (off[f] !== undefined) p.off[f] = off[f] + list.reduce((v, q, i) => v + Math.abs(w[i]) * (q.off?.[f] ?? 0), 0);
     }
     return p;
 }
@@ -124,8 +128,9 @@ export function tell(points, places, height, top = Infinity) {
     const scale = { height, top };
     const alike = new Map(); // a judged device -> its piece and where in it
     for (const row of rowsOf(points)) {
-        const usual = Object.fromEntries(FIELDS.map((f) => [f, known(row, f) ? middle(row.map((_, k) => missed(row, k, f))) : 0]));
-        for (const p of pieces(row, usual, scale, CUTS)) if (p.off) p.row.forEach((q, k) => alike.set(q, { ...p, k }));
+        if (!places.some((x) => x > row[0].x && x < row.at(-1).x)) continue;
+        const miss = missedAll(row);
+        for (const p of pieces(row, miss.usual, scale, CUTS, miss)) if (p.off) p.row.forEach((q, k) => alike.set(q, { ...p, k }));
     }
     const told = [], open = [];
     let i = 0;
@@ -147,20 +152,21 @@ export function nextOf(open) {
     return open.flatMap(({ places }) => [...new Set(share.map((s) => places[Math.min(Math.floor(s * places.length), places.length - 1)]))]);
 }
 
-/** Likewise of a map, `cells` of which are judged: Map of "i j" -> {x, y, ...}; n: cells of a side. By rows and then by columns, or the other way
- *  round. [{i, j, ...}] */
+/** Likewise of a map, `cells` of which are judged: Map of "i j" -> {x, y, ...}; n: cells of a side. By rows and then by columns, and where
+ *  that leaves some untold the other way round. [{i, j, ...}] */
 export function tellMap(cells, n, height, top = Infinity) {
     const out = new Map(), all = Array.from({ length: n + 1 }, (_, i) => i);
-    const line = (from, name) => all.flatMap((k) => (from.has(name(k)) ? [{ ...from.get(name(k)), x: k }] : []));
     for (const name of [(i, j) => `${i} ${j}`, (i, j) => `${j} ${i}`]) {
         const found = new Map(cells);
-        const take = (k, list, turned) => list.forEach((p) => found.set(turned ? name(k, p.x) : name(p.x, k), p));
         for (const turned of [false, true])
             for (const k of all) {
-                const points = line(found, (i) => (turned ? name(k, i) : name(i, k)));
-                take(k, tell(points, all, height, top).told, turned);
+                const at = (i) => (turned ? name(k, i) : name(i, k));
+                const points = all.flatMap((i) => (found.has(at(i)) ? [{ ...found.get(at(i)), x: i }] : []));
+                const rest = all.filter((i) => !found.has(at(i)));
+                if (points.length >= LEAST && rest.length) for (const p of tell(points, rest, height, top).told) found.set(at(p.x), p);
             }
         for (const [key, p] of found) if (p.told && !out.has(key)) out.set(key, p);
+        if (cells.size + out.size === all.length ** 2) break;
     }
     return [...out].map(([key, p]) => {
         const [i, j] = key.split(" ").map(Number);

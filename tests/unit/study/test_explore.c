@@ -86,16 +86,17 @@ static void a_bound_that_is_read_is_found(void **state) {
 static void what_has_no_mask_is_rejected(void **state) {
     (void)state;
     fw_plan_live *live = live_new();
-    json_t *a = explore(live, "\"inputs\":[\"flexure[C]/@width\"],\"values\":[\"governing.utilisation\","
-                              "\"hinges[C].utilisation_band[1]\",\"governing.nothing\"],"
-                              "\"options\":{\"detail\":\"quick\",\"corners\":\"none\"},"
-                              "\"points\":[[\"3.4 um\"],[\"8 um\"]]");
+    json_t *a =
+        explore(live, "\"inputs\":[\"flexure[C]/@width\"],\"values\":[\"governing.utilisation\","
+                      "\"hinges[C].utilisation_band[1]\",\"governing.nothing\"],"
+                      "\"options\":{\"detail\":\"quick\",\"corners\":\"none\"},"
+                      "\"points\":[[\"3.4 um\"],[\"8 um\"]]");
     const json_t *points = json_object_get(a, "points");
     same_as_by_itself(a, 0, "3.4 um");
     same_as_by_itself(a, 1, "8 um");
     assert_string_equal(text_at(json_array_get(points, 0), "state"), "reject");
-    assert_true(json_real_value(json_array_get(
-                    json_object_get(json_array_get(points, 0), "values"), 0)) < 1);
+    assert_true(json_real_value(
+                    json_array_get(json_object_get(json_array_get(points, 0), "values"), 0)) < 1);
     json_decref(a);
     fw_plan_live_free(live);
 }
@@ -192,8 +193,8 @@ static void the_way_of_a_verdict_is_told(void **state) {
     assert_string_not_equal(way_at(a, 0), way_at(a, 3)); /* another hinge governs */
     assert_string_not_equal(way_at(a, 0), way_at(a, 5)); /* not accepted any more */
     assert_int_equal(strlen(way_at(a, 0)), 16);
-    assert_true(json_is_null(json_object_get(
-        json_array_get(json_object_get(a, "points"), 6), "way"))); /* it cannot be judged */
+    assert_true(json_is_null(json_object_get(json_array_get(json_object_get(a, "points"), 6),
+                                             "way"))); /* it cannot be judged */
     json_decref(a);
     fw_plan_live_free(live);
 }
