@@ -169,6 +169,87 @@ static fw_status ask_inputs(explored *e) {
     return FW_OK;
 }
 
+/* ---- the way of a verdict: what it says in words and whole numbers, in one number ---- */
+
+typedef struct way { /* FNV-1a of its words */
+    uint64_t sum;
+} way;
+
+static void add_byte(way *w, unsigned char byte) {
+    w->sum = (w->sum ^ byte) * 1099511628211u;
+}
+
+static void add_number(way *w, int number) {
+    for (int shift = 0; shift < 32; shift += 8)
+        add_byte(w, (unsigned char)((unsigned)number >> shift));
+}
+
+/* one that is not there is another than an empty one */
+static void add_word(way *w, const char *word) {
+    for (const char *c = word ? word : "\001"; *c; c++)
+        add_byte(w, (unsigned char)*c);
+    add_byte(w, 0);
+}
+
+/* How each is decided. Of the one that governs also where it uses most, and what limits it there: others have their edges where
+   that changes, too, but what governs has none then. */
+static void add_hinges(way *w, const fw_verdict_hinge_verdict *hinge, int n, int governing) {
+    add_number(w, governing);
+    for (int i = 0; i < n; i++)
+        add_number(w, (int)hinge[i].decision);
+    if (governing < 0 || governing >= n) return;
+    const fw_verdict_hinge_verdict *h = &hinge[governing];
+    add_word(w, h->scene), add_word(w, h->flow), add_word(w, h->actuation);
+    add_word(w, h->limit ? h->limit->criterion : NULL);
+    add_number(w, h->touches), add_number(w, h->open);
+}
+
+/* what acts, and how hinges are taken */
+static void add_motion(way *w, const fw_dynamics_motion *motion) {
+    add_number(w, motion != NULL);
+    if (!motion) return;
+    for (int i = 0; i < motion->ledger.count; i++)
+        add_number(w, motion->ledger.item[i].active);
+    add_number(w, (int)motion->ledger.hinge.used);
+}
+
+static void add_requirement(way *w, const fw_verdict_requirement *r) {
+    add_number(w, (int)r->decision), add_number(w, r->why != NULL), add_number(w, r->open != NULL);
+}
+
+static void add_made(way *w, const fw_verdict_fabricated_verdict *f) {
+    add_number(w, f != NULL);
+    if (!f) return;
+    add_number(w, (int)f->decision), add_number(w, f->governing), add_number(w, f->at);
+    for (int k = 0; k < f->ncorner; k++)
+        add_number(w, (int)f->corner[k].decision), add_number(w, f->corner[k].number);
+}
+
+static void add_variant(way *w, const fw_verdict_variant_verdict *v, int scenes) {
+    add_number(w, (int)v->decision);
+    for (int i = 0; i < v->nrequirement; i++)
+        add_requirement(w, &v->requirement[i]);
+    for (int i = 0; v->motion && i < scenes; i++)
+        add_motion(w, v->motion[i]);
+    for (int i = 0; i < v->nclearance; i++)
+        add_number(w, (int)v->clearance[i].decision);
+    add_made(w, v->fabricated);
+}
+
+/* Between devices that have it alike what governs is not known to have an edge or a step. */
+static uint64_t way_of(const fw_verdict *verdict, int scenes) {
+    way w = {14695981039346656037u};
+    add_number(&w, (int)verdict->decision), add_number(&w, (int)verdict->drawn);
+    for (int i = 0; i < verdict->ncomputed; i++)
+        add_number(&w, (int)verdict->computed[i].refinement);
+    add_hinges(&w, verdict->hinge, verdict->nhinge, verdict->governing);
+    for (int i = 0; i < verdict->nvariant; i++)
+        add_variant(&w, &verdict->variant[i], scenes);
+    return w.sum;
+}
+
+/* ---- the study of the last request ---- */
+
 static fw_status open_points(const fw_plan_live *live, fw_plan_live_request *r, explored *e) {
     bool full;
     fw_study_options o = {.design = fw_design_options_default(),
@@ -187,7 +268,9 @@ static fw_status open_points(const fw_plan_live *live, fw_plan_live_request *r, 
     FW_TRY(fw_plan_live_sets(r, e->arena, json_object_get(e->root, "set"), &set, &o.nset));
     o.set = set;
     FW_TRY(fw_plan_live_lab(r, e->arena, &o.lab_text, &o.nlab_text));
-    return fw_study_open_points(&o, &e->asked, &e->study);
+    FW_TRY(fw_study_open_points(&o, &e->asked, &e->study));
+    e->study->way = way_of;
+    return FW_OK;
 }
 
 /* live->kept holds the study of this request; FW_INPUT: the description is wrong, its study says how */
@@ -242,14 +325,14 @@ static fw_status take(void *context, const fw_study_sample *sample) {
 }
 
 static void point_json(const fw_study *study, const fw_study_sample *s, fw_json *out) {
-    char way[17];
+    char digits[17];
     fw_json_line(out, 0);
     fw_json_object(out, NULL);
     fw_json_text(out, "state", fw_study_state_text(s->run, s->decision));
     fw_json_text(out, "why", s->run ? NULL : s->why);
     fw_json_real(out, "limit_used", s->used);
-    if (s->run) snprintf(way, sizeof way, "%016" PRIx64, s->way);
-    fw_json_text(out, "way", s->run && s->decision >= 0 ? way : NULL);
+    if (s->run) snprintf(digits, sizeof digits, "%016" PRIx64, s->way);
+    fw_json_text(out, "way", s->run && s->decision >= 0 ? digits : NULL);
     fw_json_list(out, "values");
     for (int k = 0; k < study->nresponse; k++)
         fw_json_real(out, NULL, s->response[k]);

@@ -454,7 +454,6 @@ fw_status fw_study_open_points(const fw_study_options *options, const fw_device_
     *out = study;
     FW_NEED(study);
     study->asked = asked;
-    study->ways = true;
     study->device_path = options->file;
     FW_TRY(fw_study_engines_open(study));
     settle_options(study); /* before the device is opened: samples are judged in that very design */

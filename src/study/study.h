@@ -85,7 +85,7 @@ typedef struct fw_study_sample {
     double *part;
     int looks[FW_VERDICT_LOOKS]; /* (nlook) which, in order (fw_verdict_refinement) */
     int nlook;                   /* 0: it has other hinges or requirements than the description */
-    uint64_t way;                /* fw_study_way, where the study asks for it; else 0 */
+    uint64_t way;                /* fw_study.way; 0: nobody asked, or nothing was judged */
     bool run;                    /* false: `why` says why not */
     char why[FW_STUDY_WHY];
 } fw_study_sample;
@@ -108,6 +108,7 @@ typedef struct fw_study_extreme { /* of one response over all samples that were 
 
 struct fw_study_store;
 struct fw_study_result;
+struct fw_verdict;
 
 /* what decides a sample, as a store keeps it; NULL: a store of before they were kept */
 typedef struct fw_study_origin {
@@ -134,7 +135,8 @@ typedef struct fw_study {
     fw_study_response *response; /* (nresponse) */
     int nresponse;
     unsigned stages; /* FW_STUDY_STAGE_..., what the responses need */
-    bool ways;       /* samples say the way that their verdict came about */
+    /* what a verdict says in words and whole numbers, as one number, for samples that say it; NULL: none does */
+    uint64_t (*way)(const struct fw_verdict *verdict, int scenes);
     /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
     int npart, nhinge;
     int neach; /* of a die: how many of them each hinge has (scenes and workspace); else 0 */
@@ -184,11 +186,6 @@ int fw_study_decision(const fw_study *study);
    has to live as long. Nothing is run: a response that is not there has no value (NaN). Cost: that of reading it. */
 fw_status fw_study_open_points(const fw_study_options *options, const fw_device_study *asked,
                                fw_study **study);
-
-struct fw_verdict;
-/* What a verdict says in words and whole numbers (decisions, what governs where and by which limit, how closely it was looked at, what
-   acts, by which model), as one number. Between devices that have it alike what governs is not known to have an edge or a step. */
-uint64_t fw_study_way(const struct fw_verdict *verdict, int scenes);
 
 struct fw_plan_live;
 struct fw_plan_live_answer;

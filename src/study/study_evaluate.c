@@ -557,8 +557,8 @@ int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sam
         if (sample->decision >= 0 && study->asked && study->asked->fitted > 0)
             fw_study_parts_take(study, &plan->verdict, sample);
         if (sample->decision >= 0) sample->used = used_of(&plan->verdict, sample->decision);
-        if (sample->decision >= 0 && study->ways)
-            sample->way = fw_study_way(&plan->verdict, plan->device->nscene);
+        if (sample->decision >= 0 && study->way)
+            sample->way = study->way(&plan->verdict, plan->device->nscene);
     }
     return status;
 }

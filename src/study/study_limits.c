@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What limits the answer of a study. Of a device that a study of sizes found: limits that it is at or misses, in sentences;
    each is said once, and at most eight are. Of a response: devices that have no value of it, of which no least and no largest
-   one tells. Of any device: by which way its verdict came about, beyond which no number goes on smoothly.
-   Test: tests/cli/test_sizing.py, Lever; tests/cli/test_inputs.py, WithoutAValue; tests/unit/study/test_explore.c */
+   one tells. Test: tests/cli/test_sizing.py, Lever; tests/cli/test_inputs.py, WithoutAValue */
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include <math.h>
@@ -203,82 +202,4 @@ void fw_study_without_say(fw_text *out, const fw_study *study) {
         say_consequence(out, study, r);
         fw_text_add(out, "\n");
     }
-}
-
-/* ---- the way of a verdict: what it says in words and whole numbers, in one number ---- */
-
-typedef struct way { /* FNV-1a of its words */
-    uint64_t sum;
-} way;
-
-static void add_byte(way *w, unsigned char byte) {
-    w->sum = (w->sum ^ byte) * 1099511628211u;
-}
-
-static void add_number(way *w, int number) {
-    for (int shift = 0; shift < 32; shift += 8)
-        add_byte(w, (unsigned char)((unsigned)number >> shift));
-}
-
-/* one that is not there is another than an empty one */
-static void add_word(way *w, const char *word) {
-    for (const char *c = word ? word : "\001"; *c; c++)
-        add_byte(w, (unsigned char)*c);
-    add_byte(w, 0);
-}
-
-/* How each is decided. Of the one that governs also where it uses most, and what limits it there: others have their edges where
-   that changes, too, but what governs has none then. */
-static void add_hinges(way *w, const fw_verdict_hinge_verdict *hinge, int n, int governing) {
-    add_number(w, governing);
-    for (int i = 0; i < n; i++)
-        add_number(w, (int)hinge[i].decision);
-    if (governing < 0 || governing >= n) return;
-    const fw_verdict_hinge_verdict *h = &hinge[governing];
-    add_word(w, h->scene), add_word(w, h->flow), add_word(w, h->actuation);
-    add_word(w, h->limit ? h->limit->criterion : NULL);
-    add_number(w, h->touches), add_number(w, h->open);
-}
-
-/* what acts, and how hinges are taken */
-static void add_motion(way *w, const fw_dynamics_motion *motion) {
-    add_number(w, motion != NULL);
-    if (!motion) return;
-    for (int i = 0; i < motion->ledger.count; i++)
-        add_number(w, motion->ledger.item[i].active);
-    add_number(w, (int)motion->ledger.hinge.used);
-}
-
-static void add_requirement(way *w, const fw_verdict_requirement *r) {
-    add_number(w, (int)r->decision), add_number(w, r->why != NULL), add_number(w, r->open != NULL);
-}
-
-static void add_made(way *w, const fw_verdict_fabricated_verdict *f) {
-    add_number(w, f != NULL);
-    if (!f) return;
-    add_number(w, (int)f->decision), add_number(w, f->governing), add_number(w, f->at);
-    for (int k = 0; k < f->ncorner; k++)
-        add_number(w, (int)f->corner[k].decision), add_number(w, f->corner[k].number);
-}
-
-static void add_variant(way *w, const fw_verdict_variant_verdict *v, int scenes) {
-    add_number(w, (int)v->decision);
-    for (int i = 0; i < v->nrequirement; i++)
-        add_requirement(w, &v->requirement[i]);
-    for (int i = 0; v->motion && i < scenes; i++)
-        add_motion(w, v->motion[i]);
-    for (int i = 0; i < v->nclearance; i++)
-        add_number(w, (int)v->clearance[i].decision);
-    add_made(w, v->fabricated);
-}
-
-uint64_t fw_study_way(const fw_verdict *verdict, int scenes) {
-    way w = {14695981039346656037u};
-    add_number(&w, (int)verdict->decision), add_number(&w, (int)verdict->drawn);
-    for (int i = 0; i < verdict->ncomputed; i++)
-        add_number(&w, (int)verdict->computed[i].refinement);
-    add_hinges(&w, verdict->hinge, verdict->nhinge, verdict->governing);
-    for (int i = 0; i < verdict->nvariant; i++)
-        add_variant(&w, &verdict->variant[i], scenes);
-    return w.sum;
 }
