@@ -9,6 +9,8 @@ const PLACES = Array.from({ length: 201 }, (_, i) => i);
 const EACH = 8;
 const whole = (f) => (x) => ({ x, state: "accept", way: "a", value: f(x), low: f(x) - 1, high: f(x) + 1, used: 0.5, ...(f.more?.(x) ?? {}) });
 
+const noise = (x) => (((Math.imul(x + 1, 2654435761) >>> 8) % 1000) / 1000 - 0.5) * 2; // from -1 to 1
+
 /** Judged by turns until nothing is open, as the page does: {judged, told, turns}. */
 function look(truth, height = 100, each = EACH) {
     const judged = new Set(PLACES.filter((x) => x % each === 0));
@@ -53,7 +55,6 @@ test("what governs changes, and so does the way: only that place is judged", () 
 });
 
 test("noise is told with what it does, or judged where that can be seen", () => {
-    const noise = (x) => (((Math.imul(x + 1, 2654435761) >>> 8) % 1000) / 1000 - 0.5) * 2; // from -1 to 1
     assert.ok(look(whole((x) => 50 + 0.01 * noise(x))).told.every((p) => p.off.value > 0.01));
     assert.equal(look(whole((x) => 50 + 2 * noise(x))).told.length, 0);
 });
@@ -66,10 +67,18 @@ test("a decision is told where nothing comes near it, and a device that could no
     const near = (x) => 95;
     near.more = (x) => ({ used: 0.991 }); // too near its limit
     assert.equal(look(whole(near)).told.length, 0);
+    const rejected = (x) => 50;
+    rejected.more = (x) => ({ state: "reject", used: 1.3 + 0.2 * noise(x) }); // what decides is too rough to say that it stays above its limit
+    assert.equal(look(whole(rejected)).told.length, 0);
     const holes = (x) => 50;
     holes.more = (x) => (x % 40 < 3 ? { state: "failed", way: null, value: NaN, low: NaN, high: NaN, used: null } : {});
     const points = PLACES.filter((x) => x % EACH === 0).map(whole(holes));
     for (const p of tell(points, PLACES, 100).told) assert.ok(p.x % 40 > 8);
+});
+
+test("one open place is judged at two of its thirds, several in their middles", () => {
+    const one = { places: [1, 2, 3, 4, 5, 6, 7] }, other = { places: [9, 10] };
+    assert.deepEqual([nextOf([one]), nextOf([one, other]), nextOf([{ places: [3] }]), nextOf([])], [[3, 5], [4, 10], [3], []]);
 });
 
 test("fewer than five alike tell nothing", () => {
@@ -85,6 +94,8 @@ test("a map is told between its judged cells, and not across an edge", () => {
     const all = tellMap(judged(smooth, 4), 32, 80);
     assert.equal(all.length, 33 * 33 - 81);
     for (const p of all) assert.ok(Math.abs(p.value - smooth(p.i, p.j).value) <= p.off.value && p.off.value <= 80 / 250, JSON.stringify(p));
+    // by rows, and then by columns from what was told by rows, with both errors
+    for (const p of all.filter(({ i, j }) => i % 4 && j % 4)) assert.ok(p.off.value >= (2 * 80) / 2000, JSON.stringify(p));
     const parted = of((i, j) => (i + j < 33 ? 30 : 60) + i, (i, j) => (i + j < 33 ? {} : { way: "b", state: "reject", used: 1.4 }));
     const some = tellMap(judged(parted, 4), 32, 80);
     assert.ok(some.length > 300, String(some.length));
