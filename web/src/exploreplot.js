@@ -12,7 +12,7 @@ export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "in
 const SIGNS = { // of about 6 pixels
     accept: "M-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0", reject: "M-3-3L3 3M3-3L-3 3", inconclusive: "M-2.6-2.6h5.2v5.2h-5.2z", run: "M-3 0h6", failed: "M-3-3L3 3M3-3L-3 3M0-4V4",
 };
-const MOST_SIGNS = 60;
+const MOST_SIGNS = 110;
 const MARK = 6; // pixels that a sign at the end of the range needs beside it
 const PAD = 0.06;
 const FLAT = 1e-6; // relative: less is no change
