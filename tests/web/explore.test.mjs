@@ -235,7 +235,11 @@ describe("a range", () => {
                 assert.deepEqual([row[1], row[2], row.at(-1)], [word, off ?? String(Math.max(p.off.value, p.off.low, p.off.high)), p.state]);
             }
         const [svg] = await Promise.all([page.waitForEvent("download"), page.click("#explore-svg")]);
-        assert.match(readFileSync(await svg.path(), "utf8"), /^<svg [^]*Share of the limit that governs[^]*<\/svg>\n$/);
+        const drawn = readFileSync(await svg.path(), "utf8");
+        assert.match(drawn, /^<svg [^]*Share of the limit that governs[^]*<\/svg>\n$/);
+        // a dot for each judged device, the line through those that are told as well
+        assert.equal(/<path d="((?:M[\d.]+ [-\d.]+h4)+)"/.exec(drawn)[1].split("M").length - 1, judged.length);
+        assert.match(drawn, />told<\/text>[^]*>judged<\/text>[^]*>least<\/text>/);
     });
 
     test("two inputs are a map, each cell what check says; no serious finding of axe", async () => {

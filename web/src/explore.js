@@ -551,8 +551,8 @@ export class Explore {
         const { inputs: [x, y], number: n } = this.spec;
         if (y) return saveAs(`${this.#name()}.svg`, alone(this.plot.svg), "image/svg+xml", this.body);
         const points = this.#all().sort((a, b) => a.x - b.x);
-        const judged = this.told.length ? [{ name: "judged; told between", values: points.map((p) => (p.told ? NaN : p.value)), key: 0, dots: true }] : [];
-        const series = [{ name: n.label, values: points.map((p) => p.value), key: 0, solid: true }, ...judged, { name: "least", values: points.map((p) => p.low), key: 0, then: true }, { name: "most", values: points.map((p) => p.high), key: 0, then: true }];
+        const judged = this.told.length ? [{ name: "judged", values: points.map((p) => (p.told ? NaN : p.value)), key: 0, dots: true }] : [];
+        const series = [{ name: judged.length ? "told" : "value", values: points.map((p) => p.value), key: 0, solid: true }, ...judged, { name: "least", values: points.map((p) => p.low), key: 0, then: true }, { name: "most", values: points.map((p) => p.high), key: 0, then: true }];
         const all = series.flatMap((v) => v.values).filter(Number.isFinite);
         const limits = n.limits.map((v) => v * n.factor);
         const [low, high] = [Math.min(...all, ...limits), Math.max(...all, ...limits)];

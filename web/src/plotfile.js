@@ -29,7 +29,7 @@ export function ticks(low, high, n) {
 
 const escaped = (x) => x.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);
 
-/** x and y: [low, high] that are shown; log: y by its decades. */
+/** x and y: [low, high] that are shown; log: y by its decades. A series is a line, or `dots`. */
 export function svgOf({ t, series, marks }, { title, unit, x, y, log }) {
     const up = log ? (v) => Math.log10(Math.max(v, 1e-300)) : (v) => v;
     const px = (v) => LEFT + ((v - x[0]) / (x[1] - x[0] || 1)) * (W - LEFT - RIGHT);
@@ -55,14 +55,14 @@ export function svgOf({ t, series, marks }, { title, unit, x, y, log }) {
     for (const v of ys) out.push(`<path d="M${LEFT} ${f(py(v))}H${W - RIGHT}" stroke="#e6eaee"/>`, `<text x="${LEFT - 6}" y="${f(py(v) + 4)}" text-anchor="end">${number(v, 4)}</text>`);
     out.push(`<rect x="${LEFT}" y="${TOP}" width="${W - LEFT - RIGHT}" height="${H - TOP - BOTTOM}" fill="none" stroke="#8592a0"/>`, '<g clip-path="url(#area)" fill="none">');
     for (const m of marks) out.push(`<path d="M${LEFT} ${f(py(m.y))}H${W - RIGHT}" stroke="#a53304" stroke-dasharray="5 4"/>`, m.text ? `<text x="${W - RIGHT - 6}" y="${f(py(m.y) + (m.y < 0 ? -5 : 14))}" text-anchor="end" fill="#a53304">${escaped(m.text)}</text>` : "");
-    const style = (one, i) => `stroke="${DARK_ON_WHITE[(one.key ?? i) % 8]}" stroke-width="${one.then ? 1 : 1.8}"${one.then ? ' stroke-dasharray="1.5 2.5"' : one.solid || !DASHES[(one.key ?? i) % 8] ? "" : ` stroke-dasharray="${DASHES[(one.key ?? i) % 8]}"`}`;
+    const style = (one, i) => one.dots ? `stroke="${DARK_ON_WHITE[(one.key ?? i) % 8]}" stroke-width="4"` : `stroke="${DARK_ON_WHITE[(one.key ?? i) % 8]}" stroke-width="${one.then ? 1 : 1.8}"${one.then ? ' stroke-dasharray="1.5 2.5"' : one.solid || !DASHES[(one.key ?? i) % 8] ? "" : ` stroke-dasharray="${DASHES[(one.key ?? i) % 8]}"`}`;
     const dots = (values) => values.map((v, i) => (Number.isFinite(v) ? `M${f(px(t[i]) - 2)} ${f(py(v))}h4` : "")).join("");
-    series.forEach((one, i) => out.push(one.dots ? `<path d="${dots(one.values)}" stroke="${DARK_ON_WHITE[(one.key ?? i) % 8]}" stroke-width="4"/>` : `<path d="${line(one.values)}" ${style(one, i)}/>`));
+    series.forEach((one, i) => out.push(`<path d="${one.dots ? dots(one.values) : line(one.values)}" ${style(one, i)}/>`));
     out.push("</g>");
     series.forEach((one, i) => {
         const at = LEFT + (i % 8) * ((W - LEFT - RIGHT) / 8);
         const below = H - BOTTOM + 36 + 14 * Math.floor(i / 8);
-        out.push(`<path d="M${f(at)} ${below - 4}h20" fill="none" ${style(one, i)}/>`, `<text x="${f(at + 24)}" y="${below}">${escaped(one.name)}</text>`);
+        out.push(`<path d="M${f(one.dots ? at + 16 : at)} ${below - 4}h${one.dots ? 4 : 20}" fill="none" ${style(one, i)}/>`, `<text x="${f(at + 24)}" y="${below}">${escaped(one.name)}</text>`);
     });
     return `${out.filter(Boolean).join("\n")}\n</svg>\n`;
 }
