@@ -5,8 +5,9 @@
    A device is a point u of independent standard normal numbers: one for every input of the flow (edges,
    etch, thickness, modulus, as the pack states them) and for every <uncertain>. Its limit state is g = -ln of
    the largest share of a limit that it uses; g <= 0 fails. The probability is estimated by src/chance (which
-   method, and why, is in the result). What the model itself may be off by is no chance: the band of the hinge or pull-in that
-   governs the nominal device moves the limit up and down, and the yield is a range from the one to the other. An
+   method, and why, is in the result). What the model itself may be off by is no chance: every check
+   of every device is read at the upper end of its own band, and at the lower one, and the yield is a range from the one to
+   the other (decision 236). An
    input that a pack does not know (an assumed range) and spread="interval" make a range as well, over their ends and, where
    dies show that these may not be enough, inside (src/chance/range.c).
    Theory: docs/theory/chance.md. Test: tests/cli/test_study.py */
@@ -164,7 +165,7 @@ static fw_status describe(fw_study_yielding *y, const bounds *b, fw_study_flow_y
     return FW_OK;
 }
 
-/* what the model may be off by is that of the hinge or pull-in that governs the nominal device */
+/* the device that is intended: how far apart both readings of it are */
 static fw_status judge_nominal(const fw_study_yielding *y, const fw_verdict_variant_verdict *v,
                                fw_verdict_made *made) {
     double x[FW_FABRICATION_INPUTS];
@@ -251,13 +252,13 @@ static fw_status estimate_all(fw_study_yielding *y, const fw_verdict_variant_ver
     FW_NEED(out->reason = fw_arena_strdup(arena, plain.most.reason));
     if (plain.most.caution) FW_NEED(out->caution = fw_arena_strdup(arena, plain.most.caution));
     out->unevaluated = (long)plain.most.unevaluated;
-    const double up = nominal.up, down = isfinite(nominal.down) ? nominal.down : 0;
-    y->shift = up;
+    y->as = FW_STUDY_AT_WORST;
     FW_TRY(estimate(y, FW_CHANCE_MOST_ONLY, &worst));
-    y->shift = -down;
+    y->as = FW_STUDY_AT_BEST;
     FW_TRY(estimate(y, FW_CHANCE_LEAST_ONLY, &best));
+    y->as = FW_STUDY_BY_VALUE;
     out->low = 1 - fmax(worst.high, plain.high), out->high = 1 - fmin(best.low, plain.low);
-    out->band = exp(up + down);
+    out->band = exp(nominal.high - nominal.low);
     out->evaluations = y->evaluated;
     return FW_OK;
 }
@@ -433,10 +434,8 @@ static fw_status worst_of(fw_study_yielding *y, double beta, fw_study_die *die) 
 
 /* with the model's band against the device; y->chance is freed by the caller */
 static fw_status begin_worst(fw_study *dies, int flow, fw_study_yielding *y) {
-    fw_verdict_made nominal;
     FW_TRY(fw_study_yielding_begin(dies, flow, 0, y));
-    FW_TRY(judge_nominal(y, &dies->plan->verdict.variant[flow], &nominal));
-    y->shift = isfinite(nominal.up) ? nominal.up : 0;
+    y->as = FW_STUDY_AT_WORST;
     return FW_OK;
 }
 
@@ -509,7 +508,7 @@ static fw_status die_at(const fw_study *dies, const fw_study *of, const fw_study
     fw_study_scatter_point(&y.scatter, die->u, die->unknowns > 0 ? die->unknown : NULL,
                            fw_study_scatter_at(&y.scatter, die->u), drawn, x);
     FW_TRY(fw_study_yielding_judge(&y, x, &made, NULL));
-    *ln = made.ln + (isfinite(made.up) ? made.up : 0);
+    *ln = made.high;
     return FW_OK;
 }
 

@@ -191,9 +191,10 @@ static fw_status take_inputs(fw_study *study) {
 /* names of columns are those of inputs and responses together */
 static void check_names(fw_study *study) {
     for (int r = 0; r < study->asked->nrespond; r++)
-        for (int k = -4; k < study->ninput; k++) {
-            static const char *const own[] = {"i", "state", "why", "limit_used"};
-            const char *other = k < 0 ? own[k + 4] : study->input[k].what;
+        for (int k = -6; k < study->ninput; k++) {
+            static const char *const own[] = {"i",          "state",          "why",
+                                              "limit_used", "limit_used_low", "limit_used_high"};
+            const char *other = k < 0 ? own[k + 6] : study->input[k].what;
             if (strcmp(study->asked->respond[r].name, other) == 0)
                 fw_diag_error(&study->diags, 492, study->asked->respond[r].place,
                               "response '%s': another column of the results has this name; rename "

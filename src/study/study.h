@@ -71,6 +71,14 @@ typedef struct fw_study_response {
     double now;      /* of the description as it stands */
 } fw_study_response;
 
+/* how a device is read: by the values of its checks, or by either end of the band of each; every one of them fails it */
+typedef enum fw_study_reading {
+    FW_STUDY_BY_VALUE,
+    FW_STUDY_AT_BEST,  /* each check at the lower end of its band */
+    FW_STUDY_AT_WORST, /* each at the upper end */
+    FW_STUDY_READINGS
+} fw_study_reading;
+
 typedef struct fw_study_sample {
     long i;                      /* number in the study */
     char (*text)[FW_STUDY_TEXT]; /* (ninput) as --set takes them */
@@ -80,6 +88,7 @@ typedef struct fw_study_sample {
     /* largest share of a limit that any hinge or requirement uses, at the upper end of its band and over all
        that the flows make of it; above 1 where it is not accepted; NaN: not judged */
     double used;
+    double used_low, used_high; /* of a die of a yield, by either end of all bands; else NaN */
     /* (FW_VERDICT_LOOKS x study->npart x FW_PART_NUMBERS) of the drawn device, look by look: what every hinge, then every requirement
        uses of its limit, both ends of its band and the value; 0: it has none. NULL where npart is 0 */
     double *part;

@@ -256,7 +256,7 @@ void fw_study_state_take(const char *state, fw_study_sample *sample) {
 
 void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw_study_sample *to) {
     to->i = from->i, to->decision = from->decision, to->run = from->run, to->used = from->used;
-    to->way = from->way;
+    to->used_low = from->used_low, to->used_high = from->used_high, to->way = from->way;
     memcpy(to->why, from->why, FW_STUDY_WHY);
     memcpy(to->text, from->text, (size_t)study->ninput * sizeof *to->text);
     memcpy(to->value, from->value, (size_t)study->ninput * sizeof *to->value);
@@ -528,7 +528,8 @@ bool fw_study_same_files(const fw_study *study, fw_design *design) {
 
 static void blank(const fw_study *study, fw_study_sample *sample) {
     sample->run = false, sample->decision = -1, sample->why[0] = '\0';
-    sample->used = (double)NAN, sample->nlook = 0, sample->way = 0;
+    sample->used = sample->used_low = sample->used_high = (double)NAN;
+    sample->nlook = 0, sample->way = 0;
     for (int k = 0; k < study->nresponse; k++)
         sample->response[k] = (double)NAN;
 }

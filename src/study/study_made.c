@@ -21,6 +21,9 @@ typedef struct batch {
     char (*why)[FW_STUDY_WHY]; /* (n) what is not known of it; "" */
 } batch;
 
+static const fw_verdict_made nothing_known = {
+    .ln = (double)NAN, .low = (double)NAN, .high = (double)NAN};
+
 /* with settings of its own: the description read again and judged as drawn, then as made */
 static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, const double *x,
                                 fw_verdict_made *made) {
@@ -44,7 +47,7 @@ static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, con
                                     &shown));
         set[before + k] = (fw_device_set){study->input[study->nvary + k].what, text};
     }
-    *made = (fw_verdict_made){.ln = (double)NAN, .hinge = FW_NONE};
+    *made = nothing_known;
     fw_status status = fw_plan_restated(plan, arena, set, before + n, &diags, &device, variant);
     fw_verdict verdict = {.nvariant = plan->nflow, .variant = variant};
     fw_verdict_options options = plan->options.verdict;
@@ -57,7 +60,7 @@ static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, con
     if (status == FW_OK)
         status = fw_verdict_made_at(arena, device, layout, &options, &variant[y->flow], x, made);
     if (status == FW_NOMEM || status == FW_CANCELLED || status == FW_OK) return status;
-    made->ln = (double)NAN;
+    *made = nothing_known;
     for (size_t i = 0; i < diags.count; i++) /* the first error says it */
         if (diags.item[i].severity == FW_ERROR && !made->why) made->why = diags.item[i].message;
     return FW_OK;
@@ -138,9 +141,11 @@ static void fill_sample(const fw_study_yielding *y, const double *x, const fw_st
     for (int k = 0; k < study->nresponse; k++)
         sample->response[k] = (double)NAN;
     sample->i = c->i;
-    sample->run = !isnan(c->ln);
-    sample->used = exp(c->ln);
-    sample->decision = !sample->run ? -1 : c->ln > 0 ? 1 : 0;
+    sample->run = !isnan(c->ln[FW_STUDY_BY_VALUE]);
+    sample->used = exp(c->ln[FW_STUDY_BY_VALUE]);
+    sample->used_low = exp(c->ln[FW_STUDY_AT_BEST]);
+    sample->used_high = exp(c->ln[FW_STUDY_AT_WORST]);
+    sample->decision = !sample->run ? -1 : c->ln[FW_STUDY_BY_VALUE] > 0 ? 1 : 0;
     snprintf(sample->why, FW_STUDY_WHY, "%s",
              sample->run ? ""
              : why[0]    ? why
@@ -160,13 +165,24 @@ static fw_status from_store(fw_study_yielding *y, batch *b, fw_study_sample *sam
                                  b->number[k]);
         if (!there) continue;
         b->wanted[k] = false;
-        b->made[k] = (fw_verdict_made){.ln = sample->run ? log(sample->used) : (double)NAN,
-                                       .hinge = FW_NONE};
+        b->made[k] = nothing_known;
+        if (sample->run)
+            b->made[k] = (fw_verdict_made){.ln = log(sample->used),
+                                           .low = log(sample->used_low),
+                                           .high = log(sample->used_high)};
     }
     return FW_OK;
 }
 
-static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b, double *ln) {
+/* as a store that is read again says it */
+static void read_back(const fw_verdict_made *made, double *ln) {
+    ln[FW_STUDY_BY_VALUE] = log(exp(made->ln));
+    ln[FW_STUDY_AT_BEST] = log(exp(made->low));
+    ln[FW_STUDY_AT_WORST] = log(exp(made->high));
+}
+
+static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b,
+                             fw_study_cached *judged) {
     fw_study_sample sample;
     bool *stored = fw_arena_array(scratch, bool, b->n);
     b->made = fw_arena_array(scratch, fw_verdict_made, b->n);
@@ -181,10 +197,10 @@ static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b, 
         stored[k] = !b->wanted[k];
     FW_TRY(fw_study_each(y->study, (long)b->n, judge_kth, b));
     for (size_t k = 0; k < b->n; k++) {
-        ln[k] = log(exp(b->made[k].ln)); /* as a store that is read again says it */
+        judged[k].i = b->number[k];
+        read_back(&b->made[k], judged[k].ln);
         if (stored[k]) continue;
-        const fw_study_cached c = {.i = b->number[k], .ln = ln[k]};
-        fill_sample(y, b->x + k * (size_t)y->scatter.npoint, &c, b->why[k], &sample);
+        fill_sample(y, b->x + k * (size_t)y->scatter.npoint, &judged[k], b->why[k], &sample);
         FW_TRY(fw_study_keep(y->study, &sample));
     }
     return FW_OK;
@@ -192,11 +208,11 @@ static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b, 
 
 /* n points under their numbers, into the store as well */
 static fw_status judge_numbered(fw_study_yielding *y, size_t n, const long *number, const double *x,
-                                double *ln) {
+                                fw_study_cached *judged) {
     fw_arena *scratch = fw_arena_part(y->study->arena, 0);
     FW_NEED(scratch);
     batch b = {.y = y, .n = n, .x = x, .number = number};
-    fw_status status = judge_batch(y, scratch, &b, ln);
+    fw_status status = judge_batch(y, scratch, &b, judged);
     fw_arena_free(scratch);
     FW_TRY(status);
     y->told += (long)n;
@@ -216,8 +232,8 @@ fw_status fw_study_yielding_points(void *context, long first, size_t n, const do
     size_t values = (size_t)y->scatter.npoint, due = 0;
     long *number = fw_arena_array(scratch, long, n);
     size_t *at = fw_arena_array(scratch, size_t, n);
-    double *of = fw_arena_array(scratch, double, n *values),
-           *own = fw_arena_array(scratch, double, n);
+    double *of = fw_arena_array(scratch, double, n *values);
+    fw_study_cached *own = fw_arena_array(scratch, fw_study_cached, n);
     fw_status status = number && at && of && own ? FW_OK : FW_NOMEM;
     for (size_t k = 0; status == FW_OK && k < n; k++) {
         ln[k] = -1; /* of another shard: nothing comes of it here */
@@ -228,7 +244,7 @@ fw_status fw_study_yielding_points(void *context, long first, size_t n, const do
     }
     if (status == FW_OK) status = judge_numbered(y, due, number, of, own);
     for (size_t k = 0; status == FW_OK && k < due; k++)
-        ln[at[k]] = own[k];
+        ln[at[k]] = own[k].ln[FW_STUDY_BY_VALUE];
     fw_arena_free(scratch);
     return status;
 }
@@ -240,9 +256,9 @@ static fw_status know(fw_study_yielding *y, fw_arena *scratch, size_t count, con
     size_t values = (size_t)y->scatter.npoint, n = 0;
     size_t *slot = fw_arena_array(scratch, size_t, count);
     long *number = fw_arena_array(scratch, long, count);
-    double *fresh = fw_arena_array(scratch, double, count *values),
-           *ln = fw_arena_array(scratch, double, count);
-    FW_NEED(slot && number && fresh && ln ? ln : NULL);
+    double *fresh = fw_arena_array(scratch, double, count *values);
+    fw_study_cached *judged = fw_arena_array(scratch, fw_study_cached, count);
+    FW_NEED(slot && number && fresh && judged ? judged : NULL);
     for (size_t k = 0; k < count; k++) {
         size_t at = slot_of(y, x + k * values);
         fw_study_cached *c = &y->value[at];
@@ -257,9 +273,9 @@ static fw_status know(fw_study_yielding *y, fw_arena *scratch, size_t count, con
         slot[n] = at;
         number[n++] = c->i;
     }
-    if (n > 0) FW_TRY(judge_numbered(y, n, number, fresh, ln));
+    if (n > 0) FW_TRY(judge_numbered(y, n, number, fresh, judged));
     for (size_t k = 0; k < n; k++)
-        y->value[slot[k]].ln = ln[k];
+        memcpy(y->value[slot[k]].ln, judged[k].ln, sizeof judged[k].ln);
     return FW_OK;
 }
 
@@ -279,7 +295,7 @@ static fw_status limit_with(fw_study_yielding *y, fw_arena *scratch, size_t coun
     FW_TRY(know(y, scratch, count, x, steers));
     for (size_t k = 0; k < count; k++) {
         const fw_study_cached *c = &y->value[slot_of(y, x + k * values)];
-        value[k] = c->elsewhere ? 1 : -(c->ln + y->shift);
+        value[k] = c->elsewhere ? 1 : -c->ln[y->as];
     }
     return FW_OK;
 }

@@ -372,7 +372,7 @@ enum { FW_STUDY_FLOW_PART = 100000000, FW_STUDY_DIES_USUAL = 4000, FW_STUDY_DIES
 
 typedef struct fw_study_cached {
     long i; /* number of its sample; -1: free */
-    double ln;
+    double ln[FW_STUDY_READINGS];
     bool elsewhere; /* another shard judges it: ln is none */
 } fw_study_cached;
 
@@ -386,7 +386,7 @@ typedef struct fw_study_yielding {
     int nbase;
     fw_study_scatter scatter;
     const double *unknown; /* values of what is not known; NULL: middles */
-    double shift;          /* added to ln: what the model may be off by */
+    fw_study_reading as;   /* what the model may be off by, in its favour or against it */
     long evaluated;        /* devices of this flow so far */
     long told;             /* those and what simulated wafers had, for progress */
     long base_number;      /* of its first sample */
@@ -405,7 +405,7 @@ fw_status fw_study_yielding_check(fw_study *yield);
 /* one device; x: a point of the scatter; why (FW_STUDY_WHY): what is not known of it, or NULL */
 fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
                                   fw_verdict_made *made, char *why);
-/* fw_chance_function, context the yielding: minus ln of the largest share of a limit that is used, less the shift */
+/* fw_chance_function, context the yielding: minus ln of the largest share of a limit that is used, as it is read */
 fw_status fw_study_yielding_limit(void *context, size_t first, size_t count, const double *u,
                                   double *value);
 /* the same of points that choose no other ones: a shard leaves out those of others */

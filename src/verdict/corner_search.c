@@ -9,17 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-/* "12.5 um": a value of an input in the unit of its process pack */
-const char *fw_verdict_search_value_text(fw_arena *arena, const fw_verdict_fabrication_input *input,
-                                         double x) {
-    fw_quantity q = input->q;
-    char text[32];
-    q.value = x;
-    fw_number_text(text, sizeof text, fw_quantity_in_unit(&q), 4);
-    bool unit = q.unit && strcmp(q.unit, "1") != 0;
-    return fw_arena_printf(arena, "%s%s%s", text, unit ? " " : "", unit ? q.unit : "");
-}
-
 /* the inputs that are off their nominal values: "printed edge -0.15 um, thickness 49 um" */
 static fw_status describe(const fw_verdict_search *s, const double *x, const char **what) {
     fw_text text = fw_text_new(s->arena);
@@ -100,29 +89,68 @@ static void required_by_value(const fw_verdict_requirement *r, fw_verdict_by_val
     if (isnan(r->value))
         b->open = true;
     else if (r->value < r->min || r->value > r->max) /* NaN: no bound */
-        b->fails = true;
+        b->fails = true, b->sure = b->sure || r->decision == FW_REJECT;
 }
 
-/* What a die is by value beside its shares. The pull-in that governs is as far off as what is left out of its force and
-   what its flexures are off by: V^2 is in proportion to their stiffness. */
+/* A check (ln; NaN is passed) and its band, ratios to it. Of an end that nobody knows (NaN) the share itself still leads to
+   its limit, from as far as anything is told. */
+static void reads(double ln, double up, double down, fw_verdict_by_value *b) {
+    const double most = 6.9; /* a thousand times */
+    b->high = fmax(b->high, ln + fmin(up >= 1 ? log(up) : isnan(up) ? most : 0, most));
+    b->low = fmax(b->low, ln - fmin(down >= 1 ? log(down) : isnan(down) ? most : 0, most));
+}
+
+/* a scene that uses more by value than the one that governs by its band is as far off */
+static void hinge_reads(const fw_verdict_hinge_verdict *h, const double *ln, int n,
+                        fw_verdict_by_value *b) {
+    double most = -HUGE_VAL;
+    for (int r = 0; r < n; r++)
+        most = fmax(most, ln[r]);
+    reads(most, h->utilisation_high / exp(most), h->utilisation / h->utilisation_low, b);
+    b->open = b->open || (h->scene && h->touches);
+}
+
+static void pull_in_reads(const fw_statics_pull_in *p, double ln, fw_verdict_by_value *b) {
+    const double less = p && p->fringe_counted ? fmin(p->fringe, 0.9) : 0;
+    if (isnan(ln)) return;
+    reads(ln, fw_statics_pull_in_margin(p), sqrt((1 + p->stiffness_error) / (1 - less)), b);
+}
+
+/* What a die is by value beside its shares, and by either end of the band of each of its checks (ln). A pull-in is as far off
+   as what is left out of its force and what its flexures are off by: V^2 is in proportion to their stiffness. The way of a
+   motion is as far off as the motion. That nothing tips is a bound, which says of no die that it does. Decision 236.
+   Test: test_made_at.c */
 static void take_by_value(const fw_verdict_search *s, const fw_verdict_variant_verdict *now,
-                          fw_verdict_by_value *b) {
-    double least = HUGE_VAL;
+                          const double *ln, fw_verdict_by_value *b) {
+    const int scenes = s->device->nscene;
+    const double *pull = ln + now->nhinge * (scenes + 1), *required = pull + scenes;
+    const double *clearance = required + now->nrequirement,
+                 *across = clearance + scenes + s->device->nworkspace;
+    b->low = b->high = -HUGE_VAL;
     for (int i = 0; i < now->nreason; i++) {
-        b->fails = b->fails || now->reason[i].met;
+        b->fails = b->fails || now->reason[i].met, b->sure = b->sure || now->reason[i].met;
         b->open = b->open || leaves_open(&now->reason[i]);
     }
-    for (int i = 0; i < now->nrequirement; i++)
-        required_by_value(&now->requirement[i], b);
     for (int k = 0; k < now->nhinge; k++)
-        b->open = b->open || (now->hinge[k].scene && now->hinge[k].touches);
-    for (int i = 0; i < s->device->nscene; i++) {
-        const fw_statics_pull_in *p = now->pull_in[i];
-        if (!p || p->kind == FW_PULL_IN_NONE || !(p->margin < least)) continue;
-        const double less = p->fringe_counted ? fmin(p->fringe, 0.9) : 0;
-        least = p->margin;
-        b->up = log(fw_statics_pull_in_margin(p));
-        b->down = 0.5 * (log1p(p->stiffness_error) - log1p(-less));
+        hinge_reads(&now->hinge[k], ln + k * (scenes + 1), scenes + 1, b);
+    for (int i = 0; i < scenes; i++)
+        pull_in_reads(now->pull_in[i], pull[i], b);
+    for (int i = 0; i < now->nrequirement; i++) {
+        const fw_verdict_requirement *r = &now->requirement[i];
+        const double used = r->utilisation;
+        required_by_value(r, b);
+        reads(required[i], r->utilisation_high / used, used / r->utilisation_low, b);
+    }
+    for (int i = 0; s->clearances && i < now->nclearance; i++) {
+        const fw_verdict_clearance *c = &now->clearance[i];
+        const double off = 1 + (c->high_m - c->m) / c->least.moved_m;
+        reads(clearance[c->box == FW_NONE ? c->scene_index : scenes + c->box], off, off, b);
+    }
+    const fw_verdict_out_of_plane *o = now->out_of_plane;
+    for (int i = 0; o && i < o->nscene; i++) {
+        const fw_verdict_across *a = &o->scene[i];
+        reads(across[a->scene_index], 1 + a->tips_error, (double)NAN, b);
+        reads(across[scenes + a->scene_index], 1, a->strained / a->strained_sure, b);
     }
 }
 
@@ -241,7 +269,7 @@ static fw_status take(const fw_verdict_search *s, const fw_verdict_variant_verdi
     FW_TRY(fw_verdict_stators_keep(s->arena, now, corner));
     FW_TRY(take_clearance(s, now, corner));
     take_checks(s, now, ln);
-    if (s->by_value) take_by_value(s, now, s->by_value);
+    if (s->by_value) take_by_value(s, now, ln, s->by_value);
     return FW_OK;
 }
 

@@ -588,3 +588,13 @@ void fw_verdict_stators_made(const fw_verdict_search *s, fw_verdict_variant_verd
         if (most > 0) to->low_m = fmin(to->low_m, to->start_m - most);
     }
 }
+
+const char *fw_verdict_search_value_text(fw_arena *arena, const fw_verdict_fabrication_input *input,
+                                         double x) {
+    fw_quantity q = input->q;
+    char text[32];
+    q.value = x;
+    fw_number_text(text, sizeof text, fw_quantity_in_unit(&q), 4);
+    bool unit = q.unit && strcmp(q.unit, "1") != 0;
+    return fw_arena_printf(arena, "%s%s%s", text, unit ? " " : "", unit ? q.unit : "");
+}

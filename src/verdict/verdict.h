@@ -529,9 +529,8 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
 typedef struct fw_verdict_made { /* one device that a flow may make */
     /* logarithm of the largest share of a limit that any check uses, by value; above 0 is too much; NaN: not known */
     double ln;
-    /* how far the band of the hinge or pull-in that governs reaches, as logarithms, both >= 0 */
-    double up, down;
-    int hinge; /* that governs, of v; FW_NONE: none */
+    /* the same by the lower and the upper end of the band of every check: low <= ln <= high */
+    double low, high;
     fw_verdict_decision decision;
     const char *why; /* what speaks against it beside its hinges, or NULL */
 } fw_verdict_made;

@@ -88,10 +88,12 @@ typedef struct fw_verdict_edge_room {
     double looked_m; /* how far the corners themselves move edges either way */
 } fw_verdict_edge_room;
 
-/* of one die, by value: a reason without a share fails it, or leaves open whether it holds; the band of its pull-in */
+/* Of one die, by value: a reason without a share fails it, whatever any band says (sure) or not, or leaves open whether it
+   holds. low, high: logarithm of the largest share of a limit that any check uses at the lower and the upper end of its own
+   band */
 typedef struct fw_verdict_by_value {
-    bool fails, open;
-    double up, down;
+    bool fails, sure, open;
+    double low, high;
 } fw_verdict_by_value;
 
 struct fw_verdict_variant_verdict;

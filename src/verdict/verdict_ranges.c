@@ -341,6 +341,15 @@ fw_status fw_verdict_ranges_judge(fw_arena *arena, const fw_device *device, cons
 /* a flexure cut through, or a scene that cannot be run through, is beyond its limit by no known share */
 static const double beyond = 0.5;
 
+/* what is refused for sure fails at both ends of its bands, and what is not accepted at the upper one, whatever its shares */
+static void read_by_bands(const fw_verdict_by_value *b, fw_verdict_made *out) {
+    const bool sure = b->sure || out->decision == FW_REJECT;
+    const double low = sure && b->low <= 0 ? beyond : b->low;
+    const double high = out->decision != FW_ACCEPT && b->high <= 0 ? beyond : b->high;
+    out->low = isnan(out->ln) ? out->ln : fmin(low, out->ln);
+    out->high = isnan(out->ln) ? out->ln : fmax(high, out->ln);
+}
+
 fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_layout *layout,
                             const fw_verdict_options *options, const fw_verdict_variant_verdict *v,
                             const double *x, fw_verdict_die *die) {
@@ -355,7 +364,7 @@ fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_l
     s.told->of = 0; /* who draws them counts them */
     FW_TRY(fw_verdict_search_run(&s, x, FW_NO_CORNER));
     const fw_verdict_fabricated_corner *c = &s.fabricated->corner[0];
-    *out = (fw_verdict_made){.decision = c->decision, .ln = -HUGE_VAL, .up = 0, .down = 0};
+    *out = (fw_verdict_made){.decision = c->decision, .ln = -HUGE_VAL};
     die->hinge = c->hinge, die->requirement = c->requirement;
     die->ln = s.ln;
     for (int r = 0; r < s.ncheck; r++)
@@ -364,24 +373,12 @@ fw_status fw_verdict_die_at(fw_arena *arena, const fw_device *device, const fw_l
     const int clearances = v->nhinge * (device->nscene + 1) + device->nscene + v->nrequirement;
     for (int r = clearances; r < clearances + device->nscene; r++)
         if (s.ln[r] <= log(fw_verdict_clearance_counts)) s.ln[r] = (double)NAN;
-    double most = 0;
-    for (int k = 0; k < v->nhinge; k++) {
-        const fw_verdict_hinge_verdict *h = &c->hinge[k];
-        if (!h->scene || !(h->utilisation > most)) continue;
-        most = h->utilisation;
-        out->hinge = k;
-        out->up = log(h->utilisation_high / h->utilisation);
-        out->down = h->utilisation_low > 0 ? log(h->utilisation / h->utilisation_low) : HUGE_VAL;
-    }
-    if (most == 0) out->hinge = FW_NONE;
-    const int pulls = v->nhinge * (device->nscene + 1);
-    for (int r = pulls; r < pulls + device->nscene; r++)
-        if (s.ln[r] >= out->ln) out->up = by_value.up, out->down = by_value.down;
     out->why = c->why;
     if (c->decision == FW_REJECT && out->ln <= 0 && c->why) out->ln = beyond;
     if (by_value.fails && out->ln <= 0) out->ln = beyond;
     if (by_value.open && out->ln <= 0) out->ln = (double)NAN;
     if (!isfinite(out->ln)) out->ln = c->decision == FW_REJECT ? beyond : (double)NAN;
+    read_by_bands(&by_value, out);
     return FW_OK;
 }
 

@@ -36,8 +36,7 @@ static void a_point_is_its_corner(void **state) {
             /* both are a first look or closer: its accuracy is 3 % */
             if (!(fabs(made.ln - log(most)) < 0.03))
                 fail_msg("%s: %g, not %g", corner->what, exp(made.ln), most);
-            assert_true(made.up >= 0 && made.down >= 0 && made.up < 0.2);
-            assert_true(made.hinge >= 0 && made.hinge < v->nhinge);
+            assert_true(made.low <= made.ln && made.ln <= made.high && made.high < made.ln + 0.2);
             compared++;
         }
     }
@@ -140,7 +139,8 @@ static void pull_in_is_by_value(void **state) {
                                         &plan->options.verdict, v, x, &made),
                      FW_OK);
     assert_true(p->margin > 1 && p->margin < fw_statics_pull_in_margin(p));
-    assert_true(made.up > 0.04 && made.down > 0.02 && made.up < 0.1);
+    assert_true(made.high > made.ln + 0.04 && made.high < made.ln + 0.1);
+    assert_true(made.low < made.ln - 0.02);
     if (!(fabs(made.ln + log(p->margin)) < 0.01)) /* with its band 0.055 more */
         fail_msg("%g, not %g", made.ln, -log(p->margin));
     fw_plan_free(plan);
