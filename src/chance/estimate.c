@@ -83,17 +83,35 @@ static fw_status weighted_to_the_end(fw_chance_run *run, fw_chance_weighted *w,
     return FW_OK;
 }
 
-/* first: points of the inputs' own distribution before, none of which failed */
-static const char *caution_of(fw_arena *arena, const fw_chance_weighted *w, size_t first,
-                              double level) {
+static const char *const all_looked_at =
+    "the one input was followed to 8 standard deviations either way, a quarter of one at a time: "
+    "only what fails between two of these values, and at none of them, is not in the interval";
+
+/* What is not in the interval, how it was looked for, and what it takes to know more. Own points that none of them met a
+   failure with say only as much as there are of them: where that is no less than the estimate itself, what is told is how
+   many there would have to be. first: own points before, none of which failed */
+static const char *caution_of(const fw_chance_run *run, const fw_chance_weighted *w, size_t first,
+                              const fw_chance_estimate *e) {
     char text[32];
-    const size_t own = w->own + first;
-    double unseen = -expm1(log(1 - level) / fmax(1, (double)own));
-    return fw_arena_printf(arena,
-                           "a failure, or a point without a value, that is far from all design "
-                           "points and that none of %zu points of the inputs' own distribution "
-                           "met, is not in the interval; it would be rarer than %s",
-                           own, fw_number_text(text, sizeof text, unseen, 2));
+    const size_t own = w->own + first, n = run->limit->dimensions;
+    const bool followed = w->points->followed;
+    const double none = -log(1 - run->level), unseen = -expm1(-none / fmax(1, (double)own));
+    const double p = w->points->origin_fails ? 1 - e->probability_low : e->probability_high;
+    if (n == 1 && followed) return all_looked_at;
+    const bool told = unseen < p || !(p > 0);
+    const double points = none / p / fw_chance_weighted_own;
+    return fw_arena_printf(
+        run->arena,
+        "failures were looked for %s; what fails, or has no value, apart from all these "
+        "places is not in the interval%s%s%s",
+        followed ? "along each input to 8 standard deviations either way, and from where subset "
+                   "simulation met them"
+                 : "from where subset simulation met them, but not along each input, for which the "
+                   "budget was too small",
+        told ? ", and rarer than " : "; an estimate of some ",
+        fw_number_text(text, sizeof text, told ? unseen : points, 2),
+        told ? ", as no point of the inputs' own distribution met it"
+             : " points would meet it by chance if it were as likely as what was found");
 }
 
 static const char *const no_repetition =
@@ -134,7 +152,7 @@ static fw_status by_design_points(fw_chance_run *run, fw_chance_estimate *out) {
     fw_chance_weighted_start(&points, &w);
     FW_TRY(weighted_to_the_end(run, &w, out));
     out->points = points.count, out->point = points.point;
-    FW_NEED(out->caution = caution_of(run->arena, &w, 0, run->level));
+    FW_NEED(out->caution = caution_of(run, &w, 0, out));
     return FW_OK;
 }
 
@@ -187,7 +205,7 @@ static fw_status why_counted(fw_chance_run *run, const fw_chance_count *c, const
     return FW_OK;
 }
 
-/* why importance sampling is not to be trusted here, NULL: it is */
+/* why importance sampling is not to be trusted here, NULL: it is. s NULL: subset simulation says nothing */
 static const char *why_not_points(const fw_chance_points *points, const fw_chance_weighted *w,
                                   const fw_chance_subset *s) {
     if (!points->count) return "no design point was found";
@@ -195,6 +213,7 @@ static const char *why_not_points(const fw_chance_points *points, const fw_chanc
     if (fw_chance_weighted_effective(w) < fmin(EFFECTIVE, even))
         return "the failures met around the design points have uneven weights";
     fw_chance_estimate here, there;
+    if (!s) return NULL;
     fw_chance_weighted_result(w, SURE, &here);
     fw_chance_subset_result(s, SURE, &there);
     if (here.high < there.low || here.low > there.high)
@@ -217,8 +236,10 @@ static fw_status explore(fw_chance_run *run, rare *r) {
     FW_TRY(subsets_start(run, part(run, OF_EXPLORED), EXPLORED, s));
     FW_TRY(subsets(run, stop - run->used, 1, s));
     r->flat = s->stuck > 0;
-    if (r->flat) return FW_OK;
-    FW_TRY(subsets(run, stop - run->used, EXPLORED - 1, s));
+    if (r->flat)
+        s->failing = 0; /* of it the inputs are followed alone */
+    else
+        FW_TRY(subsets(run, stop - run->used, EXPLORED - 1, s));
     FW_TRY(fw_chance_points_find(run, part(run, OF_POINTS), s, &r->points));
     fw_chance_weighted_start(&r->points, &r->weighted);
     size_t tried = TRIED < part(run, OF_PILOT) ? TRIED : part(run, OF_PILOT);
@@ -231,7 +252,7 @@ static fw_status go_on(fw_chance_run *run, rare *r, bool around_points, fw_chanc
     if (around_points) {
         out->method = FW_CHANCE_IMPORTANCE;
         FW_TRY(weighted_to_the_end(run, &r->weighted, out));
-        FW_NEED(out->caution = caution_of(run->arena, &r->weighted, r->first, run->level));
+        FW_NEED(out->caution = caution_of(run, &r->weighted, r->first, out));
         return FW_OK;
     }
     out->method = FW_CHANCE_SUBSET;
@@ -282,11 +303,19 @@ static fw_status automatic(fw_chance_run *run, fw_chance_estimate *out) {
     if (because) return counted(run, because, out);
     FW_TRY(explore(run, &r));
     r.first = count.failed + count.unevaluated > 0 ? 0 : count.points;
-    if (r.flat)
+    if (r.flat && !r.points.count)
         return counted(run, "the limit state shows no way towards a failure: there is but counting",
                        out);
-    const char *why_not = why_not_points(&r.points, &r.weighted, &r.subset);
-    if (!why_not) because = "subset simulation agrees with what design points say";
+    const char *why_not = why_not_points(&r.points, &r.weighted, r.flat ? NULL : &r.subset);
+    if (r.flat && why_not)
+        return counted(run,
+                       "subset simulation finds no way towards a failure, and there are others "
+                       "than those along one input: there is but counting",
+                       out);
+    if (!why_not)
+        because = r.flat ? "where subset simulation finds no way inputs that were followed one by "
+                           "one lead to failures"
+                         : "subset simulation agrees with what design points say";
     FW_NEED(out->reason = fw_arena_printf(
                 run->arena, "%zu of the first %zu points fail, which is too rare to count, and %s",
                 count.failed, count.points, why_not ? why_not : because));

@@ -223,12 +223,13 @@ enum { FW_CHANCE_POINTS_MOST = 16 };
 
 typedef struct fw_chance_points {
     bool origin_fails;
+    bool followed; /* each input was, both ways (importance.c, follow_all) */
     size_t count;
     fw_chance_design_point *point; /* (FW_CHANCE_POINTS_MOST), nearest first */
 } fw_chance_points;
 
-/* from the origin and from those of the points that subset simulation kept which lie beyond none of the points found before,
-   in at most `budget` evaluations */
+/* from the origin, from where the limit is met along each input to either side, from those of the points that subset
+   simulation kept which lie beyond none of the points found before, and from opposite sides, in at most `budget` evaluations */
 fw_status fw_chance_points_find(fw_chance_run *run, size_t budget, const fw_chance_subset *from,
                                 fw_chance_points *out);
 
@@ -244,6 +245,7 @@ typedef struct fw_chance_weighted {
     double sum[2], square[2], most[2];
 } fw_chance_weighted;
 
+extern const double fw_chance_weighted_own; /* share of the inputs' own density */
 void fw_chance_weighted_start(const fw_chance_points *points, fw_chance_weighted *out);
 /* chooses: the method is chosen by these */
 fw_status fw_chance_weighted_draw(fw_chance_run *run, size_t samples, bool chooses,

@@ -16,12 +16,14 @@ enum { ITERATIONS = 40, STEPS = 6 };
     0.01 /* of the distance from the origin: how far off the ray of the gradient a point may lie */
 #define SMALL 1e-3 /* of g at the origin: where g counts as 0 */
 #define FAR   20.0 /* beyond it there is no probability worth the name: 1e-89 */
+enum { EDGE = 8 }; /* inputs are followed so far either way: beyond it 6e-16 of them lie */
 
 typedef struct search {
     fw_chance_run *run;
     size_t n, stop;                       /* the evaluation at which to end */
     double scale;                         /* |g| at the origin */
     double *u, *gradient, *point, *value; /* (n), (n), (max(n, STEPS) x n) and their values */
+    double *ray;                          /* points along a way, and their values */
     double g;
 } search;
 
@@ -36,7 +38,8 @@ static bool affordable(const search *s, size_t count) {
     return s->run->used + count <= s->stop;
 }
 
-/* forward differences; false: not finite, or 0 */
+/* Forward differences; false: not finite, or no slope: all the way to FAR g would not change by a thousandth of what it is,
+   and what its last digits do leads nowhere. */
 static fw_status differences(search *s, bool *good) {
     size_t n = s->n;
     for (size_t i = 0; i < n; i++) {
@@ -47,7 +50,7 @@ static fw_status differences(search *s, bool *good) {
     for (size_t i = 0; i < n; i++)
         s->gradient[i] = (s->value[i] - s->g) / DIFFERENCE;
     double square = dot(n, s->gradient, s->gradient);
-    *good = isfinite(square) && square > 0;
+    *good = isfinite(square) && sqrt(square) * FAR > SMALL * fmax(fabs(s->g), s->scale);
     return FW_OK;
 }
 
@@ -56,12 +59,15 @@ static double merit(double square, double c, double g) {
 }
 
 /* The step d to the nearest point of the linearised limit, or the longest of 1, 1/2 .. 1/32 of it that lowers the merit
-   |u|^2/2 + c |g| enough; all are evaluated in one batch. false: none lowers it. */
+   |u|^2/2 + c |g| enough; all are evaluated in one batch. false: none lowers it. Where that point is farther than FAR the
+   step goes along its ray to there: no answer lies beyond, and values of inputs may be none (a lognormal one is above any
+   number from some hundreds of deviations on). */
 static fw_status step(search *s, bool *moved) {
     size_t n = s->n;
     double square = dot(n, s->gradient, s->gradient),
            along = (dot(n, s->gradient, s->u) - s->g) / square;
-    double *next = s->point;
+    double *next = s->point, far = fabs(along) * sqrt(square);
+    if (far > FAR) along *= FAR / far;
     for (int k = 0; k < STEPS; k++)
         for (size_t i = 0; i < n; i++)
             next[(size_t)k * n + i] = s->u[i] + ldexp(along * s->gradient[i] - s->u[i], -k);
@@ -146,9 +152,139 @@ static fw_status keep(const search *s, fw_chance_points *out) {
 static bool explained(const fw_chance_points *points, size_t n, const double *u, double reach) {
     for (size_t k = 0; k < points->count; k++) {
         const double beta = fabs(points->point[k].beta), far = reach > 0 ? fmin(beta, reach) : beta;
-        if (-dot(n, points->point[k].alpha, u) >= 0.9 * far) return true;
+        const double along = dot(n, points->point[k].alpha, u);
+        if ((points->origin_fails ? along : -along) >= 0.9 * far) return true;
     }
     return false;
+}
+
+/* ---- both ways along each input ---- */
+
+/* g at 0 < r <= EDGE along `way` (n): the first r, of steps that are evaluated at once, on whose side of the limit the origin
+   is not, and the last one before it. *found false: there is none. */
+static fw_status first_beyond(search *s, const fw_chance_points *out, const double *way, int steps,
+                              double bracket[2], bool *found) {
+    double *at = s->ray, *value = s->ray + (size_t)steps * s->n;
+    for (int k = 0; k < steps; k++)
+        for (size_t i = 0; i < s->n; i++)
+            at[(size_t)k * s->n + i] = (double)EDGE * (k + 1) / steps * way[i];
+    FW_TRY(fw_chance_evaluate(s->run, (size_t)steps, at, value));
+    *found = false, bracket[0] = 0;
+    for (int k = 0; k < steps && !*found; k++) {
+        if (isnan(value[k])) continue;
+        *found = (value[k] <= 0) != out->origin_fails;
+        bracket[*found] = (double)EDGE * (k + 1) / steps;
+    }
+    return FW_OK;
+}
+
+/* s->u: where along `way` the limit lies, between the two of the bracket, to 1/HALVINGS^2 of them */
+enum { HALVINGS = 10 };
+static fw_status halve(search *s, const fw_chance_points *out, const double *way,
+                       double bracket[2]) {
+    for (int k = 0; k < HALVINGS; k++) {
+        const double middle = 0.5 * (bracket[0] + bracket[1]);
+        double g;
+        for (size_t i = 0; i < s->n; i++)
+            s->point[i] = middle * way[i];
+        FW_TRY(fw_chance_evaluate(s->run, 1, s->point, &g));
+        bracket[!isnan(g) && (g <= 0) != out->origin_fails] = middle;
+    }
+    for (size_t i = 0; i < s->n; i++)
+        s->u[i] = bracket[1] * way[i];
+    return FW_OK;
+}
+
+/* Is the point of the search, which was found, nearest of those about it? Along an axis of symmetry it may be the farthest:
+   then the origin's side of the limit ends nearer than it beside it, and s->u goes there. */
+static fw_status is_nearest(search *s, const fw_chance_points *out, bool *nearest) {
+    const double length = sqrt(dot(s->n, s->u, s->u)), aside = 0.25 * length;
+    *nearest = true;
+    for (int side = -1; side < 2 && *nearest; side += 2) {
+        for (size_t i = 0; i < s->n; i++) {
+            double *at = s->point + i * s->n;
+            memcpy(at, s->u, s->n * sizeof *at);
+            at[i] += side * aside;
+            const double scale = length / sqrt(dot(s->n, at, at));
+            for (size_t d = 0; d < s->n; d++)
+                at[d] *= scale;
+        }
+        FW_TRY(fw_chance_evaluate(s->run, s->n, s->point, s->value));
+        for (size_t i = 0; i < s->n && *nearest; i++) {
+            const double beyond = out->origin_fails ? s->value[i] : -s->value[i];
+            *nearest = !(beyond > 5 * SMALL * s->scale);
+            if (!*nearest) memcpy(s->u, s->point + i * s->n, s->n * sizeof *s->u);
+        }
+    }
+    return FW_OK;
+}
+
+/* Where the limit is met along `way` a search begins, unless a design point explains that it is. Of one input the place
+   itself is the design point; of several it stands for one that the search does not end at, where g has a slope. */
+static fw_status follow(search *s, const double *way, int steps, fw_chance_points *out) {
+    const size_t n = s->n;
+    double bracket[2];
+    bool beyond, good = true, found = false;
+    FW_TRY(first_beyond(s, out, way, steps, bracket, &beyond));
+    if (!beyond || !affordable(s, HALVINGS)) return FW_OK;
+    FW_TRY(halve(s, out, way, bracket));
+    double *met = s->ray;
+    memcpy(met, s->u, n * sizeof *met);
+    if (n > 1) {
+        bool nearest;
+        if (explained(out, n, met, 0) || !affordable(s, 3 * (n + STEPS))) return FW_OK;
+        FW_TRY(iterate(s, &found));
+        if (!found) memcpy(s->u, met, n * sizeof *met);
+        if (!affordable(s, 4 * n + STEPS)) return found ? keep(s, out) : FW_OK;
+        FW_TRY(is_nearest(s, out, &nearest));
+        if (!nearest) FW_TRY(iterate(s, &found));
+        if (found || !nearest) return found ? keep(s, out) : FW_OK;
+        FW_TRY(fw_chance_evaluate(s->run, 1, s->u, &s->g));
+        FW_TRY(differences(s, &good));
+    }
+    for (size_t i = 0; i < n; i++)
+        s->gradient[i] = out->origin_fails ? way[i] : -way[i];
+    return good ? keep(s, out) : FW_OK;
+}
+
+/* how closely a way is looked at, and how many ways there are: of one input all that it may be, of two around the origin, of
+   more both ways along each */
+typedef struct ways {
+    int steps;
+    size_t count;
+} ways;
+
+static ways ways_of(size_t n) {
+    if (n == 1) return (ways){4 * EDGE, 2};
+    return n == 2 ? (ways){EDGE, 16} : (ways){EDGE, 2 * n};
+}
+
+static void way_of(size_t n, size_t k, double *way) {
+    memset(way, 0, n * sizeof *way);
+    if (n == 2) {
+        const double turned = 0.3926990816987241 * (double)k; /* pi/8 */
+        way[0] = cos(turned), way[1] = sin(turned);
+    } else {
+        way[k / 2] = k % 2 ? -1 : 1;
+    }
+}
+
+/* Regions of failure on both sides of an input are both found, however much rarer the one is: what fails along an input is met
+   at EDGE steps. out->followed false: the budget does not allow it. Cost: EDGE evaluations for each way, 2 n ways; 80 of one
+   input. Test: test_design_point.c, both_sides */
+static fw_status follow_all(search *s, fw_chance_points *out) {
+    const ways all = ways_of(s->n);
+    double *way = fw_arena_array(s->run->arena, double, s->n);
+    FW_NEED(way);
+    FW_NEED(s->ray = fw_arena_array(s->run->arena, double, (size_t)all.steps *(s->n + 1)));
+    out->followed = affordable(s, all.count * (size_t)all.steps);
+    for (size_t k = 0; k < all.count && out->followed; k++) {
+        out->followed = affordable(s, (size_t)all.steps);
+        if (!out->followed) return FW_OK;
+        way_of(s->n, k, way);
+        FW_TRY(follow(s, way, all.steps, out));
+    }
+    return FW_OK;
 }
 
 static int nearer(const void *a, const void *b) {
@@ -157,44 +293,52 @@ static int nearer(const void *a, const void *b) {
     return (one > other) - (one < other);
 }
 
+static fw_status search_new(fw_chance_run *run, size_t budget, search *s) {
+    const size_t n = run->limit->dimensions, rows = n > STEPS ? n : STEPS;
+    *s = (search){.run = run, .n = n, .stop = run->used + budget};
+    FW_NEED(s->u = fw_arena_array(run->arena, double, n));
+    FW_NEED(s->gradient = fw_arena_array(run->arena, double, n));
+    FW_NEED(s->point = fw_arena_array(run->arena, double, rows *n));
+    FW_NEED(s->value = fw_arena_array(run->arena, double, rows));
+    return FW_OK;
+}
+
+/* from times * start (n) */
+static fw_status search_from(search *s, double times, const double *start, fw_chance_points *out) {
+    bool found;
+    for (size_t i = 0; i < s->n; i++)
+        s->u[i] = times * start[i];
+    FW_TRY(iterate(s, &found));
+    return found ? keep(s, out) : FW_OK;
+}
+
 fw_status fw_chance_points_find(fw_chance_run *run, size_t budget, const fw_chance_subset *from,
                                 fw_chance_points *out) {
-    size_t n = run->limit->dimensions, rows = n > STEPS ? n : STEPS;
-    search s = {.run = run, .n = n, .stop = run->used + budget};
+    const size_t n = run->limit->dimensions, one = n + STEPS + 1;
+    search s;
     *out = (fw_chance_points){.count = 0};
-    FW_NEED(s.u = fw_arena_array(run->arena, double, n));
-    FW_NEED(s.gradient = fw_arena_array(run->arena, double, n));
-    FW_NEED(s.point = fw_arena_array(run->arena, double, rows *n));
-    FW_NEED(s.value = fw_arena_array(run->arena, double, rows));
+    FW_TRY(search_new(run, budget, &s));
     FW_NEED(out->point = fw_arena_array(run->arena, fw_chance_design_point, FW_CHANCE_POINTS_MOST));
     if (!budget) return FW_OK;
     FW_TRY(fw_chance_evaluate(run, 1, s.u, &s.g));
     out->origin_fails = s.g <= 0;
     s.scale = fmax(fabs(s.g), DBL_MIN);
-    for (size_t i = 0; i <= from->failing && affordable(&s, n + STEPS + 1); i++) {
-        const double *start = i ? from->failed + (i - 1) * n : NULL;
-        if (start && explained(out, n, start, from->reach)) continue;
-        memset(s.u, 0, n * sizeof *s.u);
-        if (start) memcpy(s.u, start, n * sizeof *start);
-        bool found;
-        FW_TRY(iterate(&s, &found));
-        if (found) FW_TRY(keep(&s, out));
-    }
-    size_t mirrored = out->count; /* what fails on one side may fail on the other, too */
-    for (size_t k = 0; k < mirrored && affordable(&s, n + STEPS + 1); k++) {
-        for (size_t i = 0; i < n; i++)
-            s.u[i] = -out->point[k].u[i];
-        bool found;
-        FW_TRY(iterate(&s, &found));
-        if (found) FW_TRY(keep(&s, out));
-    }
+    if (affordable(&s, one)) FW_TRY(search_from(&s, 0, s.point, out));
+    FW_TRY(follow_all(&s, out));
+    for (size_t i = 0; i < from->failing && affordable(&s, one); i++)
+        if (!explained(out, n, from->failed + i * n, from->reach))
+            FW_TRY(search_from(&s, 1, from->failed + i * n, out));
+    const size_t mirrored = out->count; /* what fails on one side may fail on the other, too */
+    for (size_t k = 0; k < mirrored && affordable(&s, one); k++)
+        FW_TRY(search_from(&s, -1, out->point[k].u, out));
     qsort(out->point, out->count, sizeof *out->point, nearer);
     return FW_OK;
 }
 
 /* ---- samples around them ---- */
 
-#define OWN   0.1  /* share of the inputs' own density: no weight is above its inverse */
+#define OWN 0.1 /* share of the inputs' own density: no weight is above its inverse */
+const double fw_chance_weighted_own = OWN;
 #define LEAST 0.05 /* share of a design point before all are scaled to a sum of 1 */
 
 void fw_chance_weighted_start(const fw_chance_points *points, fw_chance_weighted *out) {

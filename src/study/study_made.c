@@ -24,6 +24,13 @@ typedef struct batch {
 static const fw_verdict_made nothing_known = {
     .ln = (double)NAN, .low = (double)NAN, .high = (double)NAN};
 
+/* far enough out a distribution has values that no number can have: that device is not judged */
+static fw_status not_a_number(fw_arena *arena, const char *what, fw_verdict_made *made) {
+    *made = nothing_known;
+    FW_NEED(made->why = fw_arena_printf(arena, "%s would be beyond all numbers", what));
+    return FW_OK;
+}
+
 /* with settings of its own: the description read again and judged as drawn, then as made */
 static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, const double *x,
                                 fw_verdict_made *made) {
@@ -43,8 +50,10 @@ static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, con
         char *text = fw_arena_array(arena, char, FW_STUDY_TEXT);
         double shown;
         FW_NEED(text);
-        FW_TRY(fw_study_input_write(&study->input[study->nvary + k], x[y->ninput + k], 12, text,
-                                    &shown));
+        const fw_study_input *in = &study->input[study->nvary + k];
+        if (!isfinite(fw_quantity_unit_from_si(&in->unit, x[y->ninput + k])))
+            return not_a_number(arena, in->what, made);
+        FW_TRY(fw_study_input_write(in, x[y->ninput + k], 12, text, &shown));
         set[before + k] = (fw_device_set){study->input[study->nvary + k].what, text};
     }
     *made = nothing_known;

@@ -104,6 +104,69 @@ static void lognormal(void **state) {
     covered(&quotient, 8);
 }
 
+/* ---- few inputs, and failures on more than one side ---- */
+
+/* of one table, one in ten of what fails lies below; and a lognormal load that has to come to three times its mean, below
+   which another check holds the device at the same share whatever the load is */
+static const double table_x[] = {-1.5, -1.3, 1.39, 1.6}, table_p[] = {0, 2e-5, 0.9999, 1};
+static const fw_chance_variable one_table[] = {
+    {.name = "m",
+     .level = FW_CHANCE_DIE,
+     .distribution = {.kind = FW_CHANCE_TABLE, .count = 4, .x = table_x, .p = table_p}},
+    {.name = "p",
+     .level = FW_CHANCE_DIE,
+     .distribution = {.kind = FW_CHANCE_LOGNORMAL, .mean = 1, .sd = 0.3}}};
+static const double table_fails = 1e-4 * 0.2 / 0.21 + 1e-5;
+
+static double limit_table(const limit_state *l, const double *u) {
+    return -log(
+        fmax(fabs(fw_chance_distribution_value(&one_table[0].distribution, u[0])) / l->b, 1e-3));
+}
+static double load(double u) {
+    const double p = fw_chance_distribution_value(&one_table[1].distribution, u);
+    assert_true(isfinite(p)); /* nobody looks where an input has no value */
+    return p / 3;
+}
+static double limit_load(const limit_state *l, const double *u) {
+    /* the check that holds it is as good as its last digits */
+    return -log(fmax(l->b * (1 + 1e-14 * sin(1e5 * u[0])), load(u[0])));
+}
+static double limit_both(const limit_state *l, const double *u) {
+    return fmin(limit_table(l, u), -log(load(u[1])));
+}
+/* and with a third input that does nothing, the first is normal: fails below -4 and above 3.5 */
+static double limit_three(const limit_state *l, const double *u) {
+    return fmin(fmin(l->b - u[0], l->b + 0.5 + u[0]) / 4, -log(load(u[1]))) + 0 * u[2];
+}
+
+static void both_sides(void **state) {
+    (void)state;
+    const double fails = fw_maths_normal_cdf(-(log(3) - log(1 / sqrt(1.09))) / sqrt(log(1.09)));
+    limit_state of[] = {
+        {.name = "table", .dimensions = 1, .g = limit_table, .b = 1.4, .truth = table_fails},
+        {.name = "load", .dimensions = 1, .g = limit_load, .b = 0.714, .truth = fails},
+        {.name = "table and load",
+         .dimensions = 2,
+         .g = limit_both,
+         .b = 1.4,
+         .truth = 1 - (1 - table_fails) * (1 - fails)},
+        {.name = "two sides and load",
+         .dimensions = 3,
+         .g = limit_three,
+         .b = 3.5,
+         .truth = 1 - (1 - fw_maths_normal_cdf(-3.5) - fw_maths_normal_cdf(-4)) * (1 - fails)}};
+    for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
+        double width;
+        limit_coverage(&of[i], (fw_chance_options){.method = FW_CHANCE_AUTO, .budget = 4000},
+                       test_cases(200, 40), &width);
+        assert_true(width < 0.25);
+        const fw_chance_estimate e =
+            limit_estimate(&of[i], (fw_chance_options){.seed = 1, .budget = 4000});
+        assert_non_null(strstr(e.caution, of[i].dimensions == 1 ? "the one input was followed"
+                                                                : "points would meet it"));
+    }
+}
+
 static void chosen(size_t which, fw_chance_method method, const char *says) {
     fw_chance_estimate e = limit_estimate(&limit_states[which], (fw_chance_options){.seed = 2});
     assert_int_equal(e.method, method);
@@ -264,9 +327,9 @@ static void apart(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(closed_forms), cmocka_unit_test(correlated),
-                                       cmocka_unit_test(lognormal),    cmocka_unit_test(reasons),
-                                       cmocka_unit_test(points),       cmocka_unit_test(far),
-                                       cmocka_unit_test(unmet),        cmocka_unit_test(apart)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_forms), cmocka_unit_test(correlated), cmocka_unit_test(lognormal),
+        cmocka_unit_test(both_sides),   cmocka_unit_test(reasons),    cmocka_unit_test(points),
+        cmocka_unit_test(far),          cmocka_unit_test(unmet),      cmocka_unit_test(apart)};
     return cmocka_run_group_tests(tests, open_arena, close_arena);
 }
