@@ -55,7 +55,13 @@ static bool has_reason(const fw_verdict *v, fw_verdict_decision decision) {
     return false;
 }
 
-/* Where something else than a hinge decides, hinges are of what could be run. One that is rejected as
+/* less than is told of it, whichever end of its band is taken */
+static bool bears_nothing(const fw_verdict_check *c) {
+    return c->decision == FW_ACCEPT && c->used < 5e-4 && c->high < 5e-4;
+}
+
+/* A hinge that bears nothing is no news where a requirement governs. Where something else than a hinge decides, hinges are of
+   what could be run. One that is rejected as
    drawn, beside other reasons, is one of them; as made it stands among them already (FW-D237). */
 static fw_status hinges(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     const char *text;
@@ -63,6 +69,7 @@ static fw_status hinges(fw_arena *arena, const fw_verdict *v, fw_report_summary 
     const fw_verdict_check *worst = s->has_made ? &s->made : &s->drawn;
     bool alone = s->has_drawn && fw_verdict_is_worse(s->decision, worst->decision);
     if (!s->has_drawn) return add(s, "hinges", "none was run to the end of any scene");
+    if (s->governing.requirement && bears_nothing(worst) && bears_nothing(&s->drawn)) return FW_OK;
     if (s->has_made) {
         FW_TRY(check_text(arena, &s->made, &text));
         FW_TRY(add(s, alone ? "hinges alone, as made" : "as made, at the worst corner run", text));
@@ -76,7 +83,7 @@ static fw_status hinges(fw_arena *arena, const fw_verdict *v, fw_report_summary 
 }
 
 /* the requirement that is nearest to its bound; one that speaks against the device is among the
-   reasons already. Where it governs, no hinge uses as much of its limit: the line before is not what governs */
+   reasons already. Where it governs, no hinge uses as much of its limit */
 static fw_status required(fw_arena *arena, const fw_verdict *v, fw_report_summary *s) {
     fw_verdict_check tightest;
     const char *text;
@@ -364,10 +371,13 @@ fw_status fw_report_summarise(fw_arena *arena, const fw_report_input *in, fw_rep
         v->decision == FW_REJECT; /* what rejects comes before what is not known */
     FW_TRY(reasons_of(arena, v, FW_REJECT, "rejected because", s));
     if (!rejected) FW_TRY(undecided(arena, v, s));
+    const bool first =
+        s->governing.requirement != NULL; /* what governs is told before the others */
+    if (first) FW_TRY(required(arena, v, s));
     FW_TRY(hinges(arena, v, s));
     FW_TRY(advice(arena, v, in->layout && in->layout->nfault > 0, s));
     if (rejected) FW_TRY(undecided(arena, v, s));
-    FW_TRY(required(arena, v, s));
+    if (!first) FW_TRY(required(arena, v, s));
     FW_TRY(nearest(arena, v, s));
     FW_TRY(ends_early(arena, v, s));
     FW_TRY(outside(arena, in, s));

@@ -546,10 +546,11 @@ double fw_verdict_requirements_enough(const fw_verdict_requirement *requirement,
 
 /* ---- what a requirement lacks, in words ---- */
 
+/* Of two bounds the one that it may be beyond, else the one of which more is used */
 bool fw_verdict_requirement_below(const fw_verdict_requirement *r) {
-    bool under = r->low<r->min, over = r->high> r->max;
-    if (under && over) return r->value - r->min < r->max - r->value;
-    return under || (!over && !isnan(r->min));
+    bool under = fmin(r->low, r->all_low)<r->min, over = fmax(r->high, r->all_high)> r->max;
+    if (isnan(r->min) || isnan(r->max)) return isnan(r->max);
+    return under != over ? under : !r->by_max;
 }
 
 const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requirement *r) {
@@ -559,9 +560,7 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
     fw_probe_text(bound, below ? r->min : r->max, r->unit);
     if (r->why)
         return fw_arena_printf(arena, "what is required of %s (%s, at %s %s) is not known: %s",
-                               r->probe, of, isnan(r->min) ? "most" : "least",
-                               fw_probe_text(bound, isnan(r->min) ? r->max : r->min, r->unit),
-                               r->why);
+                               r->probe, of, below ? "least" : "most", bound, r->why);
     if (r->open && r->decision != FW_REJECT)
         return fw_arena_printf(arena,
                                "%s (%s) is %s, and at %s %s is required, but what that may be off "

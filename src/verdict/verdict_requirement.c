@@ -129,18 +129,18 @@ static double share_of(double bound, double value) {
 
 /* The larger share of both bounds. Of a bound above 0 the reference is 0, else the value as drawn. A max is a min turned. */
 static void use(fw_verdict_requirement *r) {
-    double u[3] = {(double)NAN, (double)NAN, (double)NAN};
+    double u[3];
     const double x[3] = {r->value, r->high, r->low}, y[3] = {r->value, r->low, r->high};
     const double least = r->min > 0 ? 0 : r->origin, most = r->max > 0 ? 0 : r->origin;
     for (int i = 0; i < 3; i++)
         u[i] = fmax(share_of(r->min - least, x[i] - least), share_of(most - r->max, most - y[i]));
     r->utilisation = u[0], r->utilisation_low = u[1], r->utilisation_high = u[2];
+    r->by_max = !(share_of(r->min - least, r->value - least) >= u[0]);
 }
 
 static void decide(fw_verdict_requirement *r) {
     r->why = NULL;
     r->margin = fmin(r->value - r->min, r->max - r->value); /* passes by NaN */
-    if (isnan(r->margin)) r->margin = isnan(r->min) ? r->max - r->value : r->value - r->min;
     use(r);
     if (r->high < r->min || r->low > r->max)
         r->decision = FW_REJECT;
