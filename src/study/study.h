@@ -268,6 +268,13 @@ typedef struct fw_study_store fw_study_store;
    of this study (FW-D495); else one that is there is begun anew, and anything that is no store of ours is left
    alone (FW-D496). */
 fw_status fw_study_store_open(fw_study *study, fw_study_store **store);
+/* Before a store that holds samples is begun anew: those of another study, or of another device, stay and the study ends
+   (FW-D743); how many of this one go, of which there are no results yet, is told (FW-D745). Test: tests/cli/test_study.py */
+struct sqlite3;
+fw_status fw_study_gives_up(fw_study *study,
+                            const char *(*says)(fw_arena *arena, struct sqlite3 *db,
+                                                const char *key),
+                            struct sqlite3 *db, long held);
 /* commits what is open; NULL allowed */
 void fw_study_store_close(fw_study_store *store);
 /* FW_IO: FW-D496, and what was added before is whole */

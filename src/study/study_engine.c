@@ -10,6 +10,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
+#include <unistd.h>
 #include <time.h>
 
 /* files may change while a study runs: looked at this often, which costs a hundredth */
@@ -560,5 +561,32 @@ fw_status fw_study_difference(fw_study *study, fw_study_says *says, struct sqlit
                         "samples of the study)");
     FW_TRY(fw_text_end(&t));
     *words = t.data;
+    return FW_OK;
+}
+
+fw_status fw_study_gives_up(fw_study *study,
+                            const char *(*says)(fw_arena *arena, struct sqlite3 *store,
+                                                const char *key),
+                            struct sqlite3 *store, long held) {
+    const char *name = says(study->arena, store, "study"),
+               *device = says(study->arena, store, "device"),
+               *hash = says(study->arena, store, "hash"),
+               *path = fw_arena_printf(study->arena, "%s/study.json", study->options.output);
+    const bool same = hash && strcmp(hash, study->hash) == 0;
+    const fw_place place = {.file = study->options.output};
+    FW_NEED(path);
+    if (!name || !device) return FW_OK; /* it was not begun */
+    if (strcmp(name, study->asked->name) != 0 || strcmp(device, study->device_name) != 0)
+        return fw_diag_error(&study->diags, 743, place,
+                             "it holds %ld samples of study '%s' of %s, and this is study '%s' of "
+                             "%s: name another directory with -o, or remove it",
+                             held, name, device, study->asked->name, study->device_name);
+    if (access(path, F_OK) == 0) return FW_OK; /* it came to its results, which are replaced */
+    fw_diag_warning(&study->diags, 745, place,
+                    "the %ld samples of study '%s' that a run before this one left here are "
+                    "given up, and all is judged anew: %s",
+                    held, name,
+                    same ? "--resume would have gone on with them"
+                         : "they are of other inputs or options, or another version");
     return FW_OK;
 }

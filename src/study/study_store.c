@@ -326,10 +326,15 @@ static fw_status open_file(fw_study_store *store, bool resume) {
             return fw_diag_error(&store->study->diags, 496, (fw_place){.file = store->path},
                                  "there is a file of this name that is no store of a study; name "
                                  "another directory with -o");
+        const long held = ours && !resume ? fw_study_store_count(store) : 0;
+        fw_status status =
+            held > 0 ? fw_study_gives_up(store->study, fw_study_store_says, store->db, held)
+                     : FW_OK;
         if (!resume) {
             sqlite3_close(store->db);
             store->db = NULL;
         }
+        FW_TRY(status);
     } else {
         resume = false;
     }

@@ -119,8 +119,8 @@ static void about(const fw_study *study, fw_text *out, double devices) {
     fw_text_add(out, ", about ");
     seconds(out, (study->seconds_each * (devices - tight) + study->seconds_tight * tight) /
                      fw_study_jobs(study));
-    if (study->asked->kind == FW_STUDY_IS_size)
-        fw_text_add(out, " to four times that, as the search comes near limits");
+    if (study->asked->kind == FW_STUDY_IS_size || study->asked->kind == FW_STUDY_IS_worst_case)
+        fw_text_add(out, " to four times that, as devices near limits take longer");
 }
 
 static void say_inside(const fw_study *study, fw_text *out, long n) {
