@@ -141,17 +141,16 @@ static fw_status plan_of_yield(const fw_study *study, fw_text *out) {
         seconds(out, study->seconds_each);
         fw_text_add(out, ")");
     }
-    fw_text_printf(
-        out,
-        "\n  %ld estimates of at most %ld devices: as computed, and with the limit moved "
-        "either way by what the model may be off by%s; one that merely counts takes %ld, "
-        "16 times a power of two\n",
-        study->estimates, fw_study_count(study),
-        study->inside > 0      ? ", of each flow and at each corner of what is only assumed, "
-                                 "and inside where its ends may not be enough"
-        : study->estimates > 3 ? ", of each flow"
-                               : "",
-        study->counted);
+    fw_text_printf(out,
+                   "\n  %ld estimates of at most %ld devices: as computed, and with every check at "
+                   "either end of its band%s; one that merely counts takes %ld, "
+                   "16 times a power of two\n",
+                   study->estimates, fw_study_count(study),
+                   study->inside > 0 ? ", of each flow and at each corner of what is only assumed, "
+                                       "and inside where its ends may not be enough"
+                   : study->estimates > 3 ? ", of each flow"
+                                          : "",
+                   study->counted);
     return fw_text_end(out);
 }
 

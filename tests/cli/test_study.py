@@ -300,6 +300,26 @@ class Study(unittest.TestCase):
         self.assertIn("FW-D496", done.stderr)
         self.assertEqual((self.place / "mine/study.sqlite").read_text(), "notes")
 
+    def test_samples_are_given_up_with_a_word_and_those_of_another_study_not_at_all(self):
+        path = self.write(study("s", "sweep", SWEEP).replace("<study", '<study as="drawn"'))
+        part = lambda path, *more: run("study", path, "-o", self.place / "part", *FLOW, *more)
+        self.assertEqual(part(path, "--shard", "1/2").stderr, "")
+        with contextlib.closing(sqlite3.connect(self.place / "part/study.sqlite")) as db:
+            held = db.execute("SELECT count(*) FROM sample").fetchone()[0]
+        self.assertGreater(held, 0)
+        again = part(path, "--shard", "1/2")
+        self.assertRegex(again.stderr, r"the %d samples of study 's' .* --resume would have gone on with them \[FW-D745\]" % held)
+        again = part(path, "--accuracy", "2e-3")
+        self.assertRegex(again.stderr, r"the %d samples of study 's' .* of other inputs or options.* \[FW-D745\]" % held)
+        self.assertEqual(again.returncode, 0)
+        self.assertEqual(part(path).stderr, "")  # its results are there, and come again
+        other = self.write(study("t", "sweep", SWEEP).replace("<study", '<study as="drawn"'), "other.xml")
+        before = self.bytes_of("part")
+        done = part(other)
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"it holds \d+ samples of study 's' .* and this is study 't' .*\[FW-D743\]")
+        self.assertEqual(self.bytes_of("part"), before)
+
     def test_what_cannot_be_kept_is_said_and_nothing_is_torn(self):
         path = self.write(study("s", "sweep", SWEEP.replace('steps="4"', 'steps="40"')).replace(
             "<study", '<study as="drawn"'))
@@ -697,6 +717,30 @@ class Study(unittest.TestCase):
         self.assertGreater(len(lost), 0)
         self.assertTrue(all("pulls in at" in r["why"] for r in lost), lost)
         self.assertTrue(all(r["why"] == "" for r in rows if r["state"] != "failed"))
+
+    def test_a_yield_has_the_band_of_what_governs(self):
+        """all dies are within what is required by less than its band: that they hold is not known, whatever hinges bear"""
+        path = pathlib.Path(__file__).parents[1] / "data/turned-by-a-moment.xml"
+        row = '<uncertain what="mo" mean="1.385 uN mm" sd="0.003 uN mm"/>'
+        file = self.write(study("y", "yield", row, path, samples=200))
+        found = self.run_study(file, "band")["yields"][0]
+        self.assertGreater(found["sampling_interval"][0], 0.9)
+        self.assertEqual(found["yield_range"], [0, 1])
+        self.assertGreater(found["model_band"], 1.05)
+        judged = json.loads(run("check", path, "--set", "mo=1.385 uN mm", "--json").stdout)
+        self.assertEqual(judged["verdict"], "inconclusive")
+
+    @only_all
+    def test_a_load_that_no_check_follows_up_to_its_limit(self):
+        """another check holds most dies at the same share: searches have no slope there, and go nowhere where inputs overflow"""
+        path = pathlib.Path(__file__).parents[1] / "data/turned-by-a-moment.xml"
+        row = '<uncertain what="pp" spread="lognormal" mean="1 uN" sd="0.3 uN"/>'
+        found = self.run_study(self.write(study("y", "yield", row, path, samples=3000, seed=2)), "load")["yields"][0]
+        s = math.sqrt(math.log(1.09))
+        fails = 0.5 * math.erfc((math.log(3) + s * s / 2) / s / math.sqrt(2))
+        least, most = found["sampling_interval"]
+        self.assertTrue(1 - most <= 1.02 * fails and 0.98 * fails <= 1 - least, (fails, found))
+        self.assertLess(most - least, fails)
 
     @only_all
     def test_a_yield_of_one_uncertain_load_is_that_of_its_limit(self):

@@ -146,12 +146,40 @@ static void pull_in_is_by_value(void **state) {
     fw_plan_free(plan);
 }
 
+/* each check has its own band: that of what is required, which governs, and not that of a hinge that bears nothing */
+static void a_requirement_is_as_far_off_as_it_is(void **state) {
+    (void)state;
+    fw_plan_options options = fw_plan_options_default();
+    options.data_directory = FW_TEST_SOURCE_DIR;
+    options.verdict.with_advice = false;
+    options.measurements = FW_MEASUREMENTS_NONE;
+    fw_plan *plan = fw_plan_new(&options);
+    assert_non_null(plan);
+    assert_int_equal(fw_plan_load(plan, FW_TEST_SOURCE_DIR "/tests/data/turned-by-a-moment.xml"),
+                     FW_OK);
+    assert_int_equal(fw_plan_judge(plan), FW_OK);
+    const fw_verdict_variant_verdict *v = &plan->verdict.variant[0];
+    const fw_verdict_requirement *r = &v->requirement[0];
+    const double none = 0;
+    fw_verdict_made made;
+    assert_int_equal(fw_verdict_made_at(plan->arena, plan->device, plan->layout,
+                                        &plan->options.verdict, v, &none, &made),
+                     FW_OK);
+    assert_true(r->by_max && r->utilisation_high > 1.02 * r->utilisation);
+    assert_true(v->hinge[0].utilisation_high < 1e-6);
+    assert_near(made.ln, log(0.1 / 0.14), 1e-4);
+    assert_near(made.high, log(r->utilisation_high), 1e-9);
+    assert_near(made.low, log(r->utilisation_low), 1e-9);
+    fw_plan_free(plan);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_point_is_its_corner),
         cmocka_unit_test(what_counts_is_what_is_made),
         cmocka_unit_test(what_is_gone_fails),
         cmocka_unit_test(pull_in_is_by_value),
+        cmocka_unit_test(a_requirement_is_as_far_off_as_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
