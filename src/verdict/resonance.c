@@ -529,7 +529,8 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
     for (size_t i = 0; i < scenes; i++) {
         fw_verdict_shaken *of = &to[i];
-        of->other[0].probe = of->other[1].probe = NULL, of->own = NULL;
+        for (int k = 0; k < 4; k++)
+            of->other[k].probe = NULL, of->own = NULL;
         const size_t n = (size_t)of->n, loads = (size_t)of->nload, reach = (size_t)of->nreach,
                      rows = bodies + reach;
         KEEP(of->factor, 2 * h);
