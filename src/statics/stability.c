@@ -51,8 +51,7 @@ typedef struct looker {
         pushed; /* how far the equilibrium lies beside the first place that is unstable, along its mode */
     double since_s; /* the last look before the first that is unstable, or the start */
     double t_s, piece_s, *where, *shape; /* of the lowest: u and its mode (n) */
-    double to;         /* along that: the farthest that the motion goes from where it was stable */
-    bool falls_at_end; /* the last instant is unstable */
+    double to; /* along that: the farthest that the motion goes from where it was stable */
     fw_statics_stability *out;
 } looker;
 
@@ -166,7 +165,6 @@ static bool stands(looker *k, double t_s) {
 static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     fw_statics_equilibrium *w = &k->w;
     size_t n = (size_t)w->model->nq;
-    k->falls_at_end = false;
     loads_of(k, t_s, piece_s);
     memset(w->y, 0, (size_t)w->model->ny * sizeof *w->y);
     place(k, t_s, w->y);
@@ -185,7 +183,6 @@ static fw_status look(looker *k, double t_s, double piece_s, double weight_s) {
     double lowest = w->reduced.value[0];
     if (k->growth == 0) k->pushed = fabs(w->gradient[0] / lowest);
     k->growth += sqrt(-lowest) * weight_s / w->model->scale.time_s;
-    k->falls_at_end = t_s >= k->at[k->pieces];
     if (lowest >= k->lowest) return FW_OK;
     k->lowest = lowest;
     k->t_s = t_s;
@@ -442,14 +439,6 @@ static fw_status passed_by(looker *k, fw_statics_passed *out) {
     return FW_OK;
 }
 
-/* no law does anything behind the scene's end: what stays on something unstable has all the time that it needs to leave */
-static bool rests_behind(const looker *k, const fw_effects_loads *loads) {
-    for (int i = 0; i < law_count(loads, k->w.mechanism); i++)
-        if (!fw_quantity_law_rests(law_at(loads, k->w.mechanism, i), k->w.scene->duration_s))
-            return false;
-    return true;
-}
-
 static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability **stability,
                           fw_statics_passed *passed) {
     double way;
@@ -512,9 +501,10 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     if (left && rest > 0 && isfinite(k.least)) *left = fmax(k.least / rest, 0);
     if (steady && k.growth == 0 && left && *left > 0)
         *steady = *left; /* who does not ask leaves it open */
-    if (k.growth > 0 && k.falls_at_end && rests_behind(&k, &loads))
-        k.growth = fmax(k.growth, fw_least_growth);
-    return k.growth >= fw_least_growth ? conclude(&k, diags, stability, passed) : FW_OK;
+    if (k.growth >= fw_least_growth) return conclude(&k, diags, stability, passed);
+    if (!(k.growth > 0) || !passed) return FW_OK;
+    travelled(&k); /* so far; what it does behind the scene's end may be more */
+    return passed_by(&k, passed);
 }
 
 /* ---- what flexures' errors take of a stiffness ---- */
