@@ -14,6 +14,13 @@
 
 static const double hardly_moves = 0.05; /* of the farthest way */
 
+bool fw_verdict_has_said(const fw_verdict_variant_verdict *v, const fw_device_scene *s,
+                         int number) {
+    for (int i = 0; i < v->nreason; i++)
+        if (v->reason[i].number == number && v->reason[i].scene == s->name) return true;
+    return false;
+}
+
 /* ---- how far it goes ---- */
 
 /* how far a coordinate of a body is from where it began; the ground stays */

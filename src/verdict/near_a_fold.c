@@ -353,13 +353,6 @@ static double beyond(const fw_mechanism *m, const fw_verdict_strain_monitor *was
 
 enum { PULLED_IN = 248, UNSTABLE = 259 };
 
-bool fw_verdict_has_said(const fw_verdict_variant_verdict *v, const fw_device_scene *s,
-                         int number) {
-    for (int i = 0; i < v->nreason; i++)
-        if (v->reason[i].number == number && v->reason[i].scene == s->name) return true;
-    return false;
-}
-
 static fw_status tell_soft(fw_arena *arena, const fw_device_scene *s, double left, double e,
                            double missing, bool goes, double most, bool brief, fw_diags *diags,
                            fw_verdict_variant_verdict *v) {

@@ -13,10 +13,9 @@
 
    down likewise with the least A; of what bodies move by the same with how far they go, the worst body counts.
    Inputs: the motion, and modes about the equilibrium of what does not go to and fro, voltages that do by their root mean
-   square. Where that may be reached from rest within the scene frequencies in between belong to the range.
-   Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
-   Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance. What comes again: ringing.c.
-   Loads that make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
+   square. Where that may be reached from rest within the scene frequencies in between belong to the range. Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
+   Cost: modes, 24 steps a period for each frequency. Test: test_effects.py Resonance. What comes again: ringing.c. Loads that
+   make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "quantity/law_kind.h"

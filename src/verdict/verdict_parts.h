@@ -41,7 +41,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
    from there comes nearer */
 extern const char fw_verdict_unstable_there[];
 void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, int first);
-/* near_a_fold.c: a warning where a scene ends with a hinge still on the way up (FW-D691); v->ends_early where that is not judged */
+/* near_a_fold.c: a warning where a scene ends with a hinge still on the way up (FW-D691); v->ends_early: not judged */
 fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
                                 const fw_dynamics_motion *motion,
                                 const fw_dynamics_motion_options *options, fw_diags *diags,
@@ -595,7 +595,6 @@ fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
 
 /* of any scene the most of fw_verdict_bending_share, for small motions of which no forces are known */
 double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v);
-
 /* body_solids.c: u (3 nbody) by which a load f (3 nbody) displaces, by modes that are all there and stable */
 void fw_verdict_displaced(const fw_statics_modes *modes, const double *f, double *u);
 #endif
