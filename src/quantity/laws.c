@@ -5,6 +5,7 @@
 #include "quantity/law_kind.h"
 #include "quantity/program.h"
 #include <math.h>
+#include <string.h>
 
 /* ---- laws that are straight between their breaks; their bounds are exact ---- */
 
@@ -462,26 +463,13 @@ fw_quantity_law_wave fw_quantity_law_wave_of(const fw_quantity_law *law) {
     return law && law->kind->wave ? law->kind->wave(law) : (fw_quantity_law_wave){0};
 }
 
-/* ---- laws that are held, or rest ---- */
-
-bool fw_quantity_law_rests(const fw_quantity_law *law, double from_s) {
-    static const double behind[] = {1e-6, 1e-3, 0.013, 0.1, 0.37, 1};
-    const double hardly = 1e-6, at_s = from_s * (1 + behind[0]);
-    double first[3], now[3];
-    if (fw_quantity_law_is_constant(law)) return true;
-    fw_quantity_law_value(law, at_s, at_s, first);
-    for (int i = 0; i < (int)(sizeof behind / sizeof *behind); i++) {
-        const double t_s = from_s * (1 + behind[i]);
-        fw_quantity_law_value(law, t_s, t_s, now);
-        const double most = hardly * fmax(fabs(first[0]), hardly);
-        if (!(fabs(now[1]) * from_s <= most && fabs(now[0] - first[0]) <= most)) return false;
-    }
-    return true;
+double fw_quantity_law_number(const fw_quantity_law *law,
+                              const fw_quantity_law_attribute *attribute) {
+    double value;
+    memcpy(&value, (const char *)law + attribute->offset, sizeof value);
+    return value;
 }
 
-const fw_quantity_law *fw_quantity_law_hold(fw_arena *arena, const fw_quantity_law *law,
-                                            double held_s) {
-    fw_quantity_law *own = law ? fw_arena_one(arena, fw_quantity_law) : NULL;
-    if (own) *own = *law, own->held_s = held_s;
-    return own;
+const char *fw_quantity_law_name(const fw_quantity_law *law) {
+    return law->kind->name;
 }
