@@ -418,6 +418,7 @@ static fw_status passed_by(looker *k, fw_statics_passed *out) {
     for (int i = 0; i < 3 * m->nbody; i++) {
         const double unit = i % 3 == 2 ? 1 : k->w.model->scale.length_m;
         out->way[i] = side * unit * k->shape[i], q[i] = k->w.q0[i] + unit * k->where[i];
+        most = i % 3 == 2 ? most : fmax(most, fabs(out->way[i])); /* no joint lies farther off */
     }
     for (int i = 0; i < m->nhinge; i++) {
         deformation(m, &m->hinge[i], q, out->way, d, &axis);

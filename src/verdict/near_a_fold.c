@@ -195,7 +195,7 @@ static double change(const double *was, const double *now, int n, int sign) {
    left such a place to one side is moved again with flexures that are made in the shape of the mode that became free (Koiter), the
    other way, the middle of one aside of the line between its ends by `aside`: a force that acts through it has that eccentricity.
    The flows that come with the program take printed edges to lie within 0.15 um of where they are drawn, and both edges of a
-   strip together less; no mask has edges on less than its grid of 1 nm, no laser writer much below 50 nm. Bands hold what it
+   strip together less; no centre of a body then lies farther aside, either. No mask has edges on less than its grid of 1 nm, no laser writer much below 50 nm. Bands hold what it
    does then, on whichever side. Out: factors, bands. Error: an imperfection of one shape and size. Cost: looks and one motion of
    scenes that pass such a place. Source: W. T. Koiter, Delft 1945. Test: test_effects.py, OneOfTwoSides */
 
@@ -455,7 +455,7 @@ static fw_status ask(fw_arena *arena, const fw_mechanism *m, int i, double e, do
     for (int k = 0; k < 4 && now[HELD].asked;
          k++) /* so are the others, and one run of each will do */
         now[k].from_s = s->duration_s;
-    if (!falls) return FW_OK;
+    if (!falls || missing > 0) return FW_OK; /* where electrodes pull the field decides (FW-D248) */
     fw_statics_passed *passed;
     const fw_statics_stability *stays;
     fw_diags own = fw_diags_new(arena);
@@ -494,8 +494,6 @@ static fw_status tell_behind(fw_arena *arena, const fw_device_scene *s, const on
                             fw_number_text(at, sizeof at, 1e3 * x->end_s, 4))));
     if (!now[ASIDE].asked) return FW_OK;
     const bool goes = now[ASIDE].goes;
-    const fw_mechanism *m = v->mechanism;
-    if (goes && !(along(m, x, p) * along(m, now[ASIDE].motion, p) < 0)) return FW_OK;
     const char *text = fw_arena_printf(
         arena,
         "%s%s leaves an unstable equilibrium (at %s ms) to a side that little decides: with "
@@ -539,7 +537,7 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     const fw_dynamics_motion *x = v->motion[i];
     const size_t n = 2 * (size_t)m->nbody + (size_t)m->nhinge, factors = 2 * (size_t)m->nhinge + 2;
     const double missing = fw_verdict_pull_missing(v, i);
-    if (soft > v->left[i] && e > 0) e = off_by(m, e);
+    if (soft > v->left[i] && e > 0 && missing == 0) e = off_by(m, e);
     fw_verdict_shaken *shaken = &v->shaken[i];
     double most = 1, *before = shaken->factor, *far;
     bool any = false;
@@ -555,6 +553,9 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     fw_verdict_farthest(m, x, far);
     for (int k = 0; k < 4; k++)
         if (now[k].asked) FW_TRY(move_with(arena, m, s, x, options, &now[k]));
+    if (now[ASIDE].goes) /* what goes the same way tells nothing of a side */
+        now[ASIDE].asked =
+            along(m, x, now[ASIDE].aside) * along(m, now[ASIDE].motion, now[ASIDE].aside) < 0;
     /* the most of them is a factor on what other causes make of it */
     FW_NEED(shaken->factor = fw_arena_array(arena, double, factors));
     for (size_t k = 0; k < factors; k++)
