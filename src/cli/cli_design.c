@@ -12,8 +12,15 @@
 
 /* ---- verdict, masks and recipes: the exit status is the decision ---- */
 
-static int judge(fw_design *design, const fw_cli_options *options) {
-    fw_cli_session_stage(options, "layout, mechanism, motion and verdict");
+/* masks and recipes are of an accepted device, and who asks for these alone may wonder what takes so long */
+static int judge(fw_design *design, const fw_cli_options *options, bool waits) {
+    const char *corners = options->design.corners;
+    const bool drawn = corners && strcmp(corners, "none") == 0;
+    fw_cli_session_stage(options,
+                         waits && !drawn
+                             ? "layout, mechanism, motion and verdict at the corners of what is "
+                               "made, which are waited for (--corners none: as drawn)"
+                             : "layout, mechanism, motion and verdict");
     return fw_design_judge(design);
 }
 
@@ -22,7 +29,7 @@ int fw_cli_command_check(fw_cli_options *options) {
     fw_design *design = fw_cli_session_open(options, &exit_status);
     if (!design) return exit_status;
     int status = fw_cli_session_target(design, options->output);
-    if (status == FW_STATUS_OK) status = judge(design, options);
+    if (status == FW_STATUS_OK) status = judge(design, options, false);
     if (status == FW_STATUS_OK && options->output)
         status = fw_design_write(design, options->output, FW_DESIGN_VERDICT);
     if (status == FW_STATUS_OK)
@@ -48,7 +55,7 @@ static int make(fw_design *design, const fw_cli_options *options, unsigned what,
     int status = fw_cli_session_target(design, directory);
     if (status == FW_STATUS_OK) status = (int)fw_plan_check_dates(fw_plan_design_plan(design));
     if (status != FW_STATUS_OK) return status;
-    status = judge(design, options);
+    status = judge(design, options, what != FW_DESIGN_EVERYTHING);
     if (status == FW_STATUS_GEOMETRY && what == FW_DESIGN_EVERYTHING)
         return show_marked(design, options, directory);
     if (status != FW_STATUS_OK) return status;
@@ -126,7 +133,7 @@ static int draw(fw_design *design, const fw_cli_options *options, bool *drawn) {
     const fw_plan_flow *flow = only_flow(design);
     if (!flow) return FW_STATUS_USAGE;
     plan->options.drawn_alone = true;
-    int status = judge(design, options);
+    int status = judge(design, options, false);
     if (status != FW_STATUS_OK) return status;
     fw_cli_session_stage(options, "bias and mask");
     status = fw_design_fabricate(design);

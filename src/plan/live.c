@@ -2,7 +2,7 @@
 /* Live computing: its table, and changes to a text. Requests are read in live_request.c. */
 #include "base/json.h"
 #include "dynamics/dynamics.h"
-#include "plan/live_request.h"
+#include "plan/live.h"
 #include "plan/stages.h"
 #include "report/report.h"
 #include <math.h>

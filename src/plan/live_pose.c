@@ -5,7 +5,7 @@
 #include "base/json.h"
 #include "base/text.h"
 #include "plan/design.h"
-#include "plan/live_request.h"
+#include "plan/live.h"
 #include "plan/stages.h"
 #include "report/report.h"
 #include "workspace/workspace.h"

@@ -2,7 +2,7 @@
 /* The quick look: what has been done with a design so far, in one document. */
 #include "plan/design.h"
 #include "plan/ladder.h"
-#include "plan/live_request.h"
+#include "plan/live.h"
 #include "plan/stages.h"
 #include "report/report.h"
 #include <string.h>

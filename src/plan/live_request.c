@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all live requests have in common: reading them, and answers that never leak. */
-#include "plan/live_request.h"
+#include "plan/live.h"
 #include "base/json.h"
 #include "plan/stages.h"
 #include <math.h>

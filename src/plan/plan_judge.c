@@ -281,7 +281,7 @@ fw_status fw_plan_simulate(fw_plan *plan, unsigned *wanted, const fw_dynamics_mo
     FW_TRY(fw_verdict_level_strains(plan->arena, *mechanism, (*motion)->loads, (*motion)->level,
                                     NULL));
     FW_TRY(fw_statics_stability_find(plan->arena, *mechanism, *scene, *motion, &plan->diags,
-                                     &stability, NULL));
+                                     &stability, NULL, NULL));
     note_tolerance(plan, options.rtol, (*motion)->stats.rtol);
     return FW_OK;
 }

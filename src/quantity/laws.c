@@ -5,6 +5,7 @@
 #include "quantity/law_kind.h"
 #include "quantity/program.h"
 #include <math.h>
+#include <string.h>
 
 /* ---- laws that are straight between their breaks; their bounds are exact ---- */
 
@@ -460,4 +461,15 @@ bool fw_quantity_law_is_ready(const fw_quantity_law *law) {
 
 fw_quantity_law_wave fw_quantity_law_wave_of(const fw_quantity_law *law) {
     return law && law->kind->wave ? law->kind->wave(law) : (fw_quantity_law_wave){0};
+}
+
+double fw_quantity_law_number(const fw_quantity_law *law,
+                              const fw_quantity_law_attribute *attribute) {
+    double value;
+    memcpy(&value, (const char *)law + attribute->offset, sizeof value);
+    return value;
+}
+
+const char *fw_quantity_law_name(const fw_quantity_law *law) {
+    return law->kind->name;
 }

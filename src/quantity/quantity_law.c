@@ -19,26 +19,44 @@ const fw_quantity_law_kind *fw_quantity_law_find(const char *name) {
     return *kind;
 }
 
-double fw_quantity_law_number(const fw_quantity_law *law,
-                              const fw_quantity_law_attribute *attribute) {
-    double value;
-    memcpy(&value, (const char *)law + attribute->offset, sizeof value);
-    return value;
-}
-
-const char *fw_quantity_law_name(const fw_quantity_law *law) {
-    return law->kind->name;
-}
-
 void fw_quantity_law_value(const fw_quantity_law *law, double t_s, double piece_s,
                            double value[3]) {
+    const bool held = law->held_s > 0 && piece_s > law->held_s;
+    const double before = 1 - 1e-12; /* of what jumps there, as it was */
+    if (held) t_s = law->held_s, piece_s = before * t_s;
     law->kind->value(law, t_s, piece_s, value);
+    if (held) value[1] = value[2] = 0;
 }
 
 int fw_quantity_law_breaks_of(const fw_quantity_law *law, double end_s, double *t_s, int most) {
-    fw_quantity_law_breaks b = {end_s, t_s, most, 0};
+    const bool held = law && law->held_s > 0;
+    fw_quantity_law_breaks b = {held ? fmin(end_s, law->held_s) : end_s, t_s, most, 0};
     if (law && law->kind->breaks) law->kind->breaks(law, &b);
+    b.end_s = end_s;
+    if (held) fw_quantity_law_break(&b, law->held_s);
     return b.count;
+}
+
+bool fw_quantity_law_rests(const fw_quantity_law *law, double from_s) {
+    static const double behind[] = {1e-6, 1e-3, 0.013, 0.1, 0.37, 1};
+    const double hardly = 1e-6, at_s = from_s * (1 + behind[0]);
+    double first[3], now[3];
+    if (fw_quantity_law_is_constant(law)) return true;
+    fw_quantity_law_value(law, at_s, at_s, first);
+    for (int i = 0; i < (int)(sizeof behind / sizeof *behind); i++) {
+        const double t_s = from_s * (1 + behind[i]);
+        fw_quantity_law_value(law, t_s, t_s, now);
+        const double most = hardly * fmax(fabs(first[0]), hardly);
+        if (!(fabs(now[1]) * from_s <= most && fabs(now[0] - first[0]) <= most)) return false;
+    }
+    return true;
+}
+
+const fw_quantity_law *fw_quantity_law_hold(fw_arena *arena, const fw_quantity_law *law,
+                                            double held_s) {
+    fw_quantity_law *own = law ? fw_arena_one(arena, fw_quantity_law) : NULL;
+    if (own) *own = *law, own->held_s = held_s;
+    return own;
 }
 
 /* ---- size ---- */

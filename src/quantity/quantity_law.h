@@ -42,12 +42,18 @@ typedef struct
     int ntable;
     const fw_quantity_program *program;
     double frequency_most_Hz, lines, seed; /* random; the last two are whole */
-    double own[FW_QUANTITY_LAW_OWN];       /* of laws to which none of the numbers above belongs */
+    double held_s; /* from then on it stays what it is, whatever its kind says; 0: it goes on */
+    double own[FW_QUANTITY_LAW_OWN]; /* of laws to which none of the numbers above belongs */
 } fw_quantity_law;
 
 const char *fw_quantity_law_name(const fw_quantity_law *law); /* "ramp" */
 /* value[0..2]: the factor or coordinate, d/dt, d2/dt2 */
 void fw_quantity_law_value(const fw_quantity_law *law, double t_s, double piece_s, double value[3]);
+/* a copy of the law that stays from an instant on what it is there; NULL stays NULL, and NULL, too, without memory */
+const fw_quantity_law *fw_quantity_law_hold(fw_arena *arena, const fw_quantity_law *law,
+                                            double held_s);
+/* it stays behind an instant what it is there (NULL: it does) */
+bool fw_quantity_law_rests(const fw_quantity_law *law, double from_s);
 /* times in (0, end_s) where the law or its slope jumps, ascending; at most `most` are stored.
    Returns how many there are. Expressions: switches of abs, min and max as far as 2000 samples show
    them, located to round-off, at most 1000. NULL, no law, has none. */

@@ -51,6 +51,7 @@ typedef struct looker {
         pushed; /* how far the equilibrium lies beside the first place that is unstable, along its mode */
     double since_s; /* the last look before the first that is unstable, or the start */
     double t_s, piece_s, *where, *shape; /* of the lowest: u and its mode (n) */
+    double to; /* along that: the farthest that the motion goes from where it was stable */
     fw_statics_stability *out;
 } looker;
 
@@ -250,16 +251,21 @@ static double product(const fw_multibody_model *m, const double *x, const double
 }
 
 /* how far the motion goes along the mode, from where it is most unstable; what it did before it became unstable at all
-   is over */
+   is over, and what it does from there on says to which side it goes */
 static double travelled(looker *k) {
     const fw_multibody_model *m = k->w.model;
     double *u = k->w.step, most = 0;
+    place(k, k->since_s, u);
+    const double on = product(m, k->shape, k->where) - product(m, k->shape, u);
+    k->to = 0;
     for (int row = 0; row < k->motion->nsample; row++) {
         if (k->motion->t_s[row] < k->since_s) continue;
         place(k, k->motion->t_s[row], u);
         for (int i = 0; i < m->nq; i++)
             u[i] -= k->where[i];
-        most = fmax(most, fabs(product(m, k->shape, u)));
+        const double along = product(m, k->shape, u);
+        most = fmax(most, fabs(along));
+        if (fabs(along + on) > fabs(k->to)) k->to = along + on;
     }
     return most;
 }
@@ -392,7 +398,50 @@ static fw_status say_chance(looker *k, fw_diags *diags) {
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
-static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability **stability) {
+/* ---- what would take it to the other side ---- */
+
+static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
+                        const double *shape, double out[3], double *axis);
+
+static double length_of(const fw_mechanism_hinge *h) {
+    const double L = h->input.length_m, least_m = 1e-4;
+    return L > 0 ? L : fmax(h->input.radius_m * h->input.angle_rad, least_m);
+}
+
+/* what holds flexures bent in a share of the mode's shape, by turn and across; no shape that is made stretches a strip */
+static fw_status passed_by(looker *k, fw_statics_passed *out) {
+    const fw_mechanism *m = k->w.mechanism;
+    double *q, d[3], axis, most = 0, aside_m = 1e-6, side = k->to < 0 ? -1 : 1;
+    FW_NEED(out->way = fw_arena_array(k->w.arena, double, 6 * (size_t)m->nbody));
+    FW_NEED(out->wrench = fw_arena_array(k->w.arena, double, 3 * (size_t)m->nhinge + 1));
+    q = out->way + 3 * m->nbody;
+    for (int i = 0; i < 3 * m->nbody; i++) {
+        const double unit = i % 3 == 2 ? 1 : k->w.model->scale.length_m;
+        out->way[i] = side * unit * k->shape[i], q[i] = k->w.q0[i] + unit * k->where[i];
+        most = i % 3 == 2 ? most : fmax(most, fabs(out->way[i])); /* no joint lies farther off */
+    }
+    for (int i = 0; i < m->nhinge; i++) {
+        deformation(m, &m->hinge[i], q, out->way, d, &axis);
+        most = fmax(most, fmax(fabs(d[0]) * length_of(&m->hinge[i]) / 8, hypot(d[1], d[2])));
+    }
+    for (int i = 0; i < m->nhinge && most > 0; i++) {
+        const fw_mechanism_hinge *h = &m->hinge[i];
+        double *f = out->wrench + 3 * i;
+        fw_flexure_hinge_at at;
+        fw_flexure_hinge_law_at(&h->law, 0, &at);
+        deformation(m, h, q, out->way, d, &axis);
+        const double kx = at.kx_N_per_m.value, ky = at.ky_N_per_m.value, by = -aside_m / most;
+        const double x = kx <= ky ? kx * d[1] : 0, y = ky <= kx ? ky * d[2] : 0;
+        f[0] = by * m->pin[h->pin].stiffness_Nm_per_rad * d[0];
+        f[1] = by * (cos(axis) * x - sin(axis) * y), f[2] = by * (sin(axis) * x + cos(axis) * y);
+    }
+    out->any = most > 0, out->t_s = k->t_s;
+    out->body = fw_text_name(m->body[fw_statics_equilibrium_mover(&k->w, k->shape)].id);
+    return FW_OK;
+}
+
+static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability **stability,
+                          fw_statics_passed *passed) {
     double way;
     FW_NEED(k->out = fw_arena_one(k->w.arena, fw_statics_stability));
     k->out->pin = FW_NONE;
@@ -403,7 +452,7 @@ static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability
     k->out->body = fw_text_name(id);
     FW_TRY(fall(k, &way));
     const bool left = travelled(k) >= fw_left * way;
-    if (left && !is_chance(k, way)) return FW_OK;
+    if (left && !is_chance(k, way)) return passed ? passed_by(k, passed) : FW_OK;
     FW_TRY(share(k));
     FW_TRY(left ? say_chance(k, diags) : say(k, diags));
     *stability = k->out;
@@ -413,10 +462,11 @@ static fw_status conclude(looker *k, fw_diags *diags, const fw_statics_stability
 fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechanism,
                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                     fw_diags *diags, const fw_statics_stability **stability,
-                                    double *left) {
+                                    double *left, fw_statics_passed *passed) {
     double rest = (double)NAN;
     *stability = NULL;
     if (left) *left = rest;
+    if (passed) passed->any = false;
     if (!motion->loads || motion->ended || motion->nsample < 1 || mechanism->nbody == 0)
         return FW_OK;
     if (3 * mechanism->nbody > FW_STABILITY_MOST) {
@@ -452,7 +502,10 @@ fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechani
     if (left && rest > 0 && isfinite(k.least)) *left = fmax(k.least / rest, 0);
     if (steady && k.growth == 0 && left && *left > 0)
         *steady = *left; /* who does not ask leaves it open */
-    return k.growth >= fw_least_growth ? conclude(&k, diags, stability) : FW_OK;
+    if (k.growth >= fw_least_growth) return conclude(&k, diags, stability, passed);
+    if (!(k.growth > 0) || !passed) return FW_OK;
+    travelled(&k); /* so far; what it does behind the scene's end may be more */
+    return passed_by(&k, passed);
 }
 
 /* ---- what flexures' errors take of a stiffness ---- */
@@ -467,7 +520,7 @@ static void errors_of(const fw_mechanism_hinge *h, bool pins, double e[3]) {
 
 /* turn and displacement of a hinge in a mode, along and across its axis */
 static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, const double *q,
-                        const double *shape, double out[3]) {
+                        const double *shape, double out[3], double *at_rad) {
     const fw_mechanism_pin *pin = &m->pin[h->pin];
     double ux = 0, uy = 0, axis = h->axis_rad;
     out[0] = 0;
@@ -481,6 +534,7 @@ static void deformation(const fw_mechanism *m, const fw_mechanism_hinge *h, cons
         out[0] += sign * u[2];
         axis += 0.5 * (q[3 * b + 2] - m->body[b].phi_rad);
     }
+    if (at_rad) *at_rad = axis;
     out[1] = cos(axis) * ux + sin(axis) * uy, out[2] = cos(axis) * uy - sin(axis) * ux;
 }
 
@@ -517,7 +571,7 @@ double fw_statics_shape_error(const fw_mechanism *m, const double *q, const doub
         const fw_mechanism_hinge *h = &m->hinge[i];
         double d[3], e[3];
         fw_flexure_hinge_at at;
-        deformation(m, h, q, shape, d);
+        deformation(m, h, q, shape, d, NULL);
         errors_of(h, pins || !isfinite(h->axis_rad), e);
         fw_flexure_hinge_law_at(&h->law, 0, &at);
         const double k[3] = {m->pin[h->pin].stiffness_Nm_per_rad, at.kx_N_per_m.value,

@@ -480,15 +480,28 @@ typedef struct fw_statics_stability {
     const char *text; /* all that in a sentence */
 } fw_statics_stability;
 
+/* An unstable equilibrium that a motion left to one of its sides, decided by what is described. What would take it to the other
+   one: flexures that are made bent in the shape of the mode that became free, so that the middle of one lies aside of the line
+   between its ends by a micrometre, or one end of the other (Koiter) */
+typedef struct fw_statics_passed {
+    bool any;
+    double t_s;       /* where it is most unstable */
+    const char *body; /* moves most in that mode */
+    double *
+        way; /* (3 nbody) the mode, towards where the motion went: m, rad, the largest turn or way over length 1 */
+    double *
+        wrench; /* (3 nhinge) of that imperfection, against it: on body b at the pin, N m, N, N, world axes; on body a the other */
+} fw_statics_passed;
+
 enum { FW_STABILITY_MOST = 300 }; /* unknowns: two to twelve dense evaluations of 30 n^3 */
 
 /* Looks along the motion of a scene. *stability is NULL where it is stable, where it has left, and
    where instability lasts too short to grow. Warns with FW-D259; a note says when the mechanism is
    too large to look. FW_OK then too; FW_NOMEM, FW_CANCELLED. *left: the least share of the stiffness that
-   loads leave in the scene, of its softest motion, 0 where it is unstable; NaN: not known. NULL: nobody asks. */
+   loads leave in the scene, of its softest motion, 0 where it is unstable; NaN: not known. passed->any: it left. NULL: nobody asks. */
 fw_status fw_statics_stability_find(fw_arena *arena, const fw_mechanism *mechanism,
                                     const fw_device_scene *scene, const fw_dynamics_motion *motion,
                                     fw_diags *diags, const fw_statics_stability **stability,
-                                    double *left);
+                                    double *left, fw_statics_passed *passed);
 
 #endif

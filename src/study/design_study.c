@@ -2,7 +2,7 @@
 /* Studies as others ask for them: fw_design_study of the public library, with the options and settings of a
    design; and the points that a page looks at while somebody chooses them. */
 #include "base/json.h"
-#include "plan/live_request.h"
+#include "plan/live.h"
 #include "report/report.h"
 #include "study/study_parts.h"
 #include <inttypes.h>

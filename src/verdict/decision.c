@@ -235,10 +235,11 @@ static double weakest(const fw_verdict_variant_verdict *v) {
     return pow(fmax(thickness, 0), 3) * fmax(youngs, 0);
 }
 
-/* Forces a million times below what tips are what is left of a zero: a factor on them, and what it is off by, say nothing */
+/* Forces a million times below what tips are what is left of a zero: a factor on them, and what it is off by, say nothing,
+   but where they are off by so much that it may tip all the same */
 bool fw_verdict_across_tips(const fw_verdict_across *a) {
-    const double nothing = 1e6;
-    return isfinite(a->tips) && surely_flat(a) < nothing;
+    const double nothing = 1e6, matters = 1e3;
+    return isfinite(a->tips) && surely_flat(a) < (a->tips < nothing ? nothing : matters);
 }
 
 bool fw_verdict_across_counts(const fw_verdict_variant_verdict *v) {

@@ -1,14 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes that are moved again, since one motion does not give the band: longer, where the device still goes up at their end;
-   with larger and smaller loads, where these leave little of the stiffness; with other stiffnesses, where contacts throw the
-   device; with bending and stiffness along flexures apart, where the layer presses them.
-
-   Longer: a hinge whose peak is at the last instant and that still turns on, by more than a few per cent of it in the lowest mode:
-   v/omega. The same scene then lasts a period of that mode longer, in which every single mode comes to its next peak, and
-   its loads go on as their laws say. In: the motion with inertia; of a row of equilibria the bound of inertia says that little
-   comes behind it. Test: test_program.py, EndsEarly */
+/* Scenes that are moved again, since one motion does not give the band: with other stiffnesses, where contacts throw the
+   device; with bending and stiffness along flexures apart, where the layer presses them. Near a fold, and where a scene ends on
+   the way: near_a_fold.c. */
 #include "base/constants.h"
-#include "base/sort.h"
 #include "effects/effects.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
@@ -18,138 +12,16 @@
 #include <math.h>
 #include <string.h>
 
-static const double fw_few_per_cent = 0.03, fw_hardly_turned = 1e-3; /* of what a hinge bears */
-static const double hardly_moves = 0.05;                             /* of the farthest way */
+static const double hardly_moves = 0.05; /* of the farthest way */
 
-/* rad/s by which a hinge that is at its peak there turns on at the end; 0: it does not */
-static double turns_on(const fw_mechanism *m, const fw_dynamics_motion *x, int hinge) {
-    const int pin = m->hinge[hinge].pin, a = m->pin[pin].body_a, b = m->pin[pin].body_b;
-    const double *v = x->v + (size_t)(x->nsample - 1) * 3 * (size_t)x->nbody;
-    const double rate = (b == FW_GROUND ? 0 : v[3 * b + 2]) - (a == FW_GROUND ? 0 : v[3 * a + 2]);
-    if (x->peak[pin].t_s < x->end_s * (1 - 1e-9)) return 0;
-    return fmax(0, x->peak[pin].angle_rad > 0 ? rate : -rate);
+bool fw_verdict_has_said(const fw_verdict_variant_verdict *v, const fw_device_scene *s,
+                         int number) {
+    for (int i = 0; i < v->nreason; i++)
+        if (v->reason[i].number == number && v->reason[i].scene == s->name) return true;
+    return false;
 }
 
-/* the hinge that turns on farthest beyond its peak, for its size, by its speed and a period */
-static int goes_on(const fw_mechanism *m, const fw_dynamics_motion *x, double period_s) {
-    double most = fw_few_per_cent;
-    int which = FW_NONE;
-    for (int k = 0; k < m->nhinge; k++) {
-        const double peak = fabs(x->peak[m->hinge[k].pin].angle_rad);
-        const double on = turns_on(m, x, k) * period_s / (2 * FW_PI);
-        if (on > most * peak) most = on / peak, which = k;
-    }
-    return which;
-}
-
-static fw_status last_longer(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                             const fw_dynamics_motion *x, double more_s,
-                             const fw_dynamics_motion_options *options,
-                             const fw_dynamics_motion **longer) {
-    fw_device_scene changed = *scene;
-    fw_dynamics_motion_options o = *options;
-    fw_diags own = fw_diags_new(arena);
-    changed.duration_s += more_s;
-    o.observe = NULL, o.glance = NULL, o.trace = NULL, o.other = NULL, o.unsettled = NULL;
-    o.tapes = NULL, o.like = NULL, o.whole = o.trace_both = false;
-    o.samples = 2, o.looser = 1, o.effects.hinge = x->ledger.hinge.used;
-    *longer = NULL;
-    fw_status status = fw_statics_move_scene(arena, m, &changed, &o, &own, longer);
-    if (status != FW_OK) *longer = NULL;
-    return status == FW_CANCELLED || status == FW_NOMEM ? status : FW_OK;
-}
-
-/* FW-D691: how far hinge k would have gone where the scene had lasted longer; NULL: no farther */
-static const char *would_go(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                            const fw_dynamics_motion *x, const fw_dynamics_motion *longer, int k,
-                            double period_s) {
-    const int pin = m->hinge[k].pin;
-    const double peak = fabs(x->peak[pin].angle_rad), degree = FW_DEG_PER_RAD;
-    const double far = longer ? fabs(longer->peak[pin].angle_rad)
-                              : peak + turns_on(m, x, k) * period_s / (2 * FW_PI);
-    const bool times = far > 3 * peak;
-    char end[32], at[32], to[32], by[32], least[32];
-    const double least_rad = fw_hardly_turned * m->hinge[k].closed_form.limit_angle_rad;
-    if (!(far > peak * (1 + fw_few_per_cent)) || far < least_rad) return NULL;
-    return fw_arena_printf(
-        arena,
-        "%s%s ends at %s ms with hinge %s at its peak, %s deg, and still on its way: within a "
-        "period of the lowest mode it goes on to %s deg%s, %s%s, and nothing of that is "
-        "judged; let the scene last %s ms at least",
-        FW_NAMED("scene", scene->name), fw_number_text(end, sizeof end, 1e3 * x->end_s, 4),
-        fw_text_name(m->pin[pin].id), fw_number_text(at, sizeof at, peak * degree, 3),
-        fw_number_text(to, sizeof to, far * degree, 3), longer ? "" : " by its speed alone",
-        fw_number_text(by, sizeof by, times ? far / peak : 100 * (far / peak - 1), 2),
-        times ? " times as far" : " % farther",
-        fw_number_text(least, sizeof least, 1e3 * (x->end_s + period_s), 3));
-}
-
-fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
-                                const fw_dynamics_motion *x,
-                                const fw_dynamics_motion_options *options, fw_diags *diags,
-                                fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_dynamics_motion *longer;
-    const fw_verdict_strain_monitor *saw = options->context;
-    double period_s;
-    if (v->corner || (saw && saw->trial)) return FW_OK; /* what is drawn says it for all */
-    if (x->loads->quasi_static || x->ended || x->nsample < 1) return FW_OK;
-    fw_dynamics_motion_rows(x, x->nsample - 1, 1);
-    if (goes_on(m, x, (double)INFINITY) == FW_NONE) return FW_OK;
-    FW_TRY(fw_verdict_longest_period(arena, v, (int)(scene - m->device->scene), false, &period_s));
-    const int k = goes_on(m, x, period_s);
-    if (k == FW_NONE) return FW_OK;
-    FW_TRY(last_longer(arena, m, scene, x, period_s, options, &longer));
-    const char *text = would_go(arena, m, scene, x, longer, k, period_s);
-    if (!text) return FW_OK;
-    fw_diag_warning(diags, 691, scene->place, "%s", text);
-    if (!v->ends_early) v->ends_early = text;
-    return FW_OK;
-}
-
-/* FW-D698: of the hinge that may use the most; FW-D700 */
-fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
-                                   fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    const fw_verdict_hinge_verdict *worst = NULL;
-    char to_end[32], behind[32], times[32];
-    for (int k = 0; k < v->nhinge; k++) {
-        const fw_verdict_hinge_verdict *h = &v->hinge[k];
-        if (h->rung > 1 && h->utilisation < 1 && (!worst || h->rung > worst->rung)) worst = h;
-    }
-    FW_TRY(fw_verdict_tell_in_turn(arena, monitor, v));
-    for (int i = 0; worst && i < d->nscene; i++) {
-        if (strcmp(d->scene[i].name, worst->scene) != 0) continue;
-        fw_percent_text(to_end, sizeof to_end, worst->fatigue_utilisation);
-        fw_percent_text(behind, sizeof behind, worst->rung);
-        return fw_verdict_scene_reason(
-            v, &d->scene[i], 698, FW_INCONCLUSIVE, 0.95 / worst->rung,
-            fw_arena_printf(
-                arena,
-                "hinge %s rings on where %s%s ends, and nothing is known to damp it: %s "
-                "repetitions use %s %% of its fatigue limit by what is counted, and up "
-                "to %s %% if it rings for a hundred million radians more; give its "
-                "material a loss-factor, or the scene what damps it",
-                fw_text_name(worst->id), FW_NAMED("scene", worst->scene),
-                fw_number_text(times, sizeof times, d->limits.cycles, 3), to_end, behind));
-    }
-    return FW_OK;
-}
-
-/* ---- what loads leave of the stiffness, and what may be missing of a pull ----
-   Bands hold what a stiffness is off by in proportion, and a displacement goes by what loads leave of it: by the inverse of
-   that share, and without end at a fold. So where a scene's loads leave less than `soft` of it, the scene is moved twice
-   more, with its loads (1 + e) and 1/(1 + e) times as large. e is the relative error of the hinges' compliance, with that of
-   bodies where that changes the motion: that is
-   the device with all of its stiffness so much less, or more. Electrodes may pull more than computed by what is missing of
-   their fringe (fw_effects_comb_fringe), and over a carrier that conducts as much less: the softer device has all of that pull
-   wherever electrodes act, the stiffer one the least of it. What probes read in these motions is in their bands, forces over (1 + e); of
-   hinges what strains go beyond proportion is a factor, as near a resonance, and of bodies the largest ratio of displacements
-   of any body that moves by more than a twentieth of the farthest. Where there is no such motion the device may have snapped: undecided.
-   Inputs: v->left, motions. Error: one e for all that gives; heat, stress and drivers stay as they are. Cost: two motions,
-   of such scenes alone; where only electrodes may pull more one, or two over a carrier that conducts. Test: test_effects.py, NearAFold; test_near_pull_in.py, Motions */
-
-static const double soft = 0.8;
+/* ---- how far it goes ---- */
 
 /* how far a coordinate of a body is from where it began; the ground stays */
 static double moved(const fw_dynamics_motion *x, int n, int row, int body, int axis) {
@@ -189,168 +61,6 @@ void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, dou
         }
     }
     drop_rounding(m, far);
-}
-
-/* largest (sign 1) or least (-1) of now over was, of those of n that move by more than hardly_moves of the farthest; 1: none moves */
-static double change(const double *was, const double *now, int n, int sign) {
-    const double most = fw_verdict_most_of(was, n);
-    double by = sign > 0 ? 0 : HUGE_VAL;
-    for (int i = 0; i < n; i++)
-        if (was[i] > hardly_moves * most)
-            by = sign > 0 ? fmax(by, now[i] / was[i]) : fmin(by, now[i] / was[i]);
-    return most > 0 ? by : 1;
-}
-
-/* a scene once more: 0 softer, with all of the pull, 1 stiffer, with the least of it */
-typedef struct once_more {
-    double by, pull; /* its loads, and what electrodes pull besides, times as large */
-    double *far;     /* of fw_verdict_farthest */
-    bool asked, goes;
-    fw_verdict_strain_monitor saw;
-    const fw_dynamics_motion *motion; /* where it goes */
-} once_more;
-
-/* to->goes false: there is no such motion, or it is not the whole of it */
-static fw_status move_with(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                           const fw_dynamics_motion *like, const fw_dynamics_motion_options *given,
-                           once_more *to) {
-    fw_device_scene changed = *scene;
-    fw_dynamics_motion_options o = *given;
-    fw_diags own = fw_diags_new(arena);
-    const fw_dynamics_motion *x;
-    FW_TRY(fw_device_own_scene(arena, &changed));
-    fw_effects_scale(&changed, to->by);
-    for (int i = 0; i < changed.ncomb; i++)
-        changed.comb[i].voltage_V *= sqrt(to->pull);
-    const bool probes = to->saw.probe != NULL;
-    o.observe = fw_verdict_strain_monitor_record, o.context = &to->saw;
-    o.trace = probes ? fw_verdict_clearance_trace : NULL, o.whole = probes, o.trace_both = false;
-    o.glance = NULL, o.unsettled = NULL, o.other = NULL;
-    o.like = NULL, o.tapes = NULL, o.late_rows = false, o.most_angle_rad = FW_TURN;
-    o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
-    o.samples = like->nsample, o.hinge_accuracy = 1;
-    o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
-    const fw_status status = fw_statics_move_scene(arena, m, &changed, &o, &own, &x);
-    if (status == FW_NOMEM || status == FW_CANCELLED || to->saw.no_memory)
-        return status == FW_CANCELLED ? status : FW_NOMEM;
-    to->goes = status == FW_OK && !x->ended;
-    if (to->goes) to->motion = x, fw_verdict_farthest(m, x, to->far);
-    return FW_OK;
-}
-
-/* strains of a hinge, now over as computed; 1 of one that is hardly strained */
-static double strained(const fw_mechanism *m, const fw_verdict_strain_monitor *was,
-                       const fw_verdict_strain_monitor *now, int k) {
-    const double hardly = 1e-3;
-    double most = 0;
-    for (int i = 0; i < m->nhinge; i++)
-        most = fmax(most, was->hinge[i].strain.value);
-    return was->hinge[k].strain.value > hardly * most
-               ? now->hinge[k].strain.value / was->hinge[k].strain.value
-               : 1;
-}
-
-/* what of all goes beyond what its loads change by, into the factors; the most of it */
-static double beyond(const fw_mechanism *m, const fw_verdict_strain_monitor *was, const double *far,
-                     const once_more *now, int way, fw_verdict_shaken *to) {
-    const int nb = m->nbody, end = 2 * m->nhinge;
-    double *f = to->factor;
-    const double up = fmin(1, 1 / now->by), down = fmax(1, 1 / now->by),
-                 all = way * fmax(way * change(far, now->far, nb, way),
-                                  way * change(far + nb, now->far + nb, nb, way));
-    double most = up * all;
-    for (int h = 0; was && h < m->nhinge; h++) {
-        const double by = strained(m, was, &now->saw, h);
-        f[2 * h] *= fmax(1, up * by), f[2 * h + 1] *= fmin(1, down * by);
-        most = fmax(most, up * by);
-    }
-    f[end] *= fmax(1, up * all), f[end + 1] *= fmin(1, down * all);
-    to->late = fmax(to->late, fmax(up * all - 1, 1 - down * all));
-    return most;
-}
-
-enum { PULLED_IN = 248, UNSTABLE = 259 };
-
-static bool has_reason_of(const fw_verdict_variant_verdict *v, const fw_device_scene *s,
-                          int number) {
-    for (int i = 0; i < v->nreason; i++)
-        if (v->reason[i].number == number && v->reason[i].scene == s->name) return true;
-    return false;
-}
-
-static fw_status tell_soft(fw_arena *arena, const fw_device_scene *s, double left, double e,
-                           double missing, bool goes, double most, bool brief, fw_diags *diags,
-                           fw_verdict_variant_verdict *v) {
-    char part[32], off[32], pull[32], times[32];
-    if (has_reason_of(v, s, PULLED_IN)) return FW_OK;
-    const char *start = fw_arena_printf(
-        arena,
-        "%s%s: its loads leave %s %% of the stiffness of the device's softest motion, and with "
-        "loads larger by the %s %% that hinges and bodies may give more than computed%s%s%s",
-        FW_NAMED("scene", s->name), fw_number_text(part, sizeof part, 100 * left, 2),
-        fw_number_text(off, sizeof off, 100 * e, 2),
-        missing > 0 ? ", and electrodes that pull " : "",
-        missing > 0 ? fw_number_text(pull, sizeof pull, 100 * missing, 2) : "",
-        missing > 0 ? " % more," : "");
-    FW_NEED(start);
-    if (!goes)
-        return fw_verdict_scene_reason(
-            v, s, 672, FW_INCONCLUSIVE, 0.9 / (1 + e) / (1 + missing),
-            fw_arena_printf(arena, "%s no motion to its end was found: it may snap", start));
-    if (!brief && most > 1.1 * (1 + missing))
-        fw_diag_warning(
-            diags, 672, s->place,
-            "%s it moves %s times as far, which the bands hold: keep away from where it "
-            "snaps or buckles (flexwright statics --path says where that is)",
-            start, fw_number_text(times, sizeof times, most * (1 + e), 3));
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, double e,
-                              const fw_dynamics_motion_options *options,
-                              const fw_verdict_required *required, bool brief, fw_diags *diags,
-                              fw_verdict_variant_verdict *v) {
-    const fw_device_scene *s = &m->device->scene[i];
-    const fw_dynamics_motion *x = v->motion[i];
-    const size_t n = 2 * (size_t)m->nbody + (size_t)m->nhinge;
-    const double missing = fw_verdict_pull_missing(v, i);
-    const bool softly = soft > v->left[i];
-    const bool less = missing > 0 && fw_effects_levitation_may_be(m);
-    fw_effects_load_scaling loads;
-    fw_effects_find_loads(s, &loads);
-    /* exact beams of stated stiffnesses are off by nothing, and electrodes pull more all the same */
-    const bool asks = (softly && e > 0) || missing > 0;
-    if (!asks || x->ended || loads.count == 0 || !(e >= 0) || isinf(e)) return FW_OK;
-    once_more *now = fw_arena_array(arena, once_more, 2);
-    double *far = fw_arena_array(arena, double, 3 * n);
-    fw_probe_monitor *probe[2];
-    FW_NEED(now && far ? now : NULL);
-    FW_TRY(required->watch(arena, m, i, v, true, probe));
-    now[0] = (once_more){.by = 1 + e, .pull = 1 + missing, .asked = true};
-    now[1] = (once_more){.by = 1 / (1 + e),
-                         .pull = less ? 1 / (1 + missing) : 1,
-                         .asked = (softly && e > 0) || less};
-    fw_verdict_farthest(m, x, far);
-    double most = 1;
-    for (int k = 0; k < 2 && now[k].asked; k++) {
-        FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &now[k].saw));
-        now[k].saw.probe = probe[k], now[k].far = far + ((size_t)k + 1) * n;
-        FW_TRY(move_with(arena, m, s, x, options, &now[k]));
-        fw_verdict_other *to = &v->shaken[i].other[k];
-        *to = (fw_verdict_other){.asked = true,
-                                 .lost = !now[k].goes,
-                                 .by = now[k].by,
-                                 .off = e,
-                                 .motion = now[k].motion,
-                                 .probe = probe[k]};
-        if (!now[k].goes) continue;
-        const double by = beyond(m, x->observed, far, &now[k], k == 0 ? 1 : -1, &v->shaken[i]);
-        if (k == 0) most = fmax(most, by);
-        if (k == 0 && missing > 0)
-            v->shaken[i].nearer_m =
-                fw_verdict_electrodes_nearer(x, now[k].motion, &v->shaken[i].kept);
-    }
-    return tell_soft(arena, s, v->left[i], e, missing, now[0].goes, most, brief, diags, v);
 }
 
 /* ---- what takes hold again and again ----
@@ -522,7 +232,7 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
     FW_TRY(fw_statics_move_stiffer(arena, m, s, way.stiffer, like, &o, &x));
     if (monitor.no_memory || (probe[0] && probe[0]->no_memory)) return FW_NOMEM;
     const bool found = x && !x->ended;
-    if (found) FW_TRY(fw_statics_stability_find(arena, m, s, x, &own, &falls, NULL));
+    if (found) FW_TRY(fw_statics_stability_find(arena, m, s, x, &own, &falls, NULL, NULL));
     if (!found || falls) {
         if (!*told) FW_TRY(tell_lost(arena, s, i, bending, along, &way, found, v));
         *told = true;
@@ -568,7 +278,7 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const fw_dynamics_motion *x = v->motion[i];
     const size_t nh = (size_t)m->nhinge, n = 2 * (size_t)m->nbody + nh;
     if (!fw_verdict_grows(v, i) || nh == 0 || x->ended || !x->observed) return FW_OK;
-    if (has_reason_of(v, &m->device->scene[i], UNSTABLE)) return FW_OK; /* as it is */
+    if (fw_verdict_has_said(v, &m->device->scene[i], 259)) return FW_OK; /* as it is */
     fw_verdict_strain_monitor saw;
     fw_dynamics_motion closed;
     const fw_dynamics_motion *like = x;
@@ -583,5 +293,67 @@ fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int i,
     const bool pins = x->ledger.hinge.used == FW_HINGE_REVOLUTE; /* which have nothing along */
     for (int k = 0; k < (pins ? 2 : FW_VERDICT_WAYS); k++)
         FW_TRY(grown_way(arena, m, i, k, like, options, &h, required, v, &told));
+    return FW_OK;
+}
+
+/* ---- scenes that are repeated in turn ---- */
+
+fw_status fw_verdict_tell_in_turn(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
+                                  fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    double most = 1, used;
+    int worst = FW_NONE;
+    char alone[32], all[32];
+    for (int k = 0; d->limits.cycles > 0 && k < v->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &v->hinge[k];
+        if (!v->mechanism->hinge[k].limits.life.known || !(h->utilisation_high < 1)) continue;
+        FW_TRY(fw_verdict_in_turn(arena, v, k, monitor, &used));
+        used *= d->safety_factor * h->utilisation_high / h->utilisation;
+        if (used > most) most = used, worst = k;
+    }
+    for (int i = 0; worst != FW_NONE && i < d->nscene; i++)
+        if (strcmp(d->scene[i].name, v->hinge[worst].scene) == 0)
+            return fw_verdict_scene_reason(
+                v, &d->scene[i], 700, FW_INCONCLUSIVE, 0.95 / most,
+                fw_arena_printf(
+                    arena,
+                    "hinge %s is bent by several scenes, each as often as cycles says: by the "
+                    "worst of them alone it uses up to %s %% of its fatigue limit, and up to %s "
+                    "%% where they take turns, since from the farthest of one to that of another "
+                    "is a cycle; describe what no one device does in turn in files of its own",
+                    fw_text_name(v->hinge[worst].id),
+                    (fw_percent_text(alone, sizeof alone, v->hinge[worst].utilisation_high), alone),
+                    (fw_percent_text(all, sizeof all, most), all)));
+    return FW_OK;
+}
+
+/* ---- what rings on where scenes are repeated ---- */
+
+/* FW-D698: of the hinge that may use the most; FW-D700 */
+fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
+                                   fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    const fw_verdict_hinge_verdict *worst = NULL;
+    char to_end[32], behind[32], times[32];
+    for (int k = 0; k < v->nhinge; k++) {
+        const fw_verdict_hinge_verdict *h = &v->hinge[k];
+        if (h->rung > 1 && h->utilisation < 1 && (!worst || h->rung > worst->rung)) worst = h;
+    }
+    FW_TRY(fw_verdict_tell_in_turn(arena, monitor, v));
+    for (int i = 0; worst && i < d->nscene; i++) {
+        if (strcmp(d->scene[i].name, worst->scene) != 0) continue;
+        fw_percent_text(to_end, sizeof to_end, worst->fatigue_utilisation);
+        fw_percent_text(behind, sizeof behind, worst->rung);
+        return fw_verdict_scene_reason(
+            v, &d->scene[i], 698, FW_INCONCLUSIVE, 0.95 / worst->rung,
+            fw_arena_printf(
+                arena,
+                "hinge %s rings on where %s%s ends, and nothing is known to damp it: %s "
+                "repetitions use %s %% of its fatigue limit by what is counted, and up "
+                "to %s %% if it rings for a hundred million radians more; give its "
+                "material a loss-factor, or the scene what damps it",
+                fw_text_name(worst->id), FW_NAMED("scene", worst->scene),
+                fw_number_text(times, sizeof times, d->limits.cycles, 3), to_end, behind));
+    }
     return FW_OK;
 }

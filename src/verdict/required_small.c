@@ -11,6 +11,7 @@
 #include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -509,10 +510,17 @@ static double beside(const fw_verdict_requirement *r, double off) {
 
 /* a final value is anywhere in the ring of that motion, too */
 static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_verdict_other *o,
-                         const fw_device_requirement *q, double now, fw_verdict_requirement *r) {
-    const double rest = beside(r, o->off);
+                         const fw_device_requirement *q, double now, double rest,
+                         fw_verdict_requirement *r) {
     double low = now - rest, high = now + rest, slowest_s;
-    if (q->measure == FW_MEASURE_FINAL && !(o->motion->loads && o->motion->loads->quasi_static)) {
+    if (o->from_s > 0 && q->measure == FW_MEASURE_FINAL) { /* all that comes behind the end */
+        fw_probe_range(&o->probe->course[q->probe], o->from_s, &low, &high);
+        if (goes_with_loads(&v->mechanism->device->probe[q->probe], q->measure))
+            low /= o->by, high /= o->by;
+        rest *= fmax(1, fmax(fabs(low), fabs(high)) / fmax(fabs(r->value), DBL_MIN));
+        low -= rest, high += rest;
+    } else if (q->measure == FW_MEASURE_FINAL &&
+               !(o->motion->loads && o->motion->loads->quasi_static)) {
         fw_probe_ring ring;
         fw_arena *arena = o->probe->arena;
         FW_TRY(fw_verdict_slowest_s(arena, v, r->scene_index, &slowest_s));
@@ -529,18 +537,28 @@ fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
     const fw_mechanism *m = v->mechanism;
     const fw_device_requirement *q = &m->device->requirement[r->asked];
     const fw_device_probe *of = &m->device->probe[q->probe];
-    const double value = r->value, at_low = r->low, at_high = r->high;
+    const fw_verdict_requirement was = *r;
+    const double value = r->value;
     const bool anywhere = q->measure == FW_MEASURE_FINAL || q->measure == FW_MEASURE_SETTLING;
-    double now[2] = {(double)NAN, (double)NAN};
-    for (int k = 0; k < 2; k++) {
+    double now[4] = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    for (int k = 0; k < 4; k++) {
         const fw_verdict_other *o = &s->other[k];
+        if (q->measure == FW_MEASURE_SETTLING && o->from_s > 0)
+            continue; /* it goes on behind the end: open */
         if (!o->asked || o->lost || !o->probe || o->probe->course[q->probe].count == 0) continue;
         now[k] = measured(&o->probe->course[q->probe], q);
         if (q->measure == FW_MEASURE_SETTLING) FW_TRY(settling(v, o, q, r->scene_index, &now[k]));
         if (goes_with_loads(of, q->measure)) now[k] /= o->by;
-        FW_TRY(take_in(v, o, q, now[k], r));
+        FW_TRY(take_in(v, o, q, now[k], beside(&was, o->off), r));
     }
-    if (value != 0) r->lasting += fmax(at_low - r->low, r->high - at_high) / fabs(value);
+    if (value != 0) r->lasting += fmax(was.low - r->low, r->high - was.high) / fabs(value);
+    if (s->other[2].lost || s->other[3].lost) { /* what it went by then it went */
+        const bool side = s->other[3].lost;
+        if (side || anywhere || q->measure == FW_MEASURE_MINIMUM) r->low = -HUGE_VAL;
+        if (side || q->measure != FW_MEASURE_MINIMUM) r->high = HUGE_VAL;
+        r->open =
+            side ? "it may go to another side (FW-D747)" : "its scene ends on its way (FW-D746)";
+    }
     if (s->other[0].lost) { /* away from where the stiffer one is */
         if (anywhere || !(now[1] < value)) r->low = -HUGE_VAL;
         if (anywhere || !(now[1] > value)) r->high = HUGE_VAL;
@@ -566,35 +584,4 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
     int at = fw_mechanism_plates_nth(probe->mode, probe->plane, in, out, &across);
     *in_plane = at + 1;
     return at >= 0 && across ? &o->mode[at] : NULL;
-}
-
-/* ---- scenes that are repeated in turn ---- */
-
-fw_status fw_verdict_tell_in_turn(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
-                                  fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    double most = 1, used;
-    int worst = FW_NONE;
-    char alone[32], all[32];
-    for (int k = 0; d->limits.cycles > 0 && k < v->nhinge; k++) {
-        const fw_verdict_hinge_verdict *h = &v->hinge[k];
-        if (!v->mechanism->hinge[k].limits.life.known || !(h->utilisation_high < 1)) continue;
-        FW_TRY(fw_verdict_in_turn(arena, v, k, monitor, &used));
-        used *= d->safety_factor * h->utilisation_high / h->utilisation;
-        if (used > most) most = used, worst = k;
-    }
-    for (int i = 0; worst != FW_NONE && i < d->nscene; i++)
-        if (strcmp(d->scene[i].name, v->hinge[worst].scene) == 0)
-            return fw_verdict_scene_reason(
-                v, &d->scene[i], 700, FW_INCONCLUSIVE, 0.95 / most,
-                fw_arena_printf(
-                    arena,
-                    "hinge %s is bent by several scenes, each as often as cycles says: by the "
-                    "worst of them alone it uses up to %s %% of its fatigue limit, and up to %s "
-                    "%% where they take turns, since from the farthest of one to that of another "
-                    "is a cycle; describe what no one device does in turn in files of its own",
-                    fw_text_name(v->hinge[worst].id),
-                    (fw_percent_text(alone, sizeof alone, v->hinge[worst].utilisation_high), alone),
-                    (fw_percent_text(all, sizeof all, most), all)));
-    return FW_OK;
 }

@@ -13,10 +13,9 @@
 
    down likewise with the least A; of what bodies move by the same with how far they go, the worst body counts.
    Inputs: the motion, and modes about the equilibrium of what does not go to and fro, voltages that do by their root mean
-   square. Where that may be reached from rest within the scene frequencies in between belong to the range.
-   Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
-   Cost: modes, and 24 steps a period for each frequency. Test: test_effects.py Resonance. What comes again: ringing.c.
-   Loads that make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
+   square. Where that may be reached from rest within the scene frequencies in between belong to the range. Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
+   Cost: modes, 24 steps a period for each frequency. Test: test_effects.py Resonance. What comes again: ringing.c. Loads that
+   make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "quantity/law_kind.h"
@@ -529,7 +528,8 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
     for (size_t i = 0; i < scenes; i++) {
         fw_verdict_shaken *of = &to[i];
-        of->other[0].probe = of->other[1].probe = NULL, of->own = NULL;
+        for (int k = 0; k < 4; k++)
+            of->other[k].probe = NULL, of->own = NULL;
         const size_t n = (size_t)of->n, loads = (size_t)of->nload, reach = (size_t)of->nreach,
                      rows = bodies + reach;
         KEEP(of->factor, 2 * h);

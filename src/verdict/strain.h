@@ -557,7 +557,7 @@ fw_status fw_verdict_fatigue_of(fw_arena *arena, const fw_flexure_strain_life *l
 struct fw_verdict_variant_verdict;
 fw_status fw_verdict_in_turn(fw_arena *arena, const struct fw_verdict_variant_verdict *v, int k,
                              const fw_verdict_strain_monitor *monitor, double *used);
-/* required_small.c, moved_again.c: reasons where that, or what rings on, leaves a hinge open */
+/* moved_again.c: reasons where that, or what rings on, leaves a hinge open */
 fw_status fw_verdict_tell_in_turn(fw_arena *arena, const fw_verdict_strain_monitor *monitor,
                                   struct fw_verdict_variant_verdict *v);
 fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_monitor *monitor,

@@ -41,7 +41,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
    from there comes nearer */
 extern const char fw_verdict_unstable_there[];
 void fw_verdict_unstable_leaves_open(fw_verdict_variant_verdict *v, int scene, int first);
-/* moved_again.c: a warning where a scene ends with a hinge still on the way up (FW-D691), and v->ends_early */
+/* near_a_fold.c: a warning where a scene ends with a hinge still on the way up (FW-D691); v->ends_early: not judged */
 fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
                                 const fw_dynamics_motion *motion,
                                 const fw_dynamics_motion_options *options, fw_diags *diags,
@@ -198,10 +198,10 @@ typedef struct fw_verdict_shaken_mode {
     /* (nload) where something comes again: modal forces over mass and omega^2 and how far it swings; NULL: it hardly does */
     double *size;
 } fw_verdict_shaken_mode;
-/* a scene that was moved again (moved_again.c) */
+/* a scene that was moved again (near_a_fold.c) */
 typedef struct fw_verdict_other {
-    bool asked, lost; /* it was, and there is no such motion to its end */
-    double by, off;   /* its loads; what stands for all that gives, relative */
+    bool asked, lost;       /* it was, and there is no such motion to its end */
+    double by, off, from_s; /* its loads; errors of all that gives; held on from there, or 0 */
     const fw_dynamics_motion *motion;
     const fw_probe_monitor *probe; /* what those of requirements read in it; NULL: none are */
 } fw_verdict_other;
@@ -230,7 +230,7 @@ struct fw_verdict_shaken {
     double nearer_m, kept; /* of electrodes, in these; share of a gap as computed, 0: not asked */
     const struct fw_verdict_swinging
         *own;                  /* what bodies do by modes of their own (body.h); NULL: nothing */
-    fw_verdict_other other[2]; /* softer, with all of the pull, and stiffer, with the least of it */
+    fw_verdict_other other[4]; /* softer, most pull; stiffer, least pull; held on; the other side */
 };
 /* does a law go to and fro in the scene? */
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *mechanism, int scene,
@@ -246,8 +246,9 @@ typedef struct fw_verdict_required {
                          fw_verdict_variant_verdict *v);
 } fw_verdict_required;
 extern const fw_verdict_required fw_verdict_required_of_scenes;
-/* moved_again.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672),
-   and where electrodes may pull otherwise */
+/* near_a_fold.c: what of v->shaken[scene] grows where loads leave little of the stiffness, of which `e` may be missing (FW-D672),
+   electrodes may pull otherwise, it ends on its way (FW-D746), or left an unstable equilibrium (FW-D747) */
+bool fw_verdict_has_said(const fw_verdict_variant_verdict *v, const fw_device_scene *s, int number);
 fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *mechanism, int scene, double e,
                               const fw_dynamics_motion_options *options,
                               const fw_verdict_required *required, bool brief, fw_diags *diags,
@@ -594,7 +595,6 @@ fw_status fw_verdict_clearance_strips(fw_arena *arena, const fw_layout *layout,
 
 /* of any scene the most of fw_verdict_bending_share, for small motions of which no forces are known */
 double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v);
-
 /* body_solids.c: u (3 nbody) by which a load f (3 nbody) displaces, by modes that are all there and stable */
 void fw_verdict_displaced(const fw_statics_modes *modes, const double *f, double *u);
 #endif

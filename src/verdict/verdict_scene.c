@@ -221,8 +221,8 @@ static fw_status judge_stability(fw_arena *arena, const fw_device_scene *scene, 
                                  fw_diags *diags, fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     const fw_statics_stability *stability;
-    FW_TRY(
-        fw_statics_stability_find(arena, m, scene, v->motion[i], diags, &stability, &v->left[i]));
+    FW_TRY(fw_statics_stability_find(arena, m, scene, v->motion[i], diags, &stability, &v->left[i],
+                                     NULL));
     if (!stability) return FW_OK;
     double model = fw_verdict_model_error.motion + fw_verdict_model_error.strain, used = 0;
     for (int k = 0; stability->angle_rad && k < m->nhinge; k++) {
@@ -332,8 +332,8 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     FW_TRY(judge_beside(arena, scene, v->motion[i], v));
     FW_TRY(judge_strains(arena, scene, v->motion[i], v));
     FW_TRY(judge_reliability(scene, &own, v));
-    FW_TRY(fw_verdict_ends_early(arena, scene, v->motion[i], options, diags, v));
-    return judge_stability(arena, scene, i, diags, v);
+    FW_TRY(judge_stability(arena, scene, i, diags, v));
+    return fw_verdict_ends_early(arena, scene, v->motion[i], options, diags, v);
 }
 
 const char fw_verdict_unstable_there[] =

@@ -3,7 +3,7 @@
    and closing), against the circle of a crank, and where they end. */
 #include "live_case.h"
 #include "plan/design.h"
-#include "plan/live_request.h"
+#include "plan/live.h"
 #include "plan/stages.h"
 
 static uint64_t seed = 88172645463325252ULL;

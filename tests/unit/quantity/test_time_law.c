@@ -61,6 +61,24 @@ static void step(void **state) {
     assert_true(fw_quantity_law_largest(NULL, 2) == 1);
 }
 
+/* held from an instant on it stays what it was, with a break there and none behind */
+static void held(void **state) {
+    (void)state;
+    const fw_quantity_law law = {.kind = &fw_quantity_law_ramp, .start_s = 1, .rise_s = 4};
+    const fw_quantity_law *now = fw_quantity_law_hold(arena, &law, 3);
+    assert_non_null(now);
+    expect(now, 3, 2.9, 0.5, 0.25, 0);
+    expect(now, 3, 3.1, 0.5, 0, 0);
+    expect(now, 9, 9, 0.5, 0, 0);
+    expect_breaks(now, 10, 2, (const double[]){1, 3}, 0);
+    expect_breaks(now, 2, 1, (const double[]){1}, 0);
+    assert_true(fw_quantity_law_rests(now, 3));
+    assert_false(fw_quantity_law_rests(&law, 3));
+    assert_true(fw_quantity_law_rests(&law, 5));
+    assert_true(fw_quantity_law_rests(NULL, 5));
+    assert_null(fw_quantity_law_hold(arena, NULL, 3));
+}
+
 static void ramp(void **state) {
     (void)state;
     const fw_quantity_law law = {.kind = &fw_quantity_law_ramp, .start_s = 1, .rise_s = 4};
@@ -203,11 +221,14 @@ static void swings(void **state) {
                           below = {.kind = sine, .frequency_Hz = 500, .end_s = ever};
     for (int n = 4; n <= 64; n *= 4) {
         const double end = n * period;
-        assert_near(fw_quantity_law_swing(&same, FW_LAW_OF_COORDINATE, end, w, 0) / (pi * n), 1, 0.02);
-        assert_near(fw_quantity_law_swing(&below, FW_LAW_SQUARED, end, w, 0) / (0.5 * pi * n), 1, 0.12);
+        assert_near(fw_quantity_law_swing(&same, FW_LAW_OF_COORDINATE, end, w, 0) / (pi * n), 1,
+                    0.02);
+        assert_near(fw_quantity_law_swing(&below, FW_LAW_SQUARED, end, w, 0) / (0.5 * pi * n), 1,
+                    0.12);
         assert_near(fw_quantity_law_swing(&same, FW_LAW_OF_LOAD, end, w, 0) / (pi * n), 1, 0.02);
     }
-    assert_true(fw_quantity_law_swing(&slow, FW_LAW_OF_COORDINATE, 0.09, w, 0) < 1.02 / (0.1 * w) * 2);
+    assert_true(fw_quantity_law_swing(&slow, FW_LAW_OF_COORDINATE, 0.09, w, 0) <
+                1.02 / (0.1 * w) * 2);
     assert_true(fw_quantity_law_goes_to_and_fro(&same, 3 * period));
     assert_true(fw_quantity_law_goes_to_and_fro(&same, 1.5 * period));
     assert_false(fw_quantity_law_goes_to_and_fro(&same, period));
@@ -217,7 +238,8 @@ static void swings(void **state) {
 }
 
 /* the largest of one undamped oscillator from rest, less a share of the first load */
-static double swing_of(const fw_quantity_law_load *load, int n, double end_s, double w, double start_per_s, double less) {
+static double swing_of(const fw_quantity_law_load *load, int n, double end_s, double w,
+                       double start_per_s, double less) {
     fw_quantity_law_pieces pieces;
     double size[4], by = 1, shares[4] = {less}, most[FW_QUANTITY_LANES];
     fw_quantity_law_row row;
@@ -237,8 +259,8 @@ static double swing_of(const fw_quantity_law_load *load, int n, double end_s, do
 
 /* the largest of two oscillators, each at w times `own`, by steps of a thousandth of the shorter period (Runge and Kutta), of
    which a row sees q_0 + 2 q_1, less 0.5 f of the last load; behind: how far each is from where it is held */
-static double swung_by_steps(const fw_quantity_law *law, double end_s, const double w[2], double damping, const double size[2][2], double scale,
-                             bool behind) {
+static double swung_by_steps(const fw_quantity_law *law, double end_s, const double w[2],
+                             double damping, const double size[2][2], double scale, bool behind) {
     const double h = 2 * pi / fmax(w[0], w[1]) / 1000;
     double y[4] = {0}, most = 0;
     for (double t = 0; t < end_s; t += h) {
@@ -247,7 +269,8 @@ static double swung_by_steps(const fw_quantity_law *law, double end_s, const dou
             const double part = i == 0 ? 0 : i == 3 ? 1 : 0.5;
             fw_quantity_law_value(law, t + part * h, t + 0.5 * h, value);
             for (int o = 0; o < 2; o++) {
-                const double q = y[2 * o] + part * h * (i ? k[i - 1][2 * o] : 0), v = y[2 * o + 1] + part * h * (i ? k[i - 1][2 * o + 1] : 0);
+                const double q = y[2 * o] + part * h * (i ? k[i - 1][2 * o] : 0),
+                             v = y[2 * o + 1] + part * h * (i ? k[i - 1][2 * o + 1] : 0);
                 f[o] = (scale * size[o][0] + size[o][1]) * value[0];
                 k[i][2 * o] = v;
                 k[i][2 * o + 1] = w[o] * w[o] * (f[o] - q) - 2 * damping * w[o] * v;
@@ -264,24 +287,30 @@ static double swung_by_steps(const fw_quantity_law *law, double end_s, const dou
 /* eight frequencies at a time, two oscillators, sizes that go with the frequency and sizes that do not */
 static void swings_side_by_side(void **state) {
     (void)state;
-    const fw_quantity_law law = {.kind = fw_quantity_law_find("sine"), .frequency_Hz = 300, .start_s = 1e-3, .end_s = 9e-3};
+    const fw_quantity_law law = {
+        .kind = fw_quantity_law_find("sine"), .frequency_Hz = 300, .start_s = 1e-3, .end_s = 9e-3};
     const fw_quantity_law_load load[2] = {{.law = &law, .size = 1}, {.law = &law, .size = 1}};
-    const double size[2][2] = {{1, 0.3}, {-0.4, 0.2}}, by[2] = {1, 2}, less[2] = {0, 0.5}, w = 2 * pi * 900, end = 12e-3;
+    const double size[2][2] = {{1, 0.3}, {-0.4, 0.2}}, by[2] = {1, 2}, less[2] = {0, 0.5},
+                 w = 2 * pi * 900, end = 12e-3;
     fw_quantity_law_pieces pieces;
     assert_int_equal(fw_quantity_law_pieces_of(arena, load, 2, end, &pieces), FW_OK);
     for (int d = 0; d < 4; d++) {
         const fw_quantity_law_loads on = {load, 2, 1, &pieces};
-        fw_quantity_law_oscillator o[2] = {{0.02 * d, 0, size[0], {0}, {0}}, {0.02 * d, 0, size[1], {0}, {0}}};
+        fw_quantity_law_oscillator o[2] = {{0.02 * d, 0, size[0], {0}, {0}},
+                                           {0.02 * d, 0, size[1], {0}, {0}}};
         double most[FW_QUANTITY_LANES];
         fw_quantity_law_row row;
         for (int l = 0; l < FW_QUANTITY_LANES; l++)
             for (int k = 0; k < 2; k++)
-                o[k].omega_per_s[l] = (k ? 2.7 : 1) * w * (1 + 0.1 * l), o[k].scale[l] = 1 / (1 + 0.2 * l);
+                o[k].omega_per_s[l] = (k ? 2.7 : 1) * w * (1 + 0.1 * l),
+                o[k].scale[l] = 1 / (1 + 0.2 * l);
         fw_quantity_law_seen seen = {by, d % 2 ? NULL : less, most, &row, 1, d % 2 == 1};
         assert_true(fw_quantity_law_swings_of(&on, o, 2, &seen) > 0);
         for (int l = 0; l < FW_QUANTITY_LANES; l++) {
             const double at[2] = {w * (1 + 0.1 * l), 2.7 * w * (1 + 0.1 * l)};
-            assert_near(most[l] / swung_by_steps(&law, end, at, 0.02 * d, size, 1 / (1 + 0.2 * l), d % 2 == 1), 1, 2e-3);
+            assert_near(most[l] / swung_by_steps(&law, end, at, 0.02 * d, size, 1 / (1 + 0.2 * l),
+                                                 d % 2 == 1),
+                        1, 2e-3);
         }
     }
 }
@@ -293,11 +322,17 @@ static void swings_of_several(void **state) {
     const double w = 2 * pi * 1000, period = 1e-3;
     for (int i = 0; i < 9; i++) {
         const double n = 20 + i / 8.0, end = 30 * period;
-        const fw_quantity_law one = {.kind = fw_quantity_law_find("half-sine"), .rise_s = 0.5 * period},
-                              other = {.kind = one.kind, .rise_s = 0.5 * period, .start_s = n * period},
-                              late = {.kind = fw_quantity_law_find("step"), .start_s = n * period, .end_s = (double)INFINITY},
+        const fw_quantity_law one = {.kind = fw_quantity_law_find("half-sine"),
+                                     .rise_s = 0.5 * period},
+                              other = {.kind = one.kind,
+                                       .rise_s = 0.5 * period,
+                                       .start_s = n * period},
+                              late = {.kind = fw_quantity_law_find("step"),
+                                      .start_s = n * period,
+                                      .end_s = (double)INFINITY},
                               other_way = {.kind = late.kind, .start_s = 0, .end_s = n * period};
-        const fw_quantity_law_load pulses[] = {{.law = &one, .size = 3}, {.law = &other, .size = 3}},
+        const fw_quantity_law_load pulses[] = {{.law = &one, .size = 3},
+                                               {.law = &other, .size = 3}},
                                    steps[] = {{.size = 1}, {.law = &late, .size = 1}};
         const double alone = pi / 2, both = 2 * fabs(cos(pi * n)) * alone;
         const double far = swing_of(pulses, 2, end, w, 0, 0) / 3;
@@ -308,15 +343,20 @@ static void swings_of_several(void **state) {
            from the start on, by what both leave together */
         const fw_quantity_law_load on[] = {{.law = &late, .size = 1, .coordinate = true}},
                                    there[] = {{.law = &other_way, .size = 1, .coordinate = true}};
-        assert_true(fw_quantity_law_come_again((fw_quantity_law_load[]){{.law = &one, .size = 1, .coordinate = true}}, 1, end));
+        assert_true(fw_quantity_law_come_again(
+            (fw_quantity_law_load[]){{.law = &one, .size = 1, .coordinate = true}}, 1, end));
         assert_near(swing_of(there, 1, end, w, 0, 1), fmax(1, 2 * fabs(sin(pi * n))), 1e-3);
-        assert_near(swing_of(on, 1, end, w, w, 1), fmax(1, hypot(1 - sin(2 * pi * n), cos(2 * pi * n))), 1e-3);
-        assert_true(fw_quantity_law_come_again(pulses, 2, end) && fw_quantity_law_come_again(steps, 2, end));
-        assert_false(fw_quantity_law_come_again(pulses, 1, end) || fw_quantity_law_come_again(steps, 1, end));
+        assert_near(swing_of(on, 1, end, w, w, 1),
+                    fmax(1, hypot(1 - sin(2 * pi * n), cos(2 * pi * n))), 1e-3);
+        assert_true(fw_quantity_law_come_again(pulses, 2, end) &&
+                    fw_quantity_law_come_again(steps, 2, end));
+        assert_false(fw_quantity_law_come_again(pulses, 1, end) ||
+                     fw_quantity_law_come_again(steps, 1, end));
         /* loads of one course are one; a voltage acts by its square; a coordinate by how far it goes from its start */
         const fw_quantity_law copy = late;
         const fw_quantity_law_load alike[] = {{.law = &late, .size = 1}, {.law = &copy, .size = 2}},
-                                   twice = {.law = &late, .size = 4, .from = 0.5}, half = {.size = 0.5, .squared = true};
+                                   twice = {.law = &late, .size = 4, .from = 0.5},
+                                   half = {.size = 0.5, .squared = true};
         assert_false(fw_quantity_law_come_again(alike, 2, end));
         assert_near(swing_of(&half, 1, end, w, 0, 0), 1, 1e-3);
         assert_near(swing_of(&twice, 1, 10 * period, w, 0, 0), 4, 1e-3); /* -2 at once */
@@ -348,7 +388,8 @@ static void answers(void **state) {
         assert_true(fw_quantity_law_answer(&same, n * period, 0.98 * w, 1.02 * w) > 0.99 * is);
     }
     /* frequencies so far apart that to try them all would take too long: the bound by jolts, not what a try gives */
-    const fw_quantity_law long_one = {.kind = sine, .frequency_Hz = 1000, .end_s = (double)INFINITY};
+    const fw_quantity_law long_one = {
+        .kind = sine, .frequency_Hz = 1000, .end_s = (double)INFINITY};
     const double near = fw_quantity_law_answer(&long_one, 128 * period, 0.98 * w, 1.02 * w);
     assert_true(fw_quantity_law_answer(&long_one, 128 * period, 0.5 * w, 1.5 * w) > 1.1 * near);
     for (double r = 0.3; r < 3; r *= 1.7) {
@@ -367,8 +408,11 @@ static void impulses(void **state) {
     (void)state;
     const fw_quantity_law half = {.kind = fw_quantity_law_find("half-sine"), .rise_s = 2e-5},
                           stays = {.kind = fw_quantity_law_find("ramp"), .rise_s = 1},
-                          goes = {.kind = fw_quantity_law_find("sine"), .frequency_Hz = 1, .end_s = (double)INFINITY},
-                          pulse = {.kind = fw_quantity_law_find("step"), .start_s = 0.25, .end_s = 1};
+                          goes = {.kind = fw_quantity_law_find("sine"),
+                                  .frequency_Hz = 1,
+                                  .end_s = (double)INFINITY},
+                          pulse = {
+                              .kind = fw_quantity_law_find("step"), .start_s = 0.25, .end_s = 1};
     const double is = fw_quantity_law_impulse_s(&half, 1e-5); /* behind the scene's end, too */
     assert_true(is >= 4e-5 / pi && is < 1.001 * 4e-5 / pi);
     assert_near(fw_quantity_law_impulse_s(&pulse, 2), 0.75, 1e-12);
@@ -378,7 +422,8 @@ static void impulses(void **state) {
 }
 
 /* by small steps of what is straight between them, at w, well behind the law's end */
-static double followed(const fw_quantity_law *law, double end_s, double w, double low, double *far, double *behind) {
+static double followed(const fw_quantity_law *law, double end_s, double w, double low, double *far,
+                       double *behind) {
     const int steps = 40000;
     const double h = end_s / steps, c = cos(w * h), s = sin(w * h);
     double q = 0, v = 0, f = 0, most = 0, value[3];
@@ -399,7 +444,8 @@ static double followed(const fw_quantity_law *law, double end_s, double w, doubl
    the top of the band, though it goes farthest at the bottom */
 static void answers_behind_the_end(void **state) {
     (void)state;
-    static const double t_s[] = {0, 0.3e-3, 0.5e-3, 0.8e-3, 1e-3}, height[] = {0, 0.7, -0.4, 1, 0.2};
+    static const double t_s[] = {0, 0.3e-3, 0.5e-3, 0.8e-3, 1e-3},
+                        height[] = {0, 0.7, -0.4, 1, 0.2};
     for (double times = 0.01; times < 40; times *= 2.3) { /* how long, in periods of 1 ms */
         double later[5];
         for (int i = 0; i < 5; i++)
@@ -407,35 +453,51 @@ static void answers_behind_the_end(void **state) {
         const double lasts = times * 1e-3;
         const fw_quantity_law laws[] = {
             {.kind = fw_quantity_law_find("half-sine"), .rise_s = lasts},
-            {.kind = fw_quantity_law_find("half-sine"), .rise_s = 0.7 * lasts, .start_s = 0.3 * lasts},
+            {.kind = fw_quantity_law_find("half-sine"),
+             .rise_s = 0.7 * lasts,
+             .start_s = 0.3 * lasts},
             {.kind = fw_quantity_law_find("ramp"), .rise_s = lasts},
             {.kind = fw_quantity_law_find("step"), .start_s = 0.2 * lasts, .end_s = lasts},
-            {.kind = fw_quantity_law_find("table"), .table_t_s = later, .table_value = height, .ntable = 5}};
+            {.kind = fw_quantity_law_find("table"),
+             .table_t_s = later,
+             .table_value = height,
+             .ntable = 5}};
         for (size_t i = 0; i < sizeof laws / sizeof laws[0]; i++) {
             const double low = 2 * pi * 900, high = 2 * pi * 1100;
             double most = 0, far = 0, behind = 0;
             for (int k = 0; k <= 40; k++)
-                most = fmax(most, followed(&laws[i], lasts + 1.5e-3, low + (high - low) * k / 40, low, &far, &behind));
-            const fw_quantity_law_response long_one = fw_quantity_law_responds(&laws[i], lasts + 5e-3, low, high),
-                                           ends = fw_quantity_law_responds(&laws[i], lasts, low, high),
-                                           cut = fw_quantity_law_responds(&laws[i], 0.6 * lasts, low, high);
+                most = fmax(most, followed(&laws[i], lasts + 1.5e-3, low + (high - low) * k / 40,
+                                           low, &far, &behind));
+            const fw_quantity_law_response long_one = fw_quantity_law_responds(
+                                               &laws[i], lasts + 5e-3, low, high),
+                                           ends =
+                                               fw_quantity_law_responds(&laws[i], lasts, low, high),
+                                           cut = fw_quantity_law_responds(&laws[i], 0.6 * lasts,
+                                                                          low, high);
             /* jumps are met there within a step, by 4e-4 of the shortest */
-            assert_true(ends.most > 0.999 * most && ends.far > 0.999 * far && ends.behind > 0.999 * behind);
-            assert_true(ends.most < 1.04 * most && ends.far < 1.05 * far && ends.behind < behind + 0.1 * most);
+            assert_true(ends.most > 0.999 * most && ends.far > 0.999 * far &&
+                        ends.behind > 0.999 * behind);
+            assert_true(ends.most < 1.04 * most && ends.far < 1.05 * far &&
+                        ends.behind < behind + 0.1 * most);
             assert_near(long_one.most, ends.most, 0.02 * ends.most);
             assert_near(cut.most, ends.most, 1e-9);
             assert_near(fw_quantity_law_answer(&laws[i], lasts, low, high), ends.most, 0);
         }
         const double x = 2 * lasts * 1100; /* w rise/pi */
         if (x < 0.3) {
-            const fw_quantity_law_response r = fw_quantity_law_responds(&laws[0], lasts, 2 * pi * 900, 2 * pi * 1100);
+            const fw_quantity_law_response r =
+                fw_quantity_law_responds(&laws[0], lasts, 2 * pi * 900, 2 * pi * 1100);
             assert_near(r.most / (2 * x / (1 - x * x) * cos(0.5 * pi * x)), 1, 0.03);
             assert_true(r.far < 0.85 * r.most);
         }
     }
     /* what begins behind the scene does nothing in it; what repeats stops where the scene ends, and rings on */
-    const fw_quantity_law late = {.kind = fw_quantity_law_find("half-sine"), .rise_s = 1e-3, .start_s = 2e-3},
-                          wave = {.kind = fw_quantity_law_find("sine"), .frequency_Hz = 100, .end_s = (double)INFINITY};
+    const fw_quantity_law late = {.kind = fw_quantity_law_find("half-sine"),
+                                  .rise_s = 1e-3,
+                                  .start_s = 2e-3},
+                          wave = {.kind = fw_quantity_law_find("sine"),
+                                  .frequency_Hz = 100,
+                                  .end_s = (double)INFINITY};
     assert_near(fw_quantity_law_answer(&late, 1e-3, 6000, 7000), 0, 0);
     assert_near(fw_quantity_law_done_s(&late, 1e-3), 1e-3, 0);
     assert_near(fw_quantity_law_done_s(&late, 2.1e-3), 3e-3, 1e-15);
@@ -513,7 +575,9 @@ static void shakes(void **state) {
         assert_true(w * w * behind > 0.2 * (s.most + w * s.blows));
         assert_near(s.blows, i == 0 ? 2 * pi / 0.2 : 0, 1e-9 * pi / 0.2);
     }
-    const double omega = 6 * pi; /* its acceleration begins at once: a jump of 1, and 4 w T/(2 pi) of its slope, over the rate */
+    const double omega =
+        6 *
+        pi; /* its acceleration begins at once: a jump of 1, and 4 w T/(2 pi) of its slope, over the rate */
     const fw_quantity_law_shaking s = fw_quantity_law_shakes(&law[1], end, w);
     assert_near(s.most, omega * omega, 1e-6 * omega * omega);
     assert_near(s.rings, 1 + 4 * 3 * omega / w, 0.02);
@@ -582,6 +646,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sizes_before_samples),
         cmocka_unit_test(step),
+        cmocka_unit_test(held),
         cmocka_unit_test(ramp),
         cmocka_unit_test(sine),
         cmocka_unit_test(half_sine),

@@ -17,9 +17,9 @@ static double left; /* of the stiffness, in the scene looked at last */
 static const fw_statics_stability *find(fixture *f, const rig *r, int samples) {
     const fw_dynamics_motion *m = move(f, r, samples);
     const fw_statics_stability *p = NULL;
-    assert_int_equal(fw_statics_stability_find(f->arena, &r->m, &r->scene, m, &f->diags, &p,
-                                               &left),
-                     FW_OK);
+    assert_int_equal(
+        fw_statics_stability_find(f->arena, &r->m, &r->scene, m, &f->diags, &p, &left, NULL),
+        FW_OK);
     assert_int_equal(said(f, 259), p != NULL);
     return p;
 }
@@ -91,7 +91,8 @@ static void which_way_is_chance(void **state) {
         const fw_statics_stability *p = find(&f, &r, 101);
         assert_int_equal(p != NULL, i > 0);
         if (p) assert_true(p->chance);
-        if (p) assert_non_null(strstr(p->text, "to a side that nothing in the description decides"));
+        if (p)
+            assert_non_null(strstr(p->text, "to a side that nothing in the description decides"));
         fw_arena_free(f.arena);
     }
 }
@@ -200,7 +201,9 @@ static void between_electrodes(void **state) {
 /* thrown aside while it is stable, at rest again when the load comes: what it did before has no part in where it stays */
 static void what_it_did_before(void **state) {
     (void)state;
-    const fw_quantity_law late = {.kind = &fw_quantity_law_step, .start_s = 30, .end_s = (double)INFINITY},
+    const fw_quantity_law late = {.kind = &fw_quantity_law_step,
+                                  .start_s = 30,
+                                  .end_s = (double)INFINITY},
                           pulse = {.kind = &fw_quantity_law_step, .end_s = 0.2};
     for (int i = 0; i < 2; i++) {
         fixture f = begin();
@@ -237,8 +240,8 @@ static void too_large(void **state) {
     rig r = rig_windows(f.arena, 60);
     const fw_dynamics_motion *m = move(&f, &r, 2);
     const fw_statics_stability *p;
-    assert_int_equal(fw_statics_stability_find(f.arena, &r.m, &r.scene, m, &f.diags, &p, &left),
-                     FW_OK);
+    assert_int_equal(
+        fw_statics_stability_find(f.arena, &r.m, &r.scene, m, &f.diags, &p, &left, NULL), FW_OK);
     assert_null(p);
     assert_true(said(&f, 259));
     fw_arena_free(f.arena);
@@ -247,7 +250,8 @@ static void too_large(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mast),
-        cmocka_unit_test(what_falls_is_not_reported), cmocka_unit_test(which_way_is_chance),
+        cmocka_unit_test(what_falls_is_not_reported),
+        cmocka_unit_test(which_way_is_chance),
         cmocka_unit_test(too_short_to_grow),
         cmocka_unit_test(rising_load),
         cmocka_unit_test(it_moves_along_the_symmetry),

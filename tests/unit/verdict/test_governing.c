@@ -163,19 +163,17 @@ static void a_reason_names_the_flow_that_it_is_of(void **state) {
     e->variant[1].reason = two, e->variant[1].nreason = 2;
     assert_int_equal(fw_verdict_rejections(e->arena, &e->verdict, &text, &n), FW_OK);
     assert_int_equal(n, 5);
-    assert_string_equal(
-        text[0], "tip is 1 um, and at least 9 um is required in push, flow one [FW-D330]");
+    assert_string_equal(text[0],
+                        "tip is 1 um, and at least 9 um is required in push, flow one [FW-D330]");
     assert_string_equal(text[1], "jaws meet [FW-D204]");
     assert_string_equal(text[2], "in flow one it breaks [FW-D237]");
-    assert_string_equal(text[3],
-                        "tip is 1 um, and at least 9 um is required, flow one [FW-D330]");
-    assert_string_equal(
-        text[4], "tip is 2 um, and at least 9 um is required in push, flow two [FW-D330]");
+    assert_string_equal(text[3], "tip is 1 um, and at least 9 um is required, flow one [FW-D330]");
+    assert_string_equal(text[4],
+                        "tip is 2 um, and at least 9 um is required in push, flow two [FW-D330]");
     two[0] = slow; /* of both alike, beside other numbers */
     assert_int_equal(fw_verdict_rejections(e->arena, &e->verdict, &text, &n), FW_OK);
     assert_int_equal(n, 4);
-    assert_string_equal(text[0],
-                        "tip is 1 um, and at least 9 um is required in push [FW-D330]");
+    assert_string_equal(text[0], "tip is 1 um, and at least 9 um is required in push [FW-D330]");
     fw_arena_free(e->arena);
 }
 
@@ -192,8 +190,22 @@ static void a_requirement_goes_by_the_largest_factor(void **state) {
     assert_true(most[0] == 1 && most[1] == 1);
 }
 
+/* a factor of millions is what is left of a zero, but where forces are off by so much that it may tip all the same */
+static void what_is_left_of_no_force_tips_nothing(void **state) {
+    (void)state;
+    fw_verdict_across a = {.tips = 4.805e7, .tips_error = 62};
+    assert_false(fw_verdict_across_tips(&a));
+    a.tips_error = 1e6;
+    assert_true(fw_verdict_across_tips(&a));
+    a.tips = 2e5, a.tips_error = 1e-3;
+    assert_true(fw_verdict_across_tips(&a));
+    a.tips = HUGE_VAL;
+    assert_false(fw_verdict_across_tips(&a));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_left_of_no_force_tips_nothing),
         cmocka_unit_test(a_requirement_goes_by_the_largest_factor),
         cmocka_unit_test(the_largest_share_of_every_flow_and_corner),
         cmocka_unit_test(a_worse_decision_goes_before_a_larger_share),
