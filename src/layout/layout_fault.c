@@ -276,8 +276,9 @@ const char *fw_layout_wider_there(fw_arena *arena, const fw_device *device, cons
     const char *how = NULL;
     fw_layout_um(now, fmin(wide, plate)), fw_layout_um(up, most);
     if (fmin(wide, plate) >= most)
-        how = fw_arena_printf(arena, "its neck is as wide as its flexure is long enough for: make "
-                                     "the flexure longer, or draw the body nearer to it");
+        how = "its neck is as wide as so short a flexure lets it be: make the flexure longer, or "
+              "draw "
+              "the body nearer to it";
     else if (plate < wide)
         how = fw_arena_printf(
             arena,
