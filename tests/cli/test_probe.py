@@ -649,6 +649,26 @@ class Probe(unittest.TestCase):
             wide[name] = used["utilisation_band"][1] / used["utilisation"] - 1
         self.assertGreater(wide["thin"], wide["stiff"] + 0.05)
 
+    def test_a_head_that_is_narrow_is_named(self):
+        """leaves that vary hang on rings of the layout, one of them on the far side: told was to make the body wider at a place that
+        no number of the file is the width of"""
+        def stage(leaf, wide=""):
+            hinges = "".join(f'<revolute id="{i}" axis="{axis} deg" a="ground" a-x="{x} um" a-y="{y} um" b="shuttle" b-x="{x} um" '
+                             f'b-y="{y} um" hinge="leaf"/>' for i, x, y, axis in (("A", -600, 600, 0), ("B", 600, 600, 0), ("C", -600, -600, 180),
+                                                                                  ("D", 600, -600, 180)))
+            return ('<device xmlns="urn:flexwright:device:1" name="guide"><material ref="silicon-100" thickness="50 um"/>'
+                    f'<flow ref="al-masked-rie"/><flexure id="leaf" kind="leaf" length="400 um" width="8 um" {leaf}/><mechanism>'
+                    f'<body id="shuttle" x="0 mm" y="0 mm" {wide} plate-width="1.6 mm" plate-height="0.5 mm"/>{hinges}</mechanism>'
+                    '<scene name="run" duration="20 ms"><force on="shuttle" fx="10 uN" fy="0 uN" law="ramp" rise="10 ms"/><residual-stress mean="20 MPa"/>'
+                    '<air kind="slide" gap="10 um"/></scene></device>')
+        said = {name: run("check", self.file(stage(*of)), "--corners", "none", "--advice", "none", "--json").stderr
+                for name, of in (("ring", ('fillet="5 um" width-middle="7.9 um"',)), ("narrow", ('fillet="5 um" width-middle="7.9 um"', 'width="60 um"')),
+                                 ("straight", ('fillet="5 um"',)))}
+        self.assertNotIn("FW-D510", said["straight"])
+        for name, width in (("ring", r"width where none is stated, 120 um"), ("narrow", r"width, 60 um")):
+            self.assertRegex(said[name], r"that is the head of hinge [A-D], which the layout draws, and its neck is as wide as the body's "
+                             + width + r", says: write a larger width, up to [\d.]+ um; or make it shorter \[FW-D510\]")
+
     def test_bodies_bend_between_leaves_that_do_not_turn(self):
         """a shuttle between four leaves, pushed across them: they bend to an S and store what they have by deflection.
         Of two bars on a web it gives, a block does not; pushed along its leaves the bars give hundreds of times what they
