@@ -846,7 +846,7 @@ class Probe(unittest.TestCase):
         text = text.replace('rise="20 ms"', 'rise="1 ms"')
         asked = '<require probe="stroke" measure="final" min="40 um" scene="draw"/>'
         options = ("check", "--json", "--corners", "none", "--advice", "none")
-        for damped, bound, verdict in ((False, "45 um", "inconclusive"), (False, "90 um", "accept"), (True, "90 um", "accept")):
+        for damped, bound, verdict in ((False, "47 um", "inconclusive"), (False, "90 um", "accept"), (True, "90 um", "accept")):
             device = text if damped else text.replace('<air kind="slide" gap="10 um"/>', "")
             device = device.replace(asked, f'<require probe="stroke" measure="final" max="{bound}" scene="draw"/>')
             done = run(options[0], self.file(device), *options[1:])
@@ -854,8 +854,8 @@ class Probe(unittest.TestCase):
             final = next(r for r in answer["requirements"] if r["measure"] == "final")
             self.assertEqual(final["verdict"], verdict, (damped, bound, final))
             low, high = final["band"]
-            self.assertEqual(low < 45e-6 and high > 70e-6, not damped, (damped, bound, final))
-            told = "has not come to rest (where it ends it still goes to and fro by 15.06 um to either side" in done.stdout
+            self.assertEqual(low < 46e-6 and high > 70e-6, not damped, (damped, bound, final))
+            told = "has not come to rest (where it ends it still goes to and fro by 12.18 um to either side" in done.stdout
             self.assertEqual(told, verdict == "inconclusive", (damped, bound))
 
     def test_a_ring_behind_a_sine_that_has_ended(self):
@@ -929,7 +929,7 @@ class Probe(unittest.TestCase):
             self.assertGreater(len(found), 1)
             self.assertGreater(min(found), 1e-3)
             # but for what blows change, and what hangs over, which bends by less where a measure has a sign (decision 211)
-            self.assertLess(max(found) - min(found), 0.04 * max(found), (probe, found))
+            self.assertLess(max(found) - min(found), 1.25e-3, (probe, found))
 
     def test_what_is_required_decides_at_either_end_of_a_band(self):
         """each kind of value, with bounds just within, in and just beyond its band: decision, margin, share and what the reason says"""
