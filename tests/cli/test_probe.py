@@ -607,28 +607,28 @@ class Probe(unittest.TestCase):
     def test_a_reason_as_made_has_the_reach_over_all_corners(self):
         """one number, its band where it is worst, and the end that tables and JSON have of all corners"""
         text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8")
-        text = text.replace('measure="parasitic" max="2 um"', 'measure="parasitic" max="1.66 um"')
-        verdict = self.answer(text, "check", "--advice", "none", statuses=(4,))
-        made = next(r for r in verdict["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        late = text.replace('band="4 um" max="30 ms"', 'band="4 um" max="19.3 ms"')
+        verdict = self.answer(late, "check", "--advice", "none", statuses=(4,))
+        made = next(r for r in verdict["requirements"] if r["measure"] == "settling-time")["as_fabricated"]
         self.assertGreater(made["all_corners_band"][1], made["band"][1])
         said = next(r["text"] for r in verdict["reasons"] if r["code"] == "FW-D238")
-        worst, reach = re.search(r"stroke \(parasitic\) is [\d.]+ um \([\d.]+ um to ([\d.]+) um; no corner of the flow is "
-                                 r"above ([\d.]+) um\)", said).groups()
-        self.near(float(worst) * 1e-6, made["band"][1], 1e-3)
-        self.near(float(reach) * 1e-6, made["all_corners_band"][1], 1e-3)
+        worst, reach = re.search(r"stroke \(settling-time\) is [\d.]+ ms \([\d.]+ ms to ([\d.]+) ms; no corner of the flow is "
+                                 r"above ([\d.]+) ms\)", said).groups()
+        self.near(float(worst) * 1e-3, made["band"][1], 1e-3)
+        self.near(float(reach) * 1e-3, made["all_corners_band"][1], 1e-3)
         def least(bound, status):
-            return self.answer(text.replace('measure="parasitic" max="1.66 um"', f'measure="parasitic" min="{bound!r} m"'),
+            return self.answer(text.replace('band="4 um" max="30 ms"', f'band="4 um" min="{bound!r} s"'),
                                "check", "--advice", "none", statuses=(status,))
-        made = next(r for r in least(1e-9, 0)["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        made = next(r for r in least(1e-3, 0)["requirements"] if r["measure"] == "settling-time")["as_fabricated"]
         self.assertLess(made["all_corners_band"][0], made["band"][0])
         low = 0.5 * (made["band"][0] + made["value"])
         verdict = least(low, 4)
-        made = next(r for r in verdict["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        made = next(r for r in verdict["requirements"] if r["measure"] == "settling-time")["as_fabricated"]
         said = next(r["text"] for r in verdict["reasons"] if r["code"] == "FW-D238")
-        worst, reach, asked = re.search(r"\(([\d.]+) nm to [\d.]+ nm; no corner of the flow is below ([\d.]+) nm\), and at least ([\d.]+) nm", said).groups()
-        self.near(float(worst) * 1e-9, made["band"][0], 1e-3)
-        self.near(float(reach) * 1e-9, made["all_corners_band"][0], 1e-3)
-        self.near(float(asked) * 1e-9, low, 1e-3)
+        worst, reach, asked = re.search(r"\(([\d.]+) ms to [\d.]+ ms; no corner of the flow is below ([\d.]+) ms\), and at least ([\d.]+) ms", said).groups()
+        self.near(float(worst) * 1e-3, made["band"][0], 1e-3)
+        self.near(float(reach) * 1e-3, made["all_corners_band"][0], 1e-3)
+        self.near(float(asked) * 1e-3, low, 1e-3)
 
     def test_links_that_bend_are_told_and_in_the_bands(self):
         """the same leaves between links of 120 and of 18 um: the second give, which every band and a warning say"""
