@@ -672,14 +672,14 @@ class Probe(unittest.TestCase):
     def test_bodies_bend_between_leaves_that_do_not_turn(self):
         """a shuttle between four leaves, pushed across them: they bend to an S and store what they have by deflection.
         Of two bars on a web it gives, a block does not; pushed along its leaves the bars give hundreds of times what they
-        do, which turns the leaves' ends: told, in the bands, and of a large force not accepted"""
+        do, which turns the leaves' ends: told, in the bands, and of a large force not accepted. (The leaves vary by a nanometre: heads of leaves that do not are stiffer.)"""
         def stage(plates, load):
             hinges = "".join(f'<revolute id="{i}" axis="0 deg" a="ground" a-x="{x} um" a-y="{y} um" b="shuttle" b-x="{x} um" '
                              f'b-y="{y} um" hinge="leaf"/>' for i, x, y in zip("ABCD", (-700, 700, -700, 700), [
                                  s * 730 for s in (-1, -1, 1, 1)]))
             return ('<device xmlns="urn:flexwright:device:1" name="guide"><material ref="silicon-100" thickness="50 um"/>'
                     '<limits safety-factor="2"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>'
-                    '<flexure id="leaf" kind="leaf" length="900 um" width="8 um"/><mechanism>'
+                    '<flexure id="leaf" kind="leaf" length="900 um" width="8 um" width-middle="7.999 um"/><mechanism>'
                     f'<body id="shuttle" x="0 mm" y="0 mm">{plates}</body>{hinges}'
                     f'</mechanism><scene name="go" duration="20 ms"><force on="shuttle" {load} law="ramp" rise="10 ms"/>'
                     '<air kind="slide" gap="20 um"/></scene></device>')
@@ -719,13 +719,13 @@ class Probe(unittest.TestCase):
 
     def test_bodies_that_give_only_soften(self):
         """a carrier that shrinks by cold presses four leaves, so that bodies store much beside the hinges: of a mode at rest, and of a
-        compliance, that says nothing, and bodies soften both"""
+        compliance, that says nothing, and bodies soften both. (The leaves vary by a nanometre: heads of those that do not are stiffer.)"""
         hinges = "".join(f'<revolute id="{name}" a="ground" a-x="{x} mm" a-y="{y} mm" b="mass" b-x="{x} mm" b-y="{y} mm" hinge="leaf" axis="{turn} deg"/>'
                          for name, x, y, turn in (("A", -0.45, -0.83, 0), ("B", 0.45, -0.83, 0), ("C", -0.45, 0.83, 180), ("D", 0.45, 0.83, 180)))
         bands = []
         for cold in ("", '<scene name="cold" duration="1 ms"><temperature change="-50 K"/></scene>'):
             text = f"""<device xmlns="urn:flexwright:device:1" name="mass"><material ref="silicon-100" thickness="20 um"/><limits safety-factor="2"/>
-<flow ref="al-masked-rie" carrier="insulating"/><die release-pitch="0 um" tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="6 um"/>
+<flow ref="al-masked-rie" carrier="insulating"/><die release-pitch="0 um" tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="6 um" width-middle="5.999 um"/>
 <mechanism><body id="mass" x="0 mm" y="0 mm" plate-width="1.2 mm" plate-height="1.2 mm"/>{hinges}</mechanism>
 <probe id="k" kind="compliance" on="mass" direction="0 deg"/><require frequency="1" min="3 kHz"/><require probe="k" max="1 m/N"/>
 <scene name="full" duration="5 ms"><base-motion ax="-490.3 m/s^2" law="ramp" rise="3 ms"/><air kind="slide" on="mass" gap="10 um"/></scene>{cold}</device>"""
