@@ -337,6 +337,8 @@ typedef struct fw_verdict_bending {
     double hardest_N2; /* of hardest_N, the sum of all squared */
     double beside;     /* by how much they are larger where that sum was the largest so far */
     double before_s[2], *before_N; /* the last two instants, and (2 x 2 nhinge) their forces */
+    double *
+        jumped_N; /* (1 + 2 nhinge) what came of these forces at once, by the largest sum of squares, which is the first */
     /* (4 nhinge) of each component the largest and the least; NULL: too many hinges */
     fw_verdict_extreme *extreme;
     double *extreme_N; /* (4 nhinge x 2 nhinge) all forces there */

@@ -35,9 +35,9 @@ describe("the report", () => {
 });
 
 /** What is wrong with the place of a control: outside of the window or of what clips it, its own words cut, something else over it. */
-const misplaced = (page) => page.evaluate(() => {
+const misplaced = (page, within = "body") => page.evaluate((w) => {
     const out = new Set();
-    for (const e of document.querySelectorAll("button, .button, select, input, textarea, summary")) {
+    for (const e of document.querySelector(w).querySelectorAll("button, .button, select, input, textarea, summary")) {
         const r = e.getBoundingClientRect();
         if (!e.checkVisibility({ visibilityProperty: true, opacityProperty: true }) || r.width <= 1 || e.closest(".skip, .read-only, .cm-editor")) continue;
         const name = `${e.closest("[id]")?.id}: ${e.tagName.toLowerCase()} ${(e.getAttribute("aria-label") ?? e.innerText ?? e.value ?? "").trim().replace(/\s+/g, " ").slice(0, 40) || e.className}`;
@@ -51,7 +51,7 @@ const misplaced = (page) => page.evaluate(() => {
             if (["hidden", "clip"].includes(look.overflowY) && !down && (r.top < b.top - 0.5 || r.bottom > b.bottom + 0.5)) out.add(`${name} is cut at the top or bottom by ${p.id || p.className}`);
             if (look.overflowX !== "visible") [left, top, right, bottom] = [Math.max(left, b.left), Math.max(top, b.top), Math.min(right, b.right), Math.min(bottom, b.bottom)];
         }
-        if (e.matches("button, .button") && e.scrollWidth > e.clientWidth + 1) out.add(`${name}: its words are cut`);
+        if (e.matches("button, .button") && (e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1)) out.add(`${name}: its words are cut`);
         for (const x of [r.left + 3, (r.left + r.right) / 2, r.right - 3])
             for (const y of [r.top + 3, (r.top + r.bottom) / 2, r.bottom - 3]) {
                 if (x < left || x > right || y < top || y > bottom) continue; // scrolled away
@@ -60,7 +60,7 @@ const misplaced = (page) => page.evaluate(() => {
             }
     }
     return [...out];
-});
+}, within);
 
 describe("plots", () => {
     test("each tells its unit, and the whole value under its cursor, from 1000 to 1440 pixels", async () => {
@@ -110,6 +110,27 @@ describe("controls", () => {
             await close(page);
             await server.stop();
         });
+});
+
+test("what a new device may begin with is whole, whatever the window's size, in both themes", async () => {
+    const server = await serve(null);
+    const page = await open(server, { width: 1024, height: 768 });
+    const found = [];
+    for (const colorScheme of ["light", "dark"]) {
+        await page.emulateMedia({ colorScheme });
+        for (const [width, height] of [[1440, 900], [1024, 768], [800, 600], [390, 844]]) {
+            await page.setViewportSize({ width, height });
+            await page.click("#new");
+            await page.waitForSelector(".template");
+            await laidOut(page);
+            found.push(...(await misplaced(page, "dialog")).map((x) => `${colorScheme} at ${width}: ${x}`));
+            await page.keyboard.press("Escape");
+            await page.waitForSelector("dialog", { state: "detached" });
+        }
+    }
+    assert.deepEqual(found, []);
+    await close(page);
+    await server.stop();
 });
 
 describe("rules and looks", () => {

@@ -181,7 +181,7 @@ export class Verdict {
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
         this.#required(v, full);
-        this.#across(full ?? v);
+        this.#across(full ?? v, !full && state.preview.provisional);
         this.#flows(v);
         this.#effects();
         this.#cost();
@@ -220,7 +220,7 @@ export class Verdict {
     }
 
     /** What the terminal says of the ways out of the plane, and of how the device may be dried. */
-    #across(v) {
+    #across(v, look) {
         const named = (x, words) => `${v.flows.length > 1 && x.flow ? `${x.flow}: ` : ""}${words}`;
         const tips = (s) => (s.tips_at === null ? "" : `${s.scene}: does not tip below ${number(s.tips_at / (1 + s.tips_error), 4)} times its forces.`);
         const scene = (s) => [s.lowest_m === undefined ? "" : `${s.scene}: ${s.lowest_m === null ? "how far down is not known" : `down by up to ${si(-s.lowest_m, "m", 4)}, tilted by up to ${degrees(s.tilt_rad)}`}.`, tips(s)].filter(Boolean).join(" ");
@@ -232,7 +232,7 @@ export class Verdict {
         });
         const dry = (v.stiction ?? []).filter((s) => s.needs && s.drying.how !== "never wet").map((s) => named(s, `Drying: ${s.drying.words}; ${s.needs}.`));
         become(this.across, { hidden: out.length + dry.length === 0 });
-        refill(this.across, this.across.firstChild, [...out, ...dry].map((x) => h("p", {}, x)));
+        refill(this.across, this.across.firstChild, look ? h("p", { class: "doc" }, "Of a first look at the drawing: closer models of the hinges may change it.") : "", [...out, ...dry].map((x) => h("p", {}, x)));
     }
 
     /** The same for those who compare. */
