@@ -33,6 +33,8 @@ export class Verdict {
         this.required = h("section", { class: "card", "aria-labelledby": "h-required", hidden: true }, h("h2", { id: "h-required" }, "What it is for"));
         this.old = h("div", { class: "old-note", id: "old-note", hidden: true });
         this.across = h("section", { class: "card across", "aria-labelledby": "h-across", hidden: true }, h("h2", { id: "h-across" }, "Out of the plane, drying"));
+        this.pulls = h("div", {});
+        this.pullIn = h("section", { class: "card pull-in", "aria-labelledby": "h-pull-in", hidden: true }, h("h2", { id: "h-pull-in" }, "Electrodes, as drawn"), this.pulls);
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
@@ -40,7 +42,7 @@ export class Verdict {
         const full = h("div", { class: "full-check" });
         const card = (id, title, ...content) => h("section", { class: "card", "aria-labelledby": `h-${id}` }, h("h2", { id: `h-${id}` }, title), content);
         const use = card("use", "Share of the limit that rules", this.whose, this.bars);
-        const cards = [use, this.required, this.across, card("flows", "Flows", this.flows)];
+        const cards = [use, this.required, this.pullIn, this.across, card("flows", "Flows", this.flows)];
         const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost, this.left)];
         state.judged = () => this.judged;
         this.compare = new Compare(state.judged);
@@ -55,7 +57,7 @@ export class Verdict {
             quiet: () => Math.min(Math.max(QUIET_MS, 1e3 * (this.full?.job?.seconds ?? 0)), QUIET_MOST_MS), // what takes long waits longer for the last change
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
-        this.ofFull = [this.banner, use, this.required, this.across].map((element) => new Shown(element, () => this.full.key));
+        this.ofFull = [this.banner, use, this.required, this.pullIn, this.across].map((element) => new Shown(element, () => this.full.key));
         this.full.show(true);
         on("preview", () => this.show());
         on("answer", () => this.#answer());
@@ -231,8 +233,12 @@ export class Verdict {
             return [named(o, `As drawn it swings out of the plane from ${number(low.f_Hz, 4)} Hz on (${number(low.band_Hz[0], 4)} to ${number(low.band_Hz[1], 4)} Hz; ${low.body} ${low.kind === "tilt" ? "tilts" : "goes up and down"}).${stiff} Its weight lowers it by ${si(o.weight_sag_m, "m", 4)}, at most ${si(o.weight_sag_most_m, "m", 4)}, on a table; below it: ${o.below.words}.`), ...o.scenes.map(scene).filter(Boolean)];
         });
         const dry = (v.stiction ?? []).filter((s) => s.needs && s.drying.how !== "never wet").map((s) => named(s, `Drying: ${s.drying.words}; ${s.needs}.`));
+        const pulled = (v.pull_in ?? []).filter((p) => p.voltage_V !== null).map((p) => named(p, `Pull-in in ${p.scene}: ${p.comb ? `comb drive ${p.comb}` : "the drives"} ${p.kind === "none" ? `is stable up to ${number(p.voltage_V, 4)} V` : `at ${number(p.voltage_V, 4)} V (${p.kind})`}, at least ${number(p.least_V, 4)} V, slowly; the scene asks for up to ${number(p.scene_voltage_V, 4)} V.`));
+        const first = look ? h("p", { class: "doc" }, "Of a first look at the drawing: closer models of the hinges may change it.") : "";
+        refill(this.pulls, first, pulled.map((x) => h("p", {}, x)));
+        become(this.pullIn, { hidden: pulled.length === 0 });
         become(this.across, { hidden: out.length + dry.length === 0 });
-        refill(this.across, this.across.firstChild, look ? h("p", { class: "doc" }, "Of a first look at the drawing: closer models of the hinges may change it.") : "", [...out, ...dry].map((x) => h("p", {}, x)));
+        refill(this.across, this.across.firstChild, look ? first.cloneNode(true) : "", [...out, ...dry].map((x) => h("p", {}, x)));
     }
 
     /** The same for those who compare. */
