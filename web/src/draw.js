@@ -71,7 +71,12 @@ export class Draw {
         this.#pointer();
         this.#keys();
         on("text", () => this.#refresh());
-        on("another", () => this.tool && this.#use(null)); // what is drawn on next is another device
+        on("another", () => { // what is drawn on next is another device, of which nothing is chosen, though it may have the same names
+            if (this.tool) this.#use(null);
+            Object.assign(this, { chosen: null, panelOf: null });
+            this.side.replaceChildren();
+            if (state.hinge) lookAt(state.hinge);
+        });
         on("pinned", () => this.visible && this.#pinned());
         on("picture", () => this.visible && this.#base());
         on("answer", () => this.#refresh());

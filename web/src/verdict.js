@@ -70,7 +70,7 @@ export class Verdict {
     #wait() {
         this.#decided(null);
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
-        for (const box of [this.required, this.across]) box.hidden = true; // what was reached before says nothing of this device
+        for (const box of [this.required, this.pullIn, this.across]) box.hidden = true; // what was reached before says nothing of this device
         for (const box of [this.required, this.across]) box.replaceChildren(box.firstChild);
         if (state.preview?.status === "failed") return this.#cannot();
         this.banner.replaceChildren(h("p", { class: "empty" }, !state.preview ? "No verdict yet."
@@ -97,9 +97,18 @@ export class Verdict {
         this.last = "failed";
     }
 
+    /** What could not be made is another input's, and of this one nothing is judged. */
+    #noMore() {
+        this.last = null;
+        this.#decided(null);
+        for (const shown of this.banner.shown) shown.take(null);
+        this.banner.replaceChildren(h("p", { class: "empty" }, "Nothing is judged: what is said below comes first."));
+    }
+
     /** Mistakes stand on top; what is only to be known stands last. */
     #answer() {
         for (const shown of this.ofAnswer) shown.take(state.answered);
+        if (this.last === "failed" && state.preview !== null && state.answered === inputKey() && !isPresent()) this.#noMore();
         this.#staleness();
         const errors = state.diagnostics.filter((d) => d.severity === "error");
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
@@ -129,7 +138,7 @@ export class Verdict {
                 button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")),
                 h("details", {}, h("summary", {}, `${words} in the description until then`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d)))));
         } else if (empty) this.problems.replaceChildren(h("h2", {}, words), h("p", {}, "Draw a link, hold it by a hinge, and pull it by a force or a cable; or write <body> and <revolute> in the text."), button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
-        else this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
+        else this.problems.replaceChildren(h("h2", {}, `${words} in ${whereOf(errors)}`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
     }
 
     /** Why what is shown is old, in words, as soon as it looks old. */
@@ -376,6 +385,14 @@ export class Verdict {
         this.show();
         emit("judged");
     }
+}
+
+/** Where mistakes are: the text of the page, the numbers of a laboratory, or another file that these name. */
+function whereOf(errors) {
+    const places = [["the description", (d) => d.in_text !== false || !d.file], ["the laboratory's numbers", (d) => d.in_text === false && d.file && Object.keys(state.lab).some((name) => d.file?.endsWith(name))]];
+    const named = places.filter(([, is]) => errors.some(is)).map(([words]) => words);
+    const others = [...new Set(errors.filter((d) => !places.some(([, is]) => is(d))).map((d) => d.file ?? "another file"))];
+    return [...named, ...others].join(" and ");
 }
 
 /** Before the word of a decision; seen when that is old. */
