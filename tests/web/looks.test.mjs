@@ -133,6 +133,32 @@ test("what a new device may begin with is whole, whatever the window's size, in 
     await server.stop();
 });
 
+test("values beside bars, fields deep in the form, the laboratory's table and what a drag says are whole at 1024 pixels", async () => {
+    const server = await serve("reference-six-bar");
+    const page = await open(server, { width: 1024, height: 768 });
+    await page.evaluate(() => {
+        const { state, parts } = globalThis.flexwright;
+        for (const [i, x] of state.preview.verdict.hinges.entries()) x.utilisation = [1 / 0, 1.234e8, 123, 0.4567][i % 4];
+        for (const f of state.preview.verdict.flows) for (const [i, x] of f.hinges.entries()) x.utilisation = [1 / 0, 1.234e8, 123, 0.4567][i % 4];
+        parts.verdict.show();
+    });
+    const cut = (q) => page.evaluate((w) => [...document.querySelectorAll(w)].filter((e) => e.offsetParent && e.scrollWidth > e.clientWidth + 1).map((e) => `${e.className || e.id}: ${e.textContent.slice(0, 40)}`), q);
+    assert.deepEqual(await cut("#right .bar, #right .bar-value, #right"), []);
+    for (let i = 0; i < 4; i++) await page.evaluate(() => document.querySelectorAll("#panel-form details.element").forEach((e) => (e.open = true)));
+    await laidOut(page);
+    const narrow = await page.evaluate(() => [...document.querySelectorAll("#panel-form .field input")].filter((e) => e.offsetParent && e.clientWidth < 84).map((e) => `${e.dataset.path}: ${e.clientWidth}`));
+    assert.deepEqual(narrow, []);
+    await view(page, "recipe");
+    await computed(page, "recipe", 60000);
+    await page.evaluate(() => (document.querySelector("details.laboratory").open = true));
+    for (let i = 0; i < 3; i++) await page.selectOption('.laboratory select[aria-label="Another number"]', { index: 1 });
+    await page.evaluate(() => document.querySelectorAll(".lab-used").forEach((e) => (e.textContent = "nothing of yours: what is entered is not used yet")));
+    await laidOut(page);
+    assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll(".lab-table")].filter((t) => t.rows.length > 1 && t.getBoundingClientRect().right > document.querySelector("#panel-recipe").clientWidth + document.querySelector("#panel-recipe").getBoundingClientRect().left).length), 0);
+    await close(page);
+    await server.stop();
+});
+
 describe("rules and looks", () => {
     let server, page;
     before(async () => {

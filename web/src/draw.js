@@ -575,12 +575,13 @@ export class Draw {
         const [x, y] = this.view.toScreen(...at);
         const [w] = this.view.size;
         const [back, text] = this.dimension.children;
-        text.replaceChildren(...lines.filter(Boolean).map((t, i) => s("tspan", { x: 7, dy: i ? 15 : 0 }, t.length > 70 ? `${t.slice(0, 69)}…` : t)));
-        const width = 14 + 6.3 * Math.max(...lines.map((t) => Math.min(t?.length ?? 0, 70)));
-        back.setAttribute("width", width);
-        back.setAttribute("height", 5 + 15 * lines.length);
-        this.dimension.setAttribute("transform", `translate(${Math.max(Math.min(x + 16, w - width - 4), 2).toFixed(1)} ${Math.max(y - 26 - 15 * lines.length, 2).toFixed(1)})`);
-        this.dimension.classList.remove("none");
+        const most = Math.min(70, Math.floor((w - 24) / 6.3)), said = lines.filter(Boolean);
+        text.replaceChildren(...said.map((t, i) => s("tspan", { x: 7, dy: i ? 15 : 0 }, t.length > most ? `${t.slice(0, most - 1)}…` : t)));
+        this.dimension.classList.remove("none"); // what is not shown has no length
+        const width = 14 + Math.max(...[...text.children].map((t) => t.getComputedTextLength()));
+        back.setAttribute("width", width.toFixed(1));
+        back.setAttribute("height", 5 + 15 * said.length);
+        this.dimension.setAttribute("transform", `translate(${Math.max(Math.min(x + 16, w - width - 4), 2).toFixed(1)} ${Math.max(y - 26 - 15 * said.length, 2).toFixed(1)})`);
     }
 
     // ---- keys ----

@@ -448,7 +448,7 @@ function bar(hinge, most, governing, made, then) {
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
         then === undefined ? null : h("span", { class: "bar-then", title: `${state.pinned.name}: ${percent(then)}`, style: { left: x(then) } }),
         made ? h("span", { class: "bar-drawn", title: `as drawn: ${percent(hinge.utilisation)}`, style: { left: x(hinge.utilisation ?? 0) } }) : null),
-    h("span", { class: "bar-value", "aria-hidden": "true" }, shown));
+    h("span", { class: "bar-value", "aria-hidden": "true", title: shown }, !Number.isFinite(use) ? "\u221e" : percent(use, use >= 1e5 ? 2 : 3)));
 }
 
 function jumpTo({ currentTarget: { dataset } }) {
