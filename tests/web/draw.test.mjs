@@ -530,3 +530,34 @@ test("of another device nothing is chosen, though it has a part of the same name
     await close(page);
     await server.stop();
 });
+
+test("hinges of what nothing moves yet are drawn with their strips and round places, and a hinge is told where it bulges to", async () => {
+    const server = await serve("leaf-four-bar");
+    const page = await open(server);
+    await page.evaluate(() => {
+        const { editor } = globalThis.flexwright.parts;
+        editor.replace(editor.text.replace(/<scene[^]*<\/scene>/g, "").replace(/<(require|probe)[^>]*\/>/g, "").replace(/<study[^]*<\/study>/g, ""));
+    });
+    await page.waitForSelector("#right .problems:has-text('Nothing moves it yet')");
+    await view(page, "draw");
+    await page.waitForFunction(() => !document.querySelector("#panel-draw .stage").classList.contains("sketch-only"));
+    const [drawn, there] = await page.evaluate(() => [globalThis.flexwright.state.picture.flexures.filter((f) => f.path.length > 20).length, [...globalThis.flexwright.state.text.matchAll(/<revolute/g)].length]);
+    assert.equal(drawn, there);
+    assert.match(await page.innerText("#banner"), /nothing moves what is drawn/);
+    const hinge = await page.evaluate(() => globalThis.flexwright.parts.draw.list.find((x) => x.element.name === "revolute" && !x.element.attributes.has("axis")).id);
+    await page.locator('#panel-draw select[aria-label="Part"]').selectOption(hinge);
+    const field = page.locator('#panel-draw input[aria-label="bulges to"]');
+    assert.equal(await field.inputValue(), "");
+    await changed(page, async () => {
+        await field.fill("60");
+        await field.press("Enter");
+    });
+    assert.match(await text(page), /axis="60 deg"/);
+    await changed(page, async () => {
+        await field.fill("");
+        await field.press("Enter");
+    });
+    assert.doesNotMatch(await text(page), /axis="60 deg"/);
+    await close(page);
+    await server.stop();
+});

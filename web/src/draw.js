@@ -772,7 +772,8 @@ export class Draw {
         const e = handle.element.name === "eyelet" ? [...walk(this.root)].find((t) => t.children.includes(handle.element)) : handle.element;
         const id = places.text(e, "hinge") ?? places.text(e, "flexure");
         const flexure = id && this.root.children.find((x) => x.name === "flexure" && x.id === id);
-        return [...own(e), ...(flexure ? own(flexure) : [])];
+        const bulge = flexure && e.name === "revolute" && !e.attributes.has("axis") ? [[e, "axis"]] : []; // where none is stated one may be
+        return [...own(e), ...bulge, ...(flexure ? own(flexure) : [])];
     }
 
     #handlePanel(handle) {
@@ -782,11 +783,14 @@ export class Draw {
         const facts = this.#facts(handle).map(([e, attribute]) => {
             const other = e !== handle.element;
             const input = h("input", { autocomplete: "off", spellcheck: false });
-            const label = `${attribute}${other ? ` of ${e.name} ${e.id ?? ""}` : ""}`;
+            const bulge = e.name === "revolute" && attribute === "axis";
+            const label = bulge ? "bulges to" : `${attribute}${other ? ` of ${e.name} ${e.id ?? ""}` : ""}`;
             input.setAttribute("aria-label", label);
+            if (bulge) input.placeholder = "chosen by the layout";
             const path = `${e.path}/@${attribute}`;
             const present = () => (this.live?.places ?? this.places).text([...walk(this.root)].find((x) => x.path === e.path) ?? e, attribute) ?? "";
-            enter(input, path, present, (value) => edit([{ path, value }], `${label} is ${value}`));
+            const written = (value) => (!bulge ? value : value.trim() === "" ? null : /^[-+.\d]+$/.test(value.trim()) ? `${value.trim()} deg` : value);
+            enter(input, path, present, (value) => edit([{ path, value: written(value) }], `${label} is ${value}`));
             this.fields.push(() => show(input, path, present()));
             return h("label", { class: "pose-field" }, h("span", {}, label), input);
         });

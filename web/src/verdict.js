@@ -72,8 +72,9 @@ export class Verdict {
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
         for (const box of [this.required, this.pullIn, this.across]) box.hidden = true; // what was reached before says nothing of this device
         for (const box of [this.required, this.across]) box.replaceChildren(box.firstChild);
-        if (state.preview?.status === "failed") return this.#cannot();
+        if (state.preview?.status === "failed" && state.preview.marks?.length) return this.#cannot();
         this.banner.replaceChildren(h("p", { class: "empty" }, !state.preview ? "No verdict yet."
+            : state.preview.status === "failed" ? "Nothing is judged yet: nothing moves what is drawn."
             : (state.preview.diagnostics ?? []).some((d) => d.severity === "error") ? "Nothing is judged: the mistakes below stand in the way."
                 : "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same."));
     }
