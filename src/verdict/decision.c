@@ -401,8 +401,7 @@ static bool frequency_asked(const fw_device *d, int scene) {
     return false;
 }
 
-/* What two runs differ by in what their forces tip, times the margin of estimates: forces that are round-off differ many times
-   over, and tip nothing beside a moment that is known. Not more than the forces differ by */
+/* What two runs differ by in what their forces tip, times the margin of estimates, and at most what the forces differ by */
 static fw_status tipping_off(fw_arena *arena, const fw_mechanism_plates *p,
                              const fw_dynamics_motion *motion, const double *acting, int n,
                              double *looked, double tips, double *off) {
@@ -431,16 +430,18 @@ static fw_status model_off(fw_arena *arena, const fw_mechanism_plates *p,
                            fw_verdict_across *to) {
     const fw_statics_level_step *step = motion->level;
     const fw_mechanism *m = p->mechanism;
-    const double *jumped = fw_verdict_bending_pins_leave(motion);
+    const fw_verdict_strain_monitor *saw = motion->observed;
+    const bool pins = motion->ledger.hinge.used == FW_HINGE_REVOLUTE && motion->loads;
     double factor[2] = {HUGE_VAL, HUGE_VAL};
     if (!(to->tips > 0) || isinf(to->tips)) return FW_OK;
-    if (jumped) FW_TRY(tips_by(arena, p, motion->observed, acting, jumped, &factor[0]));
+    if (pins && !motion->loads->quasi_static && saw->bending.jumped_N[0] > 0)
+        FW_TRY(tips_by(arena, p, saw, acting, saw->bending.jumped_N + 1, &factor[0]));
     to->tips_error += to->tips / factor[0];
     if (!step || step->why_not || step->used == step->next) return FW_OK;
     for (int up = 0; up < 2; up++) {
         for (int i = 0; i < 2 * m->nhinge; i++)
             forces[i] = (up ? &step->up : &step->at)->reaction_N[2 * m->hinge[i / 2].pin + i % 2];
-        FW_TRY(tips_by(arena, p, motion->observed, acting, forces, &factor[up]));
+        FW_TRY(tips_by(arena, p, saw, acting, forces, &factor[up]));
     }
     if (factor[1] < factor[0]) to->tips_error += to->tips / factor[1] - to->tips / factor[0];
     return FW_OK;
@@ -507,7 +508,6 @@ void fw_verdict_requirement_factor(const double *factor, int nhinge, double most
 
 const char fw_verdict_at_rest[] = "at rest";
 
-/* as a hinge */
 static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
     double relative = r->value != 0 ? r->numeric / fabs(r->value) : 0;
     return (fw_verdict_hinge_verdict){.scene = r->scene ? r->scene : fw_verdict_at_rest,

@@ -534,13 +534,6 @@ double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     return b ? fw_verdict_bending_all_J(b) / b->hinges_J : 0;
 }
 
-const double *fw_verdict_bending_pins_leave(const fw_dynamics_motion *motion) {
-    const fw_verdict_bending *b = seen(motion);
-    const bool pins = motion->ledger.hinge.used == FW_HINGE_REVOLUTE,
-               swings = motion->loads && !motion->loads->quasi_static;
-    return b && pins && swings && b->jumped_N[0] > 0 ? b->jumped_N + 1 : NULL;
-}
-
 /* A device that is pressed along its flexures goes nowhere, and its bodies may then give many times what the hinges do.
    That changes no strain and no clearance as long as no end of a flexure goes by a fiftieth of the flexure's width or
    turns by a fiftieth of its limit. */

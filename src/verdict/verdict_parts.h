@@ -108,8 +108,6 @@ bool fw_verdict_across_counts(const fw_verdict_variant_verdict *v);
 bool fw_verdict_across_open(const fw_verdict_variant_verdict *v);
 /* sum of |F| times the distance from the centre of mass of all that a scene puts on each body (nbody); NaN: not known */
 void fw_verdict_across_acting(const fw_mechanism *m, const fw_device_scene *s, double *else_Nm);
-/* verdict_bending.c: (2 nhinge) forces that come at once, which pins hold and flexures swing about; NULL: none, or no pins */
-const double *fw_verdict_bending_pins_leave(const fw_dynamics_motion *motion);
 /* what tips the plates in a scene: tips, tips_error, hinge, and a reason where that may be; error: of the flexures */
 fw_status fw_verdict_across_tipping(fw_arena *arena, const struct fw_mechanism_plates *p,
                                     const fw_device_scene *s, double error,
