@@ -127,8 +127,24 @@ static fw_status draw_pedestal(fw_layout_drawing *d, const foot *f, int n, attem
     return fw_layout_strip_draw(d, side, low, high, at, half, fw_layout_rule.stub_m, a);
 }
 
+/* Where two hinges are nearer to each other than the least pedestal and what it keeps clear of their round places: how far
+   apart they have to be; else "" */
+static const char *say_apart(fw_layout_drawing *d, const foot *f, const int *joint) {
+    char now[32], least[32];
+    const double short_of = 0.5 * fw_layout_rule.tether_m - f->reach;
+    if (!(short_of > 0)) return "";
+    const double apart = fw_norm(fw_sub(fw_layout_joint_point(d->device, joint[1]),
+                                        fw_layout_joint_point(d->device, joint[0])));
+    fw_number_text(now, sizeof now, 1e6 * apart, 4);
+    fw_number_text(least, sizeof least, 1e6 * (apart + 2 * short_of), 4);
+    return fw_arena_printf(d->arena,
+                           ". The two are %s um apart; a base between their round places needs "
+                           "%s um at least",
+                           now, least);
+}
+
 /* what lies between a base and each side, the nearest first, of the narrowest pedestal at its middle */
-static fw_status say_no_way(fw_layout_drawing *d, const int *joint, int n,
+static fw_status say_no_way(fw_layout_drawing *d, const foot *f, const int *joint, int n,
                             const fw_layout_window_side order[4], const in_way way[4]) {
     static const char *const side_name[] = {
         [FW_LEFT] = "left", [FW_RIGHT] = "right", [FW_BOTTOM] = "lower", [FW_TOP] = "upper"};
@@ -137,14 +153,17 @@ static fw_status say_no_way(fw_layout_drawing *d, const int *joint, int n,
         FW_NEED(all = fw_arena_printf(d->arena, "%s%sto the %s %s %s%s", all, i ? ", " : "",
                                       side_name[order[i]], i ? "one" : "side", way[i].name,
                                       i || way[i].own ? "" : " is in the way"));
+    const char *apart = n == 2 ? say_apart(d, f, joint) : "";
+    FW_NEED(apart);
     fw_diag_error(d->diags, 128, d->device->revolute[joint[0]].place,
                   "the base at ground %s%s cannot reach the frame on any side without crossing "
-                  "a moving part (%s); move the ground hinges to the rim of the mechanism%s",
+                  "a moving part (%s); move the ground hinges to the rim of the mechanism%s%s",
                   FW_NAMED("hinge", d->device->revolute[joint[0]].id), all,
                   n == 2 ? ". These two have one base between them, which nothing that moves may "
                            "cross, and a base of its own for each has no way either: put both on "
                            "one side of what they hold"
-                         : "");
+                         : "",
+                  apart);
     fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint[0]));
     fault.body[fault.nbody++] = FW_GROUND;
     fault.joint[fault.njoint++] = joint[0];
@@ -179,7 +198,7 @@ static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int on
             FW_TRY(fw_layout_attachment_add(d, &a));
             return fw_layout_body_draw(d, FW_GROUND, only, &pedestal, 1);
         }
-    return say_no_way(d, joint, n, order, way);
+    return say_no_way(d, &f, joint, n, order, way);
 }
 
 /* one base for two ground hinges; with more, or where that has no way, every hinge has its own to the frame */

@@ -279,6 +279,10 @@ static fw_status judge(fw_arena *arena, const fw_layout *layout, fw_mask *m,
                            .nshape = m->nshape,
                            .layout = layout,
                            .tolerance_m = m->tolerance_m};
+    double *bias_m = fw_arena_array(arena, double, (size_t)m->table->nlayer);
+    FW_NEED(rules.bias_m = bias_m);
+    for (int k = 0; k < m->table->nlayer; k++)
+        bias_m[k] = fw_mask_layer_bias_m(m, k);
     fw_status status = prove(arena, layout, m, diags);
     if (status != FW_OK && status != FW_INPUT && status != FW_GEOMETRY) return status;
     m->whole = status == FW_OK;

@@ -205,9 +205,22 @@ static bool may_be_a_corner(const fw_mask_finding *f) {
     return f->rule->kind->chords != 0 && of_one && abs(f->edge[0] - f->edge[1]) <= 1;
 }
 
-static const char *advice_of(fw_arena *arena, const fw_mask_finding *f) {
+/* of a width or a space that the bias has made less, what has to be drawn for it */
+static const char *drawn_for(fw_arena *arena, const fw_mask_finding *f, double bias_m) {
     const fw_mask_rule_kind_row *kind = f->rule->kind;
-    if (!may_be_a_corner(f)) return kind->advice;
+    const double less = (kind->chords & FW_CHORD_SPACE ? 2 : -2) * bias_m;
+    char needed[32], by[32];
+    if (!(less > 1e-9) || (kind->chords != FW_CHORD_SPACE && kind->chords != FW_CHORD_WIDTH))
+        return kind->advice;
+    fw_number_text(needed, sizeof needed, 1e6 * (f->needed + less), 6);
+    fw_number_text(by, sizeof by, 1e6 * less, 4);
+    return fw_arena_printf(arena, "%s (the mask has %s um less than is drawn: %s um drawn will do)",
+                           kind->advice, by, needed);
+}
+
+static const char *advice_of(fw_arena *arena, const fw_mask_finding *f, double bias_m) {
+    const fw_mask_rule_kind_row *kind = f->rule->kind;
+    if (!may_be_a_corner(f)) return drawn_for(arena, f, bias_m);
     return fw_arena_printf(arena, "%s; round the corner if it is one of less than 90 degrees",
                            kind->advice);
 }
@@ -218,7 +231,7 @@ static bool meet(const fw_mask_finding *f) {
 }
 
 static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_mask_layer *layer,
-                            const fw_mask_finding *f) {
+                            const fw_mask_finding *f, double bias_m) {
     const fw_mask_rule *rule = f->rule;
     const fw_mask_rule_kind_row *kind = rule->kind;
     const char *who = pieces(arena, f), *unit = unit_name(kind);
@@ -234,7 +247,7 @@ static const char *sentence(fw_arena *arena, const fw_layout *layout, const fw_m
     const bool own = layer->roles == 1u << FW_ROLE_CELL || !layout;
     const char *cause =
         own ? "" : fw_mask_cause(arena, layout, vec_scale(0.5, vec_add(f->at[0], f->at[1])));
-    const char *advice = advice_of(arena, f);
+    const char *advice = advice_of(arena, f, bias_m);
     if (!cause || !advice) return NULL;
     if (meet(f))
         return fw_arena_printf(
@@ -277,7 +290,9 @@ static bool named_before(const fw_mask_rules *r, const fw_mask_finding *const *t
 }
 
 static fw_status tell(fw_mask_rules *r, const fw_mask_finding *f, fw_diags *diags) {
-    const char *text = sentence(r->arena, r->layout, &r->table->layer[f->rule->layer], f);
+    const int layer = f->rule->layer;
+    const char *text =
+        sentence(r->arena, r->layout, &r->table->layer[layer], f, r->bias_m ? r->bias_m[layer] : 0);
     FW_NEED(text);
     fw_place place = place_of(r, f);
     if (f->rule->severity == FW_ERROR)

@@ -151,6 +151,7 @@ typedef struct fw_mask_rules { /* one mask while it is checked */
     int nshape;
     const fw_layout *layout; /* for messages: what a place belongs to; NULL: not known */
     double tolerance_m;
+    const double *bias_m; /* (table->nlayer) for messages: by how much edges stand outside of what is drawn; NULL: not known */
     fw_mask_rule *rule; /* (nrule) the table's, and those that layers state themselves */
     int nrule;
     fw_mask_rule_search *search; /* (table->nlayer) edges, and what was found between them */

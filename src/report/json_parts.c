@@ -93,6 +93,7 @@ void fw_report_json_hinge_model(fw_json *json, const fw_mechanism *m,
 void fw_report_json_pull_in(fw_json *json, const fw_statics_pull_in *p) {
     fw_json_text(json, "comb", p->comb);
     fw_json_real(json, "voltage_V", p->voltage_V);
+    fw_json_real(json, "least_V", fw_statics_pull_in_least_V(p));
     fw_json_text(json, "kind", fw_statics_pull_in_kind_text(p->kind));
     fw_json_real(json, "margin", p->margin);
     fw_json_truth(json, "bifurcation", p->bifurcation);

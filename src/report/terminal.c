@@ -242,7 +242,9 @@ static void pull_ins(fw_text *out, const fw_report_input *in) {
             fw_text_printf(out, ": %s%s at ", FW_NAMED("comb drive", p->comb));
             fw_text_number(out, p->voltage_V, 4);
             const bool several = in->device->scene[k].ncomb > 1;
-            fw_text_printf(out, " V (%s)%s%s%s; the scene asks for up to ",
+            fw_text_add(out, " V (at least ");
+            fw_text_number(out, fw_statics_pull_in_least_V(p), 4);
+            fw_text_printf(out, " V; %s)%s%s%s; the scene asks for up to ",
                            fw_statics_pull_in_kind_text(p->kind), several ? " " : "",
                            several ? p->together : "", several ? ", slowly" : "");
             fw_text_number(out, p->largest_V, 4);

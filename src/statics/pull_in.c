@@ -363,6 +363,12 @@ double fw_statics_pull_in_margin(const fw_statics_pull_in *p) {
     return sqrt(more / (fmax(least, 1 - more * p->fingers) * fmax(least, 1 - p->stiffness_error)));
 }
 
+double fw_statics_pull_in_least_V(const fw_statics_pull_in *p) {
+    const double more = 1 + p->fringe, left = fmax(1 - p->stiffness_error, 0) / more,
+                 by_fingers = more / (p->fingers_V * p->fingers_V);
+    return 1 / sqrt(1 / (left * p->voltage_V * p->voltage_V) + by_fingers);
+}
+
 bool fw_statics_pull_in_fingers_snap(const fw_statics_pull_in *p) {
     return (1 + p->fringe) * p->fingers >= 1;
 }

@@ -165,6 +165,8 @@ typedef struct fw_statics_pull_in {
    with V^2; the stiffness may be less by its error, which V^2 is in proportion to; fingers that bend add to what gives,
    so that 1/V^2 adds up: sqrt((1 + fringe)/(1 - stiffness_error)/(1 - (1 + fringe) fingers)) */
 double fw_statics_pull_in_margin(const fw_statics_pull_in *p);
+/* the voltage up to which it surely holds, by the same; of NONE, too */
+double fw_statics_pull_in_least_V(const fw_statics_pull_in *p);
 /* what adds up to `fringe`, for a sentence: "fringe fields that the model leaves out", or what changes those in it */
 const char *fw_statics_pull_in_fringe_text(const fw_statics_pull_in *p);
 /* the fingers of a comb may snap by themselves */

@@ -329,7 +329,7 @@ static void point_json(const fw_study *study, const fw_study_sample *s, fw_json 
     fw_json_line(out, 0);
     fw_json_object(out, NULL);
     fw_json_text(out, "state", fw_study_state_text(s->run, s->decision));
-    fw_json_text(out, "why", s->run ? NULL : s->why);
+    fw_json_text(out, "why", s->why[0] ? s->why : NULL);
     fw_json_real(out, "limit_used", s->used);
     if (s->run) snprintf(digits, sizeof digits, "%016" PRIx64, s->way);
     fw_json_text(out, "way", s->run && s->decision >= 0 ? digits : NULL);

@@ -454,7 +454,7 @@ fw_status fw_study_open_points(const fw_study_options *options, const fw_device_
     fw_study *study = new_study(options);
     *out = study;
     FW_NEED(study);
-    study->asked = asked;
+    study->asked = asked, study->explored = true;
     study->device_path = options->file;
     FW_TRY(fw_study_engines_open(study));
     settle_options(study); /* before the device is opened: samples are judged in that very design */

@@ -146,6 +146,7 @@ typedef struct fw_study {
     unsigned stages; /* FW_STUDY_STAGE_..., what the responses need */
     /* what a verdict says in words and whole numbers, as one number, for samples that say it; NULL: none does */
     uint64_t (*way)(const struct fw_verdict *verdict, int scenes);
+    bool explored;   /* of points that somebody looks at: a device that no flow can make says why, too */
     /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
     int npart, nhinge;
     int neach; /* of a die: how many of them each hinge has (scenes and workspace); else 0 */

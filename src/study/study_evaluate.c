@@ -534,6 +534,19 @@ static void blank(const fw_study *study, fw_study_sample *sample) {
         sample->response[k] = (double)NAN;
 }
 
+/* of who explores: why a device that bears its motion is rejected all the same */
+static void say_unmade(const fw_plan *plan, char *why) {
+    for (int i = 0; i < plan->nflow && plan->verdict.decision == FW_ACCEPT; i++) {
+        const fw_process_flow *flow = plan->flow[i].flow;
+        if (!flow || flow->manufacturable != 0) continue;
+        snprintf(why, FW_STUDY_WHY, "it cannot be made in %s: %s", flow->id,
+                 flow->fails         ? flow->fails
+                 : flow->nreason > 0 ? flow->reason[0]
+                                     : "");
+        return;
+    }
+}
+
 int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample) {
     const bool die = study->asked && study->asked->judge == FW_JUDGE_DIE;
     fw_plan *plan = fw_plan_design_plan(design);
@@ -560,6 +573,7 @@ int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sam
         if (sample->decision >= 0) sample->used = used_of(&plan->verdict, sample->decision);
         if (sample->decision >= 0 && study->way)
             sample->way = study->way(&plan->verdict, plan->device->nscene);
+        if (sample->decision > 0 && study->explored) say_unmade(plan, sample->why);
     }
     return status;
 }

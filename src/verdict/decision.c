@@ -401,8 +401,7 @@ static bool frequency_asked(const fw_device *d, int scene) {
     return false;
 }
 
-/* What two runs differ by in what their forces tip, times the margin of estimates: forces that are round-off differ many times
-   over, and tip nothing beside a moment that is known. Not more than the forces differ by */
+/* What two runs differ by in what their forces tip, times the margin of estimates, and at most what the forces differ by */
 static fw_status tipping_off(fw_arena *arena, const fw_mechanism_plates *p,
                              const fw_dynamics_motion *motion, const double *acting, int n,
                              double *looked, double tips, double *off) {
@@ -413,6 +412,38 @@ static fw_status tipping_off(fw_arena *arena, const fw_mechanism_plates *p,
     if (loose > 0)
         *off =
             fmin(*off, isinf(loose) ? 0 : motion->stats.estimate_margin * fabs(tips / loose - 1));
+    return FW_OK;
+}
+
+static fw_status tips_by(fw_arena *arena, const fw_mechanism_plates *p,
+                         const fw_verdict_strain_monitor *saw, const double *acting,
+                         const double *forces, double *factor) {
+    const double *most = saw->bending.hardest_N + 4 * p->mechanism->nhinge;
+    const fw_mechanism_plates_pressed by = {forces, most, acting, 0};
+    int weak;
+    return fw_mechanism_plates_buckling(arena, p, &by, factor, &weak);
+}
+
+/* What the next level of hinges changes, and what comes at once and rings on flexures: reciprocal factors add up at most */
+static fw_status model_off(fw_arena *arena, const fw_mechanism_plates *p,
+                           const fw_dynamics_motion *motion, const double *acting, double *forces,
+                           fw_verdict_across *to) {
+    const fw_statics_level_step *step = motion->level;
+    const fw_mechanism *m = p->mechanism;
+    const fw_verdict_strain_monitor *saw = motion->observed;
+    const bool pins = motion->ledger.hinge.used == FW_HINGE_REVOLUTE && motion->loads;
+    double factor[2] = {HUGE_VAL, HUGE_VAL};
+    if (!(to->tips > 0) || isinf(to->tips)) return FW_OK;
+    if (pins && !motion->loads->quasi_static && saw->bending.jumped_N[0] > 0)
+        FW_TRY(tips_by(arena, p, saw, acting, saw->bending.jumped_N + 1, &factor[0]));
+    to->tips_error += to->tips / factor[0];
+    if (!step || step->why_not || step->used == step->next) return FW_OK;
+    for (int up = 0; up < 2; up++) {
+        for (int i = 0; i < 2 * m->nhinge; i++)
+            forces[i] = (up ? &step->up : &step->at)->reaction_N[2 * m->hinge[i / 2].pin + i % 2];
+        FW_TRY(tips_by(arena, p, saw, acting, forces, &factor[up]));
+    }
+    if (factor[1] < factor[0]) to->tips_error += to->tips / factor[1] - to->tips / factor[0];
     return FW_OK;
 }
 
@@ -435,6 +466,7 @@ fw_status fw_verdict_across_tipping(fw_arena *arena, const fw_mechanism_plates *
     to->tips_error = forces_off(motion);
     if (to->tips_error > 1) /* what little there is differs */
         FW_TRY(tipping_off(arena, p, motion, other, 2 * n, looked, to->tips, &to->tips_error));
+    FW_TRY(model_off(arena, p, motion, other, looked, to));
     to->stiffened *= 1 + error;
     to->tips = fmax(to->tips * (1 - error), 0); /* 0: nothing is sure */
     if (hinge != FW_NONE) to->hinge = m->pin[m->hinge[hinge].pin].id;
@@ -447,42 +479,13 @@ fw_status fw_verdict_across_tipping(fw_arena *arena, const fw_mechanism_plates *
         fw_arena_printf(
             arena,
             "the forces of %s%s may tip the device out of its plane: %s%s%s%s%s%s; a thicker "
-            "layer, "
-            "wider or shorter flexures, or less load keep it flat",
+            "layer, wider or shorter flexures, or less load keep it flat",
             FW_NAMED("scene", s->name),
             sure > 0 ? "that they do not is sure up to "
                      : "up to what multiple of them it stays flat is not known",
             sure > 0 ? fw_number_text(by, sizeof by, sure, 2) : "", sure > 0 ? " times them" : "",
             to->hinge ? ", and the least sure by itself is " : "",
             to->hinge ? fw_text_kind("hinge ", to->hinge) : "", to->hinge ? to->hinge : ""));
-}
-
-/* ---- what of a clearance is used ---- */
-
-static double between(double used) {
-    const double least = 1e-3, most = 1e3; /* a thousandth is as good as nothing, and has slopes */
-    return fmin(fmax(used, least), most);
-}
-
-/* Share of what there is to use up by the nearest pair: of a motion, the distance that it has lost over
-   what it may lose; of a required box, what is asked for over what is left. At 1 there is just as
-   much as is asked for. */
-double fw_verdict_search_used_nearest(const fw_verdict_clearance *c) {
-    const fw_clearance_least *l = &c->least;
-    const double target = c->required_m + c->wall_m, most = HUGE_VAL;
-    double used = target / l->m;
-    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
-    if (c->box == FW_NONE && l->start_m <= target) used = most;
-    if (l->m <= 0) used = 1 / l->share;
-    return between(used);
-}
-
-/* By any pair of a motion: what is nearest may have lost nothing of its distance, as fingers of a comb that slide
-   by each other, while others have lost nearly all. by_nearest: distances were found, not bounded */
-double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
-    const bool meet = c->least.m <= 0 && c->least.share > 0;
-    const double nearest = by_nearest || meet ? fw_verdict_search_used_nearest(c) : 0;
-    return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
 }
 
 /* Of what is near nothing goes farther than the pair that goes farthest; of what is farther off the share of its way that was
@@ -505,7 +508,6 @@ void fw_verdict_requirement_factor(const double *factor, int nhinge, double most
 
 const char fw_verdict_at_rest[] = "at rest";
 
-/* as a hinge */
 static fw_verdict_hinge_verdict as_hinge(const fw_verdict_requirement *r) {
     double relative = r->value != 0 ? r->numeric / fabs(r->value) : 0;
     return (fw_verdict_hinge_verdict){.scene = r->scene ? r->scene : fw_verdict_at_rest,

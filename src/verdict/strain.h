@@ -327,16 +327,16 @@ typedef struct fw_verdict_bending {
     double stiff_N; /* Young's modulus times thickness */
     double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
     double moving_J; /* and of the hinges' rotations and the bending of their strips alone */
-    double
-        gone; /* largest so far by which an end of a flexure goes over its width, or turns over its limit */
-    double *body_J;        /* (2 nbody) the largest of each, then those of the instant */
+    double gone;     /* largest way of an end over its flexure's width, or turn over the limit */
+    double *body_J;  /* (2 nbody) the largest of each, then those of the instant */
     fw_verdict_turn *turn; /* (nbody) of the instant */
     double *end; /* (6 nhinge) what hinges put on their ends at the instant (fw_verdict_shared_J) */
     double *
         worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
     double hardest_N2; /* of hardest_N, the sum of all squared */
     double beside;     /* by how much they are larger where that sum was the largest so far */
-    double before_s[2], *before_N; /* the last two instants, and (2 x 2 nhinge) their forces */
+    /* the last two instants, their forces (2 x 2 nhinge); what came at once: sum of squares, forces (1 + 2 nhinge) */
+    double before_s[2], *before_N, *jumped_N;
     /* (4 nhinge) of each component the largest and the least; NULL: too many hinges */
     fw_verdict_extreme *extreme;
     double *extreme_N; /* (4 nhinge x 2 nhinge) all forces there */

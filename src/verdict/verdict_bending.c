@@ -113,6 +113,19 @@ static void pressed_by(const fw_verdict_bending *b, const fw_mechanism *m, int k
     pressed[1] = fabs(cos(to) * force[0] + sin(to) * force[1]);
 }
 
+static void take_jump(fw_verdict_bending *b, const fw_mechanism *m,
+                      const fw_dynamics_instant *now) {
+    const int n = 2 * m->nhinge;
+    double sum = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < n; i++) {
+            const double by = now->reaction_N[2 * m->hinge[i / 2].pin + i % 2] - b->before_N[n + i];
+            if (!pass) sum += by * by;
+            if (pass && sum > b->jumped_N[0]) b->jumped_N[1 + i] = by;
+        }
+    b->jumped_N[0] = fmax(b->jumped_N[0], sum);
+}
+
 /* What may tip the device out of its plane (verdict_out_of_plane.c), and strain rims. Largest between instants, too: by
    the parabola through three of them. */
 static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
@@ -153,6 +166,7 @@ static void record_forces(fw_verdict_bending *b, const fw_mechanism *m,
         }
     }
     const double before = b->peak->value;
+    if (now->begins) take_jump(b, m, now);
     fw_verdict_largest_add(b->peak, now->t_s, sum);
     if (b->peak->value > before) take_hardest(b, m, now);
     if (b->extreme) take_extremes(b, m, now);
@@ -288,7 +302,9 @@ void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
         return;
     }
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = b->moving_J = b->gone = b->hardest_N2 = 0;
+        b->hinges_J = b->bodies_J = b->moving_J = b->gone = b->hardest_N2 = b->jumped_N[0] = 0;
+        for (int k = 0; k < 4 * m->nhinge; k++)
+            b->before_N[k] = 0;
         for (int k = 0; k < 7 * m->nhinge; k++)
             b->hardest_N[k] = 0;
         for (int k = 0; k <= 8 * m->nhinge; k++)
@@ -383,8 +399,9 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     if (!arm && !m->layout) return FW_OK;
     FW_NEED(bending->body_J = fw_arena_array(arena, double, 2 * (size_t)m->nbody));
     FW_NEED(bending->turn = fw_arena_array(arena, fw_verdict_turn, (size_t)m->nbody));
-    FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 11 * (size_t)m->nhinge));
+    FW_NEED(bending->hardest_N = fw_arena_array(arena, double, 13 * (size_t)m->nhinge + 1));
     bending->before_N = bending->hardest_N + 7 * m->nhinge;
+    bending->jumped_N = bending->hardest_N + 11 * m->nhinge;
     FW_NEED(bending->along_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
     FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 8 * (size_t)m->nhinge + 1));
     if (straight) return worst_of(arena, m, arm, &bending->worst);

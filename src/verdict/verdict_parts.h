@@ -506,9 +506,6 @@ fw_status fw_verdict_edge_room_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
 /* fabrication.c, corner_search.c and requirement_corners.c, shared */
-/* has any clearance (by_nearest: any by its nearest pair) used so much that a corner may take the rest? */
-double fw_verdict_search_used_nearest(const fw_verdict_clearance *c);
-double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
 /* requirement_corners.c: shaken of a point with its modes anywhere; may that be the most that any device does? */
 fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
                               fw_verdict_shaken *to);
@@ -518,6 +515,7 @@ bool fw_verdict_leads(const fw_verdict_search *s, int scene, int point);
 fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_verdict *v);
 bool fw_verdict_row_settle(
     fw_verdict_requirement *made); /* undecided where its band is beyond; true: it was accepted */
+/* has any clearance (by_nearest: any by its nearest pair) used so much that a corner may take the rest? */
 bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest);
 bool fw_verdict_search_has_range(const fw_verdict_fabrication_input *in);
 /* inputs that change nothing but edges have the same slopes, scaled */

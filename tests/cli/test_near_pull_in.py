@@ -183,6 +183,16 @@ class Motions(unittest.TestCase):
         for was, now in zip(said["hinges"], more["hinges"]):
             self.assertLess(now["utilisation"], was["utilisation_band"][1])
 
+    def test_what_it_surely_holds_is_said(self):
+        """the largest voltage of a scene that the margin still allows: there it is accepted, and a little above it is not"""
+        def margin(volts):
+            pull = said_of(GUIDED, f"volts={volts} V", command="statics")["pull_in"][0]
+            share = (1 + pull["fringe"]) * (volts / pull["fingers_V"]) ** 2
+            return pull, pull["margin"] ** 2 * (1 - pull["stiffness_error"]) / (1 + pull["fringe"]) * (1 - share)
+        least = margin(60)[0]["least_V"]
+        self.assertLess(least, margin(60)[0]["voltage_V"])
+        self.assertAlmostEqual(margin(least)[1], 1, delta=1e-3)
+
     def test_near_pull_in_it_is_more_than_in_proportion(self):
         text = CLAMP % ('<require probe="way" measure="final" max="6 um" scene="go"/>', SLOWLY)
         said = said_of(text)

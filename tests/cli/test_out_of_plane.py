@@ -61,6 +61,15 @@ class OutOfPlane(unittest.TestCase):
             for text, value in zip(found.groups(), (scene["tips_at"], 100 * error, sure)):
                 self.assertAlmostEqual(float(text) / value, 1, delta=6e-3)
 
+    def test_pins_leave_out_what_flexures_do(self):
+        """a force that comes at once rings on flexures and not on pins: what pins are sure of is nothing that flexures deny"""
+        def sure(model):
+            scene = self.across(options=(*QUICK, "--hinge-model", model))[2]
+            return scene["tips_at"] / (1 + scene["tips_error"])
+        pins, flexures = sure("revolute"), sure("compliance")
+        self.assertLess(pins, flexures)
+        self.assertGreater(pins, 0.3 * flexures)
+
     def test_what_is_not_drawn_tips_as_well(self):
         """an arm at the end of a thin leaf, with a mass and no outline: pressed it buckles across the plane where
         k L tan(k L) = L/e, e = 250 um from the leaf to the force, and pulled it never does"""

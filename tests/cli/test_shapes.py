@@ -14,6 +14,9 @@ import unittest
 
 from common import ROOT, run
 
+TWO = """<device xmlns="urn:flexwright:device:1" name="two"><material ref="silicon-100" thickness="50 um"/><flow ref="al-masked-rie"/>
+<mechanism>%s</mechanism><flexure id="f" kind="csfh" radius="80 um" angle="240 deg" width="8 um" gap="10 um"/>
+<scene name="push" duration="20 ms"><force on="L" fx="1 uN"/></scene></device>"""
 DEVICE = """<device xmlns="urn:flexwright:device:1" name="jaw">
 <material ref="silicon-100" thickness="50 um"/>
 <flow ref="al-masked-rie"/>
@@ -109,6 +112,18 @@ class Shapes(unittest.TestCase):
 
     def modes(self, shapes):
         return json.loads(run("modes", self.device(shapes), "--json").stdout)["modes"]
+
+    def test_two_jaws_too_near_each_other_are_told_how_far_apart(self):
+        """the distance that FW-D128 names is the least at which the base between them finds its way"""
+        def said(apart):
+            parts = "".join(f'<body id="{b}" x="{x} um" y="0 um"><bar x="0 um" y="0 um" to-x="0 um" to-y="900 um" width="120 um"/></body>'
+                            f'<revolute id="{b}{b}" a="ground" a-x="{x} um" a-y="0 um" b="{b}" b-x="0 um" b-y="0 um" hinge="f"/>'
+                            for b, x in (("L", -apart / 2), ("R", apart / 2)))
+            return run("check", "-", "--corners", "none", "--advice", "none", "--hinge-model", "revolute", input=TWO % parts).stderr
+        found = re.search(r"The two are 520 um apart; a base between their round places needs ([\d.]+) um at least \[FW-D128\]", said(520))
+        self.assertTrue(found)
+        self.assertIn("FW-D128", said(float(found.group(1)) - 0.3))
+        self.assertNotIn("FW-D128", said(float(found.group(1)) + 0.3))
 
     def test_four_ways_are_one_jaw(self):
         for seed in range(4):

@@ -5,6 +5,7 @@ import collections
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -19,6 +20,13 @@ RULES = """
 <rule kind="density" layer="device" max="60 %" window="600 um" source="try it" severity="warning"/>
 <rule kind="enclosure" layer="marks" inside="device" min="40 um" source="try it" severity="warning"/>
 """
+COMB = """<device xmlns="urn:flexwright:device:1" name="drawn">
+<material ref="silicon-100" thickness="50 um"/><limits safety-factor="2"/><flow ref="%s" carrier="insulating"/>
+<mechanism>
+<body id="stage" x="0 um" y="0 um"><bar x="0 um" y="0 um" to-x="0 um" to-y="900 um" width="120 um"/><plate x="0 um" y="950 um" width="500 um" height="300 um"/></body>
+<revolute id="A" a="ground" a-x="0 um" a-y="0 um" b="stage" b-x="0 um" b-y="0 um" hinge="leaf"/></mechanism>
+<flexure id="leaf" kind="leaf" length="300 um" width="10 um"/>
+<scene name="push" duration="20 ms"><comb-drive id="comb" kind="comb" on="stage" x="0 um" y="1150 um" direction="90 deg" fingers="10" gap="%s um" overlap="20 um" length="50 um" voltage="10 V"/></scene></device>"""
 ENDINGS = (".violations.gds", ".violations.json", ".violations.lyrdb")
 READ = """
 import json, pya
@@ -54,6 +62,18 @@ class Violations(unittest.TestCase):
 
     def files(self, out):
         return {p.name[len(flow):] for flow in FLOWS[:1] for p in (out / "masks").iterdir() if p.name.startswith(flow)}
+
+    def test_what_has_to_be_drawn_is_said(self):
+        """of a space of 4 um and a bias of 1.1 um an edge 6.2 um; what the page's tool and its form take at first comes out in every flow"""
+        fast = ("--corners", "none", "--advice", "none", "--hinge-model", "revolute")
+        said = run("check", "-", *fast, input=COMB % (FLOWS[0], "5")).stderr
+        self.assertRegex(said, r"space of 2\.8 um at .*\(the mask has 2\.2 um less than is drawn: 6\.2 um drawn will do\) \[FW-D145\]")
+        first = {re.search(pattern, (ROOT / "web/src" / file).read_text()).group(1) for file, pattern in
+                 (("tools.js", r'size\("gap", "gap", ([\d.]+)\)'), ("adding.js", r'"comb-drive": .*gap: "([\d.]+) um"'))}
+        for flow in sorted(p.stem for p in (ROOT / "masks").glob("*.xml")):
+            for gap in {"6.2"} | first if flow == FLOWS[0] else first:
+                done = run("check", "-", *fast, input=COMB % (flow, gap))
+                self.assertNotIn("FW-D145", done.stderr, (flow, gap))
 
     def test_a_frame_of_any_width_keeps_the_rules(self):
         """its brackets, marks and title: 17 widths from 40 to 140 um, in either flow"""

@@ -76,6 +76,20 @@ describe("commands as cards", () => {
     });
 });
 
+test("at which voltage electrodes pull in is told beside the verdict that accepts them, with what they surely hold", async () => {
+    const server = await serve("comb-stage");
+    const page = await open(server);
+    assert.match(await page.textContent(".card.pull-in"), /Of a first look.*Pull-in in|^Electrodes, as drawnPull-in in/);
+    await page.waitForSelector("#banner:has-text('as it will be made')", { timeout: 60000 });
+    const [p] = print("check", server.file, "--corners", "none", "--advice", "none").pull_in;
+    const said = /Pull-in in (\S+): comb drive (\S+) at ([\d.]+) V \((\w+)\), at least ([\d.]+) V, slowly; the scene asks for up to ([\d.]+) V/.exec(await page.textContent(".card.pull-in"));
+    assert.ok(said, await page.textContent(".card.pull-in"));
+    assert.deepEqual([said[1], said[2], said[4]], [p.scene, p.comb, p.kind]);
+    for (const [words, value] of [[said[3], p.voltage_V], [said[5], p.least_V], [said[6], p.scene_voltage_V]]) assert.ok(Math.abs(words / value - 1) < 1e-2, `${said[0]}: ${value}`);
+    await close(page);
+    await server.stop();
+});
+
 describe("what an answer does not change", () => {
     let server, page;
     before(async () => {

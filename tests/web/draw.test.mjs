@@ -499,3 +499,65 @@ describe("what is there is dragged", () => {
         assert.equal(await text(page), xml);
     });
 });
+
+test("of another device nothing is chosen, though it has a part of the same name, and what could not be made is not told of it", async () => {
+    const server = await serve(null);
+    const page = await open(server);
+    const begin = async (name) => {
+        await page.click("#new");
+        await page.click(`.template:has-text("${name}")`);
+    };
+    await begin("Six-bar");
+    await view(page, "draw");
+    await page.waitForSelector("#panel-draw .draw-handle");
+    await page.locator('#panel-draw select[aria-label="Part"]').selectOption({ index: 3 });
+    await page.waitForSelector("#panel-draw .draw-remove");
+    const chosen = await page.evaluate(() => globalThis.flexwright.parts.draw.chosen);
+    await begin("Four cables");
+    await page.waitForFunction((id) => globalThis.flexwright.parts.draw.list.some((x) => x.id === id), chosen);
+    assert.equal(await page.locator("#panel-draw .draw-remove").count(), 0);
+    assert.deepEqual(await page.evaluate(() => [globalThis.flexwright.parts.draw.chosen, globalThis.flexwright.state.hinge]), [null, null]);
+    await begin("One leaf");
+    await setText(page, ['length="', 'length="9']); // as long as the frame
+    await page.waitForSelector('#banner[data-verdict="failed"]');
+    await page.evaluate(() => {
+        const { editor } = globalThis.flexwright.parts;
+        editor.replace(editor.text.replace('length="9', 'length="').replace(/<scene[^]*<\/scene>/, ""));
+    });
+    await page.waitForSelector(".card.problems:not([hidden])");
+    await page.waitForFunction(() => globalThis.flexwright.settled(false));
+    assert.doesNotMatch(await page.innerText("#banner"), /Cannot be made/);
+    await close(page);
+    await server.stop();
+});
+
+test("hinges of what nothing moves yet are drawn with their strips and round places, and a hinge is told where it bulges to", async () => {
+    const server = await serve("leaf-four-bar");
+    const page = await open(server);
+    await page.evaluate(() => {
+        const { editor } = globalThis.flexwright.parts;
+        editor.replace(editor.text.replace(/<scene[^]*<\/scene>/g, "").replace(/<(require|probe)[^>]*\/>/g, "").replace(/<study[^]*<\/study>/g, ""));
+    });
+    await page.waitForSelector("#right .problems:has-text('Nothing moves it yet')");
+    await view(page, "draw");
+    await page.waitForFunction(() => !document.querySelector("#panel-draw .stage").classList.contains("sketch-only"));
+    const [drawn, there] = await page.evaluate(() => [globalThis.flexwright.state.picture.flexures.filter((f) => f.path.length > 20).length, [...globalThis.flexwright.state.text.matchAll(/<revolute/g)].length]);
+    assert.equal(drawn, there);
+    assert.match(await page.innerText("#banner"), /nothing moves what is drawn/);
+    const hinge = await page.evaluate(() => globalThis.flexwright.parts.draw.list.find((x) => x.element.name === "revolute" && !x.element.attributes.has("axis")).id);
+    await page.locator('#panel-draw select[aria-label="Part"]').selectOption(hinge);
+    const field = page.locator('#panel-draw input[aria-label="bulges to"]');
+    assert.equal(await field.inputValue(), "");
+    await changed(page, async () => {
+        await field.fill("60");
+        await field.press("Enter");
+    });
+    assert.match(await text(page), /axis="60 deg"/);
+    await changed(page, async () => {
+        await field.fill("");
+        await field.press("Enter");
+    });
+    assert.doesNotMatch(await text(page), /axis="60 deg"/);
+    await close(page);
+    await server.stop();
+});

@@ -37,6 +37,38 @@ test("what is told as accepted lies within what was accepted", () => {
     assert.deepEqual(told(stretches(all, true), all).map((r) => [r.from, r.to]), [["0", "0.3333"]]);
 });
 
+test("what nobody tried between two decisions is told as open, on neither side", () => {
+    const points = [[1, "reject"], [3.2, "reject"], [5.4, "accept"], [10, "accept"]].map(([x, state]) => ({ x, state }));
+    assert.deepEqual(told(stretches(points, true), points).map((r) => [r.state, r.from, r.to]), [["reject", "1", "3.2"], ["open", "3.2", "5.4"], ["accept", "5.4", "10"]]);
+    const three = [[1, "reject"], [2, "inconclusive"], [3, "reject"]].map(([x, state]) => ({ x, state }));
+    assert.deepEqual(told(stretches(three, false), three).map((r) => [r.state, r.from, r.to]),
+        [["reject", "1", "1"], ["open", "1", "2"], ["inconclusive", "2", "2"], ["open", "2", "3"], ["reject", "3", "3"]]);
+});
+
+test("a device that takes longer than the server gives is named and left out, and the others are judged", async () => {
+    const server = await serve("leaf-four-bar");
+    const page = await open(server, SMALL);
+    page.expected = [/500/];
+    let slow = null;
+    await page.route("**/api/explore", (r) => {
+        const { points } = r.request().postDataJSON();
+        slow ??= points.at(-1)[0];
+        return points.some((p) => p[0] === slow) ? r.fulfill({ status: 500, json: { error: { code: "FW-D286", message: "the computation was stopped after 20 s" } } }) : r.continue();
+    });
+    await view(page, "explore");
+    await page.waitForFunction(() => globalThis.flexwright.parts.explore.whole, null, { timeout: LONG });
+    const [late, all] = await page.evaluate(() => {
+        const { done } = globalThis.flexwright.parts.explore;
+        return [[...done.values()].filter((p) => p.late), done.size];
+    });
+    assert.equal(late.length, 1);
+    assert.match(late[0].why, /longer than 20 s/);
+    assert.ok(all > 10, `${all} devices`);
+    assert.ok((await page.textContent(".explore-summary")).includes(`With ${slow} it took longer than 20 s, and was left out.`));
+    await close(page);
+    await server.stop();
+});
+
 test("a unit may have several symbols, joined by a blank, '.', '*' or '/'", () => {
     const units = { N: 1, uN: 1e-6, m: 1, mm: 1e-3, um: 1e-6, kg: 1, s: 1, rad: 1 };
     for (const [unit, size] of [["um", 1e-6], ["N m", 1], ["uN mm", 1e-9], ["uN.mm", 1e-9], ["uN*mm", 1e-9], ["kg m^2/s^2", 1], ["mm^2", 1e-6]]) {

@@ -422,6 +422,45 @@ test("without a file: what is not saved survives a reload, and opening another t
     await server.stop();
 });
 
+test("without a file: what was downloaded, or begun from New…, is there after a reload, and it is said what it is", async () => {
+    const server = await serve(null);
+    const page = await open(server);
+    page.on("dialog", (d) => d.accept());
+    const begin = async (name) => {
+        await page.click("#new");
+        await page.click(`.template:has-text("${name}")`);
+    };
+    const reload = async () => {
+        await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 600))); // the server has it, too
+        await page.reload();
+        await ready(page);
+    };
+    await begin("One leaf");
+    const begun = await text(page);
+    await reload();
+    await page.waitForSelector('.notice:has-text("The text is back that was opened last")');
+    assert.equal(await text(page), begun);
+    const mine = begun.replace(/name="[^"]*"/, 'name="mine"');
+    await page.evaluate((t) => globalThis.flexwright.parts.editor.replace(t), mine);
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+    assert.equal(saved.suggestedFilename(), "mine.xml");
+    assert.equal(await page.textContent("#file-state"), "downloaded, not a file");
+    await reload();
+    await page.waitForSelector('.notice:has-text("The text is back that was downloaded last")');
+    assert.equal(await text(page), mine);
+    assert.equal(await page.textContent("#file-state"), "downloaded, not a file");
+    await page.context().close(); // and on another page of a server that is started anew
+    await server.halt();
+    await server.restart(0);
+    const later = await open(server);
+    await later.waitForSelector('.notice:has-text("The text is back that was downloaded last")');
+    assert.equal(await text(later), mine);
+    await later.click('.notice button:has-text("Begin anew instead")');
+    assert.equal(await text(later), execFileSync(program, ["init"]).toString());
+    await close(later);
+    await server.stop();
+});
+
 test("without a file: the starter of `flexwright init`, judged, to be changed and downloaded", async () => {
     const server = await serve(null);
     const page = await open(server);

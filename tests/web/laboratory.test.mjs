@@ -275,3 +275,17 @@ describe("numbers of the laboratory", () => {
         assert.deepEqual(found.violations.filter((v) => ["serious", "critical"].includes(v.impact)).map((v) => [v.id, v.nodes.map((n) => n.html)]), []);
     });
 });
+
+test("a mistake in the laboratory's numbers is said to be there, and not in the description", async () => {
+    const server = await serve("leaf-four-bar");
+    const page = await open(server);
+    await page.evaluate(() => {
+        const { state, parts } = globalThis.flexwright;
+        state.lab["laboratory-al-masked-rie.xml"] = '<process xmlns="urn:flexwright:process:1" id="laboratory" version="1" title="numbers" flow="al-masked-rie"><q id="al.R" value="many" unit="nm/min" status="measured"/></process>';
+        parts.editor.replace(`${parts.editor.text} `);
+    });
+    await page.waitForSelector(".card.problems:not([hidden]) h2");
+    assert.match(await page.textContent(".card.problems h2"), /^\d+ mistakes? in the laboratory's numbers$/);
+    await close(page);
+    await server.stop();
+});

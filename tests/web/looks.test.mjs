@@ -35,9 +35,9 @@ describe("the report", () => {
 });
 
 /** What is wrong with the place of a control: outside of the window or of what clips it, its own words cut, something else over it. */
-const misplaced = (page) => page.evaluate(() => {
+const misplaced = (page, within = "body") => page.evaluate((w) => {
     const out = new Set();
-    for (const e of document.querySelectorAll("button, .button, select, input, textarea, summary")) {
+    for (const e of document.querySelector(w).querySelectorAll("button, .button, select, input, textarea, summary")) {
         const r = e.getBoundingClientRect();
         if (!e.checkVisibility({ visibilityProperty: true, opacityProperty: true }) || r.width <= 1 || e.closest(".skip, .read-only, .cm-editor")) continue;
         const name = `${e.closest("[id]")?.id}: ${e.tagName.toLowerCase()} ${(e.getAttribute("aria-label") ?? e.innerText ?? e.value ?? "").trim().replace(/\s+/g, " ").slice(0, 40) || e.className}`;
@@ -51,7 +51,7 @@ const misplaced = (page) => page.evaluate(() => {
             if (["hidden", "clip"].includes(look.overflowY) && !down && (r.top < b.top - 0.5 || r.bottom > b.bottom + 0.5)) out.add(`${name} is cut at the top or bottom by ${p.id || p.className}`);
             if (look.overflowX !== "visible") [left, top, right, bottom] = [Math.max(left, b.left), Math.max(top, b.top), Math.min(right, b.right), Math.min(bottom, b.bottom)];
         }
-        if (e.matches("button, .button") && e.scrollWidth > e.clientWidth + 1) out.add(`${name}: its words are cut`);
+        if (e.matches("button, .button") && (e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1)) out.add(`${name}: its words are cut`);
         for (const x of [r.left + 3, (r.left + r.right) / 2, r.right - 3])
             for (const y of [r.top + 3, (r.top + r.bottom) / 2, r.bottom - 3]) {
                 if (x < left || x > right || y < top || y > bottom) continue; // scrolled away
@@ -60,7 +60,7 @@ const misplaced = (page) => page.evaluate(() => {
             }
     }
     return [...out];
-});
+}, within);
 
 describe("plots", () => {
     test("each tells its unit, and the whole value under its cursor, from 1000 to 1440 pixels", async () => {
@@ -110,6 +110,53 @@ describe("controls", () => {
             await close(page);
             await server.stop();
         });
+});
+
+test("what a new device may begin with is whole, whatever the window's size, in both themes", async () => {
+    const server = await serve(null);
+    const page = await open(server, { width: 1024, height: 768 });
+    const found = [];
+    for (const colorScheme of ["light", "dark"]) {
+        await page.emulateMedia({ colorScheme });
+        for (const [width, height] of [[1440, 900], [1024, 768], [800, 600], [390, 844]]) {
+            await page.setViewportSize({ width, height });
+            await page.click("#new");
+            await page.waitForSelector(".template");
+            await laidOut(page);
+            found.push(...(await misplaced(page, "dialog")).map((x) => `${colorScheme} at ${width}: ${x}`));
+            await page.keyboard.press("Escape");
+            await page.waitForSelector("dialog", { state: "detached" });
+        }
+    }
+    assert.deepEqual(found, []);
+    await close(page);
+    await server.stop();
+});
+
+test("values beside bars, fields deep in the form, the laboratory's table and what a drag says are whole at 1024 pixels", async () => {
+    const server = await serve("reference-six-bar");
+    const page = await open(server, { width: 1024, height: 768 });
+    await page.evaluate(() => {
+        const { state, parts } = globalThis.flexwright;
+        for (const [i, x] of state.preview.verdict.hinges.entries()) x.utilisation = [1 / 0, 1.234e8, 123, 0.4567][i % 4];
+        for (const f of state.preview.verdict.flows) for (const [i, x] of f.hinges.entries()) x.utilisation = [1 / 0, 1.234e8, 123, 0.4567][i % 4];
+        parts.verdict.show();
+    });
+    const cut = (q) => page.evaluate((w) => [...document.querySelectorAll(w)].filter((e) => e.offsetParent && e.scrollWidth > e.clientWidth + 1).map((e) => `${e.className || e.id}: ${e.textContent.slice(0, 40)}`), q);
+    assert.deepEqual(await cut("#right .bar, #right .bar-value, #right"), []);
+    for (let i = 0; i < 4; i++) await page.evaluate(() => document.querySelectorAll("#panel-form details.element").forEach((e) => (e.open = true)));
+    await laidOut(page);
+    const narrow = await page.evaluate(() => [...document.querySelectorAll("#panel-form .field input")].filter((e) => e.offsetParent && e.clientWidth < 84).map((e) => `${e.dataset.path}: ${e.clientWidth}`));
+    assert.deepEqual(narrow, []);
+    await view(page, "recipe");
+    await computed(page, "recipe", 60000);
+    await page.evaluate(() => (document.querySelector("details.laboratory").open = true));
+    for (let i = 0; i < 3; i++) await page.selectOption('.laboratory select[aria-label="Another number"]', { index: 1 });
+    await page.evaluate(() => document.querySelectorAll(".lab-used").forEach((e) => (e.textContent = "nothing of yours: what is entered is not used yet")));
+    await laidOut(page);
+    assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll(".lab-table")].filter((t) => t.rows.length > 1 && t.getBoundingClientRect().right > document.querySelector("#panel-recipe").clientWidth + document.querySelector("#panel-recipe").getBoundingClientRect().left).length), 0);
+    await close(page);
+    await server.stop();
 });
 
 describe("rules and looks", () => {

@@ -7,12 +7,19 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, describe, test } from "node:test";
+import { tickWords } from "../../web/src/format.js";
 import { requirementsOf } from "../../web/src/purpose.js";
 import { answered, close, finish, open, program, serve, setText, SMALL, source, verdict } from "./helper.mjs";
 
 after(finish);
 
 const figure = (svg) => assert.equal(execFileSync(program, ["figure", "-", "-o", "-"], { input: svg }).subarray(0, 5).toString(), "%PDF-"); // for a paper
+
+test("marks of an axis are told apart, whatever lies between them", () => {
+    assert.deepEqual(tickWords([0, 5, null, 10]), ["0", "5", "", "10"]);
+    assert.deepEqual(tickWords([100.001, 100.002, 100.003]), ["100.001", "100.002", "100.003"]);
+    assert.deepEqual(tickWords([1.0001e-7, 1.0002e-7]), ["1.0001e\u22127", "1.0002e\u22127"]);
+});
 
 describe("probes", () => {
     let server, page;
@@ -33,6 +40,17 @@ describe("probes", () => {
         assert.match(said, /tension \(peak, draw\)\s+115 µN as drawn, at a first look/);
         assert.equal(await page.locator(".purpose dd.accept").count(), 0, "a first look accepts nothing, and nothing is green");
         assert.match(said, /tilt \(peak, draw\)\s+not known with hinges as pins/, "rounding noise is no result");
+    });
+
+    test("a requirement that is added takes the size of its probe, in a unit of it", async () => {
+        const [added, peak] = await page.evaluate(() => {
+            const { state, parts: { form } } = globalThis.flexwright;
+            const { attributes } = form.adding(form.root, form.elements.find((row) => row.name === "require"))[0];
+            return [attributes, Math.abs(state.preview.verdict.probes.find((x) => x.id === attributes.probe).peak)];
+        });
+        const [, size, unit] = /^([\d.]+) (\S+)$/.exec(added.max);
+        assert.equal(unit, "um");
+        assert.ok(size * 1e-6 > 1.3 * peak && size * 1e-6 < 1.7 * peak, `${added.max} of ${peak}`);
     });
 
     test("what only flexing hinges do is not drawn as a curve of a look with pins", async () => {

@@ -46,6 +46,25 @@ describe("the text and the address", () => {
         await page.evaluate((t) => globalThis.flexwright.parts.editor.replace(t), whole);
     });
 
+    test("attributes that were opened in the form stay so when one of them is written", async () => {
+        const whole = await text(page);
+        await page.click("#tab-form");
+        await page.evaluate(() => document.querySelectorAll("#panel-form details.element").forEach((e) => /^limits/.test(e.textContent) && (e.open = true)));
+        const more = page.locator("#panel-form details.element:not(:has(details.element)) details.more").first();
+        await more.locator("summary").click();
+        const before = await more.locator(".field").count();
+        const field = more.locator('input[data-path$="/@cycles"]');
+        const path = await field.getAttribute("data-path");
+        await field.fill("1000");
+        await field.press("Enter");
+        await page.waitForFunction((t) => globalThis.flexwright.state.text !== t, whole);
+        await page.waitForFunction((p) => !document.querySelector(`details.more [data-path="${p}"]`), path);
+        assert.equal(await more.getAttribute("open"), "");
+        assert.equal(await more.locator(".field").count(), before - 1);
+        await page.evaluate((t) => globalThis.flexwright.parts.editor.replace(t), whole);
+        await page.click("#tab-xml");
+    });
+
     test("attributes that are not there yet, with words and names as values", async () => {
         const whole = await text(page);
         await behind('<flexure id="A" kind="csfh"');

@@ -43,7 +43,7 @@ const VALUES = {
     gravity: () => ({ gy: "-9.81 m/s^2" }),
     initial: () => ({ omega: "1 rad/s" }),
     tendon: () => ({ stiffness: "10 N/m", draw: "1 um" }),
-    "comb-drive": (c) => ({ kind: "comb", direction: "0 deg", gap: "5 um", fingers: "10", overlap: "20 um", length: "50 um", voltage: "10 V", on: c.moving[0] }),
+    "comb-drive": (c) => ({ kind: "comb", direction: "0 deg", gap: "8 um", fingers: "10", overlap: "20 um", length: "50 um", voltage: "10 V", on: c.moving[0] }),
     "base-motion": () => ({ ax: "9.81 m/s^2", law: "sine", frequency: "50 Hz" }),
     friction: () => ({ coefficient: "0.1", radius: "20 um" }),
     contact: (c) => ({ a: c.moving[0], b: "ground", side: "outside", distance: "1 um", stiffness: "20 N/m" }),
@@ -52,7 +52,7 @@ const VALUES = {
     "residual-stress": () => ({ mean: "10 MPa" }),
     air: () => ({ kind: "slide", gap: "20 um" }),
     probe: (c) => ({ kind: "displacement", on: c.moving.at(-1), direction: "0 deg" }),
-    require: (c) => ({ probe: c.ids("probe")[0] ?? "", measure: "peak", max: "1 m" }),
+    require: (c) => ({ probe: c.ids("probe")[0] ?? "", measure: "peak", max: c.bound(c.ids("probe")[0]) }),
     eyelet: () => ({ x: "0 mm", y: "0 mm" }),
     study: () => ({ kind: "sweep" }),
     vary: (c) => varied(c),
@@ -91,14 +91,26 @@ function plain(a, c) {
     return "";
 }
 
-/** Changes for /api/edit that add such an element to `parent` (a path); row(name, parent name): of the table. */
-export function adding(root, parent, kind, row) {
+// What a probe's limit is written in, and a size that is usual where no motion tells one: unit, in SI, usual.
+const LENGTH = ["um", 1e-6, 10];
+const WRITTEN = { displacement: LENGTH, distance: LENGTH, opening: LENGTH, gap: LENGTH, velocity: ["mm/s", 1e-3, 10], angle: ["deg", Math.PI / 180, 1], force: ["uN", 1e-6, 10],
+    torque: ["N m", 1, 1e-6], power: ["W", 1, 1e-6], capacitance: ["F", 1, 1e-12], stiffness: ["N/m", 1, 1], compliance: ["m/N", 1, 1], frequency: ["Hz", 1, 1000] };
+
+/** A limit of a probe that is of its own size: what it has at its peak, and half as much again; SI peak or NaN. */
+function boundOf(kind, peak) {
+    const [unit, size, usual] = WRITTEN[kind] ?? LENGTH;
+    return `${peak > 0 && Number.isFinite(peak) ? Number((1.5 * peak / size).toPrecision(2)) : usual} ${unit}`;
+}
+
+/** Changes for /api/edit that add such an element to `parent` (a path); row(name, parent name): of the table; probes: what a verdict says of them. */
+export function adding(root, parent, kind, row, probes = []) {
     const all = [...walk(root)];
     const ids = (space) => idsOf(root, row, space);
     const bodies = ids("body");
     const c = {
         ids, moving: bodies.filter((x) => x !== "ground"), beside: "3 mm",
         taken: (name) => all.filter((e) => e.name === name).map((e) => e.id ?? e.attributes.get("ref")?.value),
+        bound: (id) => boundOf(all.find((e) => e.name === "probe" && e.id === id)?.attributes.get("kind")?.value, Math.max(...probes.filter((x) => x.id === id).map((x) => Math.abs(x.peak)))),
         parameter: (id) => {
             const e = all.find((x) => x.name === "parameter" && x.id === id);
             return e && Object.fromEntries([...e.attributes].map(([k, v]) => [k, v.value]));

@@ -212,7 +212,9 @@ const OWN = { cost: true, parameters: true, diagnostics: true, motion: { stats: 
 
 function take(answer, input) {
     const diagnostics = answer.diagnostics ?? [];
-    const shown = answer.marks?.length > 0 && answer.bodies?.length > 0; // a layout that cannot be made
+    const errors = diagnostics.filter((d) => d.severity === "error");
+    const still = errors.length > 0 && errors.every((d) => d.code === "FW-D202"); // nothing moves it yet: it is drawn all the same
+    const shown = (answer.marks?.length > 0 || still) && answer.bodies?.length > 0; // or a layout that cannot be made
     const good = answer.status === "ok" || (answer.status === "failed" && shown);
     if (!good && !diagnostics.length) diagnostics.push({ severity: "error", code: null, message: answer.message ?? "this design cannot be computed", line: 0, column: 0 });
     if (!good) {

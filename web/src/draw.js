@@ -71,7 +71,12 @@ export class Draw {
         this.#pointer();
         this.#keys();
         on("text", () => this.#refresh());
-        on("another", () => this.tool && this.#use(null)); // what is drawn on next is another device
+        on("another", () => { // what is drawn on next is another device, of which nothing is chosen, though it may have the same names
+            if (this.tool) this.#use(null);
+            Object.assign(this, { chosen: null, panelOf: null });
+            this.side.replaceChildren();
+            if (state.hinge) lookAt(state.hinge);
+        });
         on("pinned", () => this.visible && this.#pinned());
         on("picture", () => this.visible && this.#base());
         on("answer", () => this.#refresh());
@@ -570,12 +575,13 @@ export class Draw {
         const [x, y] = this.view.toScreen(...at);
         const [w] = this.view.size;
         const [back, text] = this.dimension.children;
-        text.replaceChildren(...lines.filter(Boolean).map((t, i) => s("tspan", { x: 7, dy: i ? 15 : 0 }, t.length > 70 ? `${t.slice(0, 69)}…` : t)));
-        const width = 14 + 6.3 * Math.max(...lines.map((t) => Math.min(t?.length ?? 0, 70)));
-        back.setAttribute("width", width);
-        back.setAttribute("height", 5 + 15 * lines.length);
-        this.dimension.setAttribute("transform", `translate(${Math.max(Math.min(x + 16, w - width - 4), 2).toFixed(1)} ${Math.max(y - 26 - 15 * lines.length, 2).toFixed(1)})`);
-        this.dimension.classList.remove("none");
+        const most = Math.min(70, Math.floor((w - 24) / 6.3)), said = lines.filter(Boolean);
+        text.replaceChildren(...said.map((t, i) => s("tspan", { x: 7, dy: i ? 15 : 0 }, t.length > most ? `${t.slice(0, most - 1)}…` : t)));
+        this.dimension.classList.remove("none"); // what is not shown has no length
+        const width = 14 + Math.max(...[...text.children].map((t) => t.getComputedTextLength()));
+        back.setAttribute("width", width.toFixed(1));
+        back.setAttribute("height", 5 + 15 * said.length);
+        this.dimension.setAttribute("transform", `translate(${Math.max(Math.min(x + 16, w - width - 4), 2).toFixed(1)} ${Math.max(y - 26 - 15 * said.length, 2).toFixed(1)})`);
     }
 
     // ---- keys ----
@@ -766,7 +772,8 @@ export class Draw {
         const e = handle.element.name === "eyelet" ? [...walk(this.root)].find((t) => t.children.includes(handle.element)) : handle.element;
         const id = places.text(e, "hinge") ?? places.text(e, "flexure");
         const flexure = id && this.root.children.find((x) => x.name === "flexure" && x.id === id);
-        return [...own(e), ...(flexure ? own(flexure) : [])];
+        const bulge = flexure && e.name === "revolute" && !e.attributes.has("axis") ? [[e, "axis"]] : []; // where none is stated one may be
+        return [...own(e), ...bulge, ...(flexure ? own(flexure) : [])];
     }
 
     #handlePanel(handle) {
@@ -776,11 +783,14 @@ export class Draw {
         const facts = this.#facts(handle).map(([e, attribute]) => {
             const other = e !== handle.element;
             const input = h("input", { autocomplete: "off", spellcheck: false });
-            const label = `${attribute}${other ? ` of ${e.name} ${e.id ?? ""}` : ""}`;
+            const bulge = e.name === "revolute" && attribute === "axis";
+            const label = bulge ? "bulges to" : `${attribute}${other ? ` of ${e.name} ${e.id ?? ""}` : ""}`;
             input.setAttribute("aria-label", label);
+            if (bulge) input.placeholder = "chosen by the layout";
             const path = `${e.path}/@${attribute}`;
             const present = () => (this.live?.places ?? this.places).text([...walk(this.root)].find((x) => x.path === e.path) ?? e, attribute) ?? "";
-            enter(input, path, present, (value) => edit([{ path, value }], `${label} is ${value}`));
+            const written = (value) => (!bulge ? value : value.trim() === "" ? null : /^[-+.\d]+$/.test(value.trim()) ? `${value.trim()} deg` : value);
+            enter(input, path, present, (value) => edit([{ path, value: written(value) }], `${label} is ${value}`));
             this.fields.push(() => show(input, path, present()));
             return h("label", { class: "pose-field" }, h("span", {}, label), input);
         });

@@ -287,7 +287,13 @@ export class Explore {
             try {
                 answer = await post("/api/explore", { ...body, points: some.map((k) => texts[k]) }, { signal });
             } catch (error) {
-                if (signal.aborted || error.body?.error?.code !== TOO_LONG || some.length === 1) throw error;
+                if (signal.aborted || error.body?.error?.code !== TOO_LONG) throw error;
+                if (some.length === 1) { // this one alone takes too long: it is named, and the others go on
+                    take({ state: "run", late: true, way: null, why: `With ${texts[some[0]].join(", ")} it took longer than ${answerTime(error)}, and was left out.`, used: NaN, value: NaN, low: NaN, high: NaN }, some[0]);
+                    show(1);
+                    i++;
+                    continue;
+                }
                 this.chunk = Math.max(Math.floor(some.length / 4), 1); // a machine that does other work, too: fewer at once
                 continue;
             }
@@ -362,7 +368,7 @@ export class Explore {
         const least = ((x.to - x.from) / POINTS / 2 ** HALVINGS) * 1.01;
         for (let k = 0; k < HALVINGS; k++) {
             const points = this.#sorted();
-            const between = points.slice(1).map((p, i) => [points[i], p]).filter(([a, b]) => a.state !== b.state && b.x - a.x > least).slice(0, EDGES);
+            const between = points.slice(1).map((p, i) => [points[i], p]).filter(([a, b]) => a.state !== b.state && b.x - a.x > least && !a.late && !b.late).slice(0, EDGES);
             const list = between.map(([a, b]) => Number(textOf((a.x + b.x) / 2, "").trim())).filter((v) => !this.done.has(v));
             if (!list.length) return;
             this.inAll = Math.max(this.inAll, this.asked + list.length * (HALVINGS - k));
@@ -449,9 +455,9 @@ export class Explore {
         this.progress.value = Math.min(this.asked / this.inAll, 1);
         const nothing = this.showing.of === null || this.showing.another;
         this.button.classList.toggle("primary", nothing || this.showing.former);
-        this.message.textContent = busy ? `${this.asked} of ${this.inAll} devices · ${((performance.now() - this.begun) / 1e3).toFixed(1)} s`
+        this.message.textContent = busy ? `${this.asked} of ${devices(this.inAll)} · ${((performance.now() - this.begun) / 1e3).toFixed(1)} s`
             : why !== undefined ? `${why}${nothing ? "" : " What stands below is of the former input."}` : nothing ? "" : this.showing.former ? "of the former input: something has changed since"
-                : `${this.done.size} devices in ${number(this.seconds, 3)} s${!this.whole ? "; not all of it: stopped" : this.spec.inputs.length === 1 ? ", closer where the line bends" : ""}`;
+                : `${devices(this.done.size)} in ${number(this.seconds, 3)} s${!this.whole ? "; not all of it: stopped" : this.spec.inputs.length === 1 ? ", closer where the line bends" : ""}`;
     }
 
     #look(at) {
@@ -516,7 +522,7 @@ export class Explore {
         const { inputs, number: n } = this.spec;
         const where = inputs.map((x, i) => `${x.label} ${textOf(i ? p.y : p.x, x.unit)}`).join(", ");
         const band = Number.isFinite(p.low) && Number.isFinite(p.high) ? ` (${number(p.low)} to ${number(p.high)})` : "";
-        const other = p.state !== "accept" && p.used > 1 && n.unit === "%" && (p.high ?? p.value) <= 100 ? `; what decides is another limit, used to ${percent(p.used)}` : "";
+        const other = p.state !== "accept" && p.used > 1 && n.unit === "%" && (p.high ?? p.value) <= 100 && !p.why ? `; what decides is another limit, used to ${percent(p.used)}` : "";
         return `${where}: ${WORDS[p.state]}${Number.isFinite(p.value) ? `, ${number(p.value, 4)} ${n.unit}${band}` : ""}${other}${p.told ? `; told between judged devices, by at most ${number(offOf(p), 2)} ${n.unit} off` : ""}${p.why ? `. ${p.why}` : ""}`;
     }
 
@@ -566,6 +572,12 @@ const placeOf = (input, share) => Number(textOf(input.from + share * (input.to -
 
 /** The most that a told value or an end of its band is off by. */
 const offOf = (p) => Math.max(...SHOWN.map((f) => p.off[f] ?? 0));
+
+/** The time that the server gives to one request, in its words. */
+const answerTime = (error) => /\d+ s\b/.exec(error.message)?.[0] ?? "the server gives to one request";
+
+/** "1 device", "3 devices" */
+const devices = (n) => `${n} ${n === 1 ? "device" : "devices"}`;
 
 function group(list) {
     const out = new Map();

@@ -8,7 +8,7 @@ import { rangeOf, stretches } from "./exploring.js";
 import { ticks } from "./plotfile.js";
 
 const [LEFT, RIGHT, TOP, STRIP, BELOW] = [58, 14, 12, 12, 44];
-export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "inconclusive", run: "not judged", failed: "refused" };
+export const WORDS = { accept: "accepted", reject: "rejected", inconclusive: "inconclusive", run: "not judged", failed: "refused", open: "open" };
 const SIGNS = { // of about 6 pixels
     accept: "M-3 0a3 3 0 1 0 6 0a3 3 0 1 0-6 0", reject: "M-3-3L3 3M3-3L-3 3", inconclusive: "M-2.6-2.6h5.2v5.2h-5.2z", run: "M-3 0h6", failed: "M-3-3L3 3M3-3L-3 3M0-4V4",
 };

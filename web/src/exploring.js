@@ -230,9 +230,24 @@ export function told(list, points) {
         return inside.length ? [inside[0], inside.at(-1)] : [r.from, r.to];
     });
     const end = (v, up) => (v === first || v === last ? plain(v) : inwards(v, up));
-    return list.map((r, i) => ({
+    const out = list.map((r, i) => ({
         state: r.state,
         from: own[i] ? end(own[i][0], true) : own[i - 1] ? end(own[i - 1][1], false) : plain(r.from),
         to: own[i] ? end(own[i][1], false) : own[i + 1] ? end(own[i + 1][0], true) : plain(r.to),
     }));
+    return out.flatMap((r, i) => {
+        const [low, high] = i ? gapBefore(list[i], points) : [0, 0];
+        if (!(high - low > OPEN * (last - first))) return [r];
+        if (!own[i - 1]) out[i - 1].to = plain(low);
+        if (!own[i]) r.from = plain(high);
+        return [{ state: "open", from: out[i - 1].to, to: r.from }, r];
+    });
+}
+
+const OPEN = 0.02; // of the range: where nothing was tried in so much of it, neither side has it
+
+/** The last point of the stretch before this one and the first of its own. */
+function gapBefore(r, points) {
+    const k = points.findIndex((p, i) => i > 0 && p.state === r.state && points[i - 1].state !== r.state && p.x >= r.from);
+    return k < 0 ? [0, 0] : [points[k - 1].x, points[k].x];
 }

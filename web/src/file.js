@@ -46,9 +46,21 @@ export async function startFile(editor) {
     if (state.file?.mixed) mixedEnds();
     if (state.file?.gone) tellGone(state.file.gone);
     await restore(editor);
-    on("text", () => keep(state.text, changed() ? state.file?.version ?? "" : null));
+    on("text", keepText);
     emit("file");
 }
+
+/** What is on the page and in no file that is watched is kept; without a file that is all but the starter, which anybody can begin with again. */
+function keepText() {
+    if (state.file) return keep(state.text, changed() ? state.file.version : null);
+    keep(state.text, state.text === starter ? null : changed() ? "" : state.baseIs);
+}
+
+/** What the text that was not changed since is without a file: where else it may be, and what is said of it when it is back. */
+const BASES = {
+    downloaded: "The text is back that was downloaded last. It is no file here: what you change is in no file until it is downloaded again.",
+    opened: "The text is back that was opened last. It is no file here: what you change is in no file until it is downloaded.",
+};
 
 function mixedEnds() {
     notice({ kind: "info", stay: true, text: `${state.file.name} mixes line ends; saving writes all of them as ${state.file.eol === "\n" ? "LF" : "CR LF"}.` });
@@ -61,6 +73,12 @@ async function restore(editor) {
     if (!draft || draft.text === state.text) return;
     if (state.file && draft.version !== state.file.version) return conflict(editor, state.file, draft.text);
     const before = state.text;
+    if (!state.file && draft.version in BASES) {
+        Object.assign(state, { base: draft.text, baseIs: draft.version });
+        editor.open(draft.text);
+        back = notice({ kind: "info", stay: true, text: BASES[draft.version], actions: [["Begin anew instead", () => replaceAll(editor, before, "Begin anew")], ["Keep it", () => {}]] });
+        return;
+    }
     editor.replace(draft.text);
     back = notice({ kind: "info", stay: true, text: "Changes that were not saved are back.", actions: [[state.file ? "Take the file's instead" : "Begin anew instead", () => editor.replace(before)], ["Keep them", () => {}]] });
 }
@@ -112,8 +130,7 @@ let open = null; // {editor, now, mine, strip} while nobody has answered
 
 function settle() {
     open?.strip.remove();
-    back?.remove();
-    back = null;
+    answered();
     open = null;
     keep(state.text, changed() ? state.file.version : null);
 }
@@ -176,9 +193,12 @@ export function openText(editor) {
 /** Another text in place of this one; where something would be lost, it asks. */
 export function replaceAll(editor, text, words) {
     const go = () => {
-        state.base = text;
+        Object.assign(state, { base: text, baseIs: "opened" });
         anotherDevice(text);
         editor.open(text);
+        answered();
+        keepText();
+        emit("file");
     };
     if (!unsaved()) return go();
     const dialog = openDialog(`${words}?`, [h("p", {}, "The text here has changes that were not saved. They would be gone.")], [
@@ -228,9 +248,14 @@ function download() {
     link.href = URL.createObjectURL(new Blob([state.text], { type: "application/xml" }));
     link.download = `${/<device[^>]*?\sname="([\w.-]+)"/.exec(state.text)?.[1] ?? "device"}.xml`;
     link.click();
-    state.base = state.text;
+    Object.assign(state, { base: state.text, baseIs: "downloaded" });
+    answered();
+    keepText();
+    emit("file");
+}
+
+/** Nothing is left to be said of what came back. */
+function answered() {
     back?.remove();
     back = null;
-    keep(state.text, null);
-    emit("file");
 }

@@ -217,8 +217,14 @@ export class Form {
         const absent = row.attributes.filter((a) => !element.attributes.has(a.name));
         const out = [h("p", { class: "sentence" }, row.sentence), ...present.map((a) => this.#field(element.path, a))];
         if (absent.length) {
-            const more = h("details", { class: "more" }, h("summary", {}, `${absent.length} more ${absent.length === 1 ? "attribute" : "attributes"}`));
-            more.addEventListener("toggle", () => more.childElementCount === 1 && more.append(...absent.map((a) => this.#field(element.path, a))), { once: true });
+            const mine = `${element.path} more`; // the form is made anew when one of them is written: what was open stays so
+            const more = h("details", { class: "more", open: this.opened.has(mine) }, h("summary", {}, `${absent.length} more ${absent.length === 1 ? "attribute" : "attributes"}`));
+            const fill = () => more.childElementCount === 1 && more.append(...absent.map((a) => this.#field(element.path, a)));
+            if (more.open) fill();
+            more.addEventListener("toggle", () => {
+                this.opened[more.open ? "add" : "delete"](mine);
+                if (more.open) fill();
+            });
             out.push(more);
         }
         return out;
@@ -288,7 +294,7 @@ export class Form {
 
     /** Changes of the text that add it; for the tests, too. */
     adding(element, kind) {
-        return adding(this.root, element, kind, (name, parent) => this.row(name, parent));
+        return adding(this.root, element, kind, (name, parent) => this.row(name, parent), state.preview?.verdict?.probes ?? []);
     }
 
     /** What may be added to an element of this name. */

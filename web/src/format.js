@@ -14,6 +14,16 @@ export function number(x, digits = 3) {
     return sign(Number(x.toPrecision(digits)).toString());
 }
 
+const TICK_MOST = 9;
+
+/** Words of the marks of an axis: as many digits as tell them apart; null is a mark without words. */
+export function tickWords(marks, least = 3) {
+    const there = marks.filter((x) => x !== null);
+    let digits = least;
+    while (digits < TICK_MOST && new Set(there.map((x) => number(x, digits))).size < new Set(there).size) digits++;
+    return marks.map((x) => (x === null ? "" : number(x, digits)));
+}
+
 const PREFIXES = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9], ["p", 1e-12], ["f", 1e-15]];
 
 /** So many decimals, without a minus before zero. */

@@ -67,7 +67,8 @@ function headerState() {
     const changed = unsaved();
     const gone = state.file?.gone !== undefined;
     parts.save.disabled = state.file === null ? false : (!changed && !gone) || state.file.writable === false;
-    const where = state.file === null ? `not a file${changed ? ", changed" : ""}` : `${state.file.name}${gone ? ", not on disk" : changed ? ", changed" : ""}`;
+    const apart = state.baseIs === "downloaded" ? changed ? "changed since it was downloaded, not a file" : "downloaded, not a file" : `not a file${changed ? ", changed" : ""}`;
+    const where = state.file === null ? apart : `${state.file.name}${gone ? ", not on disk" : changed ? ", changed" : ""}`;
     say(parts.file, where);
     parts.file.classList.toggle("changed", changed);
     say(parts.device, parts.form.name);

@@ -4,7 +4,7 @@ import uPlot from "uplot";
 import { FORMER, isFormer } from "./belong.js";
 import { curve, dash, themed } from "./colours.js";
 import { become, button, h, put, say } from "./dom.js";
-import { number } from "./format.js";
+import { number, tickWords } from "./format.js";
 import { csvOf, saveAs, svgOf } from "./plotfile.js";
 import { on, state } from "./store.js";
 
@@ -187,8 +187,8 @@ export class Plot {
                 y: this.log ? { distr: 3 } : { range: (u, low, high) => this.#range(low, high) },
             },
             axes: [
-                { ...axis, size: 26, values: (u, v) => v.map((x) => number(x, 4)) },
-                { ...axis, size: 50, values: (u, v) => v.map((x) => (x === null ? "" : number(x, this.log ? 1 : 3))) },
+                { ...axis, size: 26, values: (u, v) => tickWords(v, 4) },
+                { ...axis, size: (u, words) => Math.max(50, 14 + 7 * Math.max(0, ...(words ?? []).map((x) => x.length))), values: (u, v) => (this.log ? v.map((x) => (x === null ? "" : number(x, 1))) : tickWords(v)) },
             ],
             series: [{}, ...series.map((x, i) => ({
                 label: x.name, stroke: curve(x.key ?? i), dash: x.then ? [1.5, 2.5] : x.solid ? [] : dash(x.key ?? i), points: { show: false },

@@ -8,6 +8,7 @@ export const state = {
     table: null, // flexwright.table/1
     file: null, // {name, version, text (as on disk, but for line ends), eol, writable, gone: why it cannot be read}
     base: "", // without a file: the text that was opened or downloaded last
+    baseIs: "opened", // what that text is: "opened", "downloaded"
     set: {}, // values that are held by hand, by a slider or in the picture, and not in the text yet: path -> text
     entered: new Map(), // path -> what is typed in its field and not in the text yet (entering.js)
     edits: [], // changes of the text that are under way, as /api/edit takes them

@@ -93,8 +93,8 @@ export const TOOLS = [
         },
     },
     {
-        id: "comb", label: "Electrodes", icon: "comb", points: two, words: "Draw from the middle of the overlap on a body to where it is pulled.",
-        fields: [size("fingers", "fingers", 10, ""), size("gap", "gap", 5), size("overlap", "overlap", 20), size("length", "length", 50), size("voltage", "voltage", 10, "V"), bodyField("body there")],
+        id: "comb", label: "Electrodes", icon: "comb", points: two, words: "Draw from the middle of the overlap on a body to where it is pulled. Both electrodes stand on a carrier that insulates: that of the flow, or the one that carrier=\"insulating\" in <flow> says there is.",
+        fields: [size("fingers", "fingers", 10, ""), size("gap", "gap", 8), size("overlap", "overlap", 20), size("length", "length", 50), size("voltage", "voltage", 10, "V"), bodyField("body there")],
         make: (c, [p, q]) => {
             const body = under(c, p);
             return tooSmall(p, q) ?? (body ? makeComb(c.places, { ...c.values, p, q, body, scene: c.scene }) : noBody);

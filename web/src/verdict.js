@@ -33,6 +33,8 @@ export class Verdict {
         this.required = h("section", { class: "card", "aria-labelledby": "h-required", hidden: true }, h("h2", { id: "h-required" }, "What it is for"));
         this.old = h("div", { class: "old-note", id: "old-note", hidden: true });
         this.across = h("section", { class: "card across", "aria-labelledby": "h-across", hidden: true }, h("h2", { id: "h-across" }, "Out of the plane, drying"));
+        this.pulls = h("div", {});
+        this.pullIn = h("section", { class: "card pull-in", "aria-labelledby": "h-pull-in", hidden: true }, h("h2", { id: "h-pull-in" }, "Electrodes, as drawn"), this.pulls);
         this.flows = h("div", { class: "flows" });
         this.ledger = h("div", { class: "ledger" });
         this.cost = h("dl", { class: "facts-list" });
@@ -40,7 +42,7 @@ export class Verdict {
         const full = h("div", { class: "full-check" });
         const card = (id, title, ...content) => h("section", { class: "card", "aria-labelledby": `h-${id}` }, h("h2", { id: `h-${id}` }, title), content);
         const use = card("use", "Share of the limit that rules", this.whose, this.bars);
-        const cards = [use, this.required, this.across, card("flows", "Flows", this.flows)];
+        const cards = [use, this.required, this.pullIn, this.across, card("flows", "Flows", this.flows)];
         const last = [card("ledger", "Effects", this.ledger), card("cost", "Cost of this answer", this.cost, this.left)];
         state.judged = () => this.judged;
         this.compare = new Compare(state.judged);
@@ -55,7 +57,7 @@ export class Verdict {
             quiet: () => Math.min(Math.max(QUIET_MS, 1e3 * (this.full?.job?.seconds ?? 0)), QUIET_MOST_MS), // what takes long waits longer for the last change
             accept: (job) => job.result?.verdict !== undefined, render: (job, into) => this.#fabricated(job.result, into),
         });
-        this.ofFull = [this.banner, use, this.required, this.across].map((element) => new Shown(element, () => this.full.key));
+        this.ofFull = [this.banner, use, this.required, this.pullIn, this.across].map((element) => new Shown(element, () => this.full.key));
         this.full.show(true);
         on("preview", () => this.show());
         on("answer", () => this.#answer());
@@ -68,10 +70,11 @@ export class Verdict {
     #wait() {
         this.#decided(null);
         for (const box of [this.bars, this.flows]) box.replaceChildren(h("p", { class: "empty" }, "–"));
-        for (const box of [this.required, this.across]) box.hidden = true; // what was reached before says nothing of this device
+        for (const box of [this.required, this.pullIn, this.across]) box.hidden = true; // what was reached before says nothing of this device
         for (const box of [this.required, this.across]) box.replaceChildren(box.firstChild);
-        if (state.preview?.status === "failed") return this.#cannot();
+        if (state.preview?.status === "failed" && state.preview.marks?.length) return this.#cannot();
         this.banner.replaceChildren(h("p", { class: "empty" }, !state.preview ? "No verdict yet."
+            : state.preview.status === "failed" ? "Nothing is judged yet: nothing moves what is drawn."
             : (state.preview.diagnostics ?? []).some((d) => d.severity === "error") ? "Nothing is judged: the mistakes below stand in the way."
                 : "Nothing is judged: no hinge here has a limit. Motion, modes and assembly work all the same."));
     }
@@ -95,9 +98,18 @@ export class Verdict {
         this.last = "failed";
     }
 
+    /** What could not be made is another input's, and of this one nothing is judged. */
+    #noMore() {
+        this.last = null;
+        this.#decided(null);
+        for (const shown of this.banner.shown) shown.take(null);
+        this.banner.replaceChildren(h("p", { class: "empty" }, "Nothing is judged: what is said below comes first."));
+    }
+
     /** Mistakes stand on top; what is only to be known stands last. */
     #answer() {
         for (const shown of this.ofAnswer) shown.take(state.answered);
+        if (this.last === "failed" && state.preview !== null && state.answered === inputKey() && !isPresent()) this.#noMore();
         this.#staleness();
         const errors = state.diagnostics.filter((d) => d.severity === "error");
         const rest = state.diagnostics.filter((d) => d.severity !== "error");
@@ -127,7 +139,7 @@ export class Verdict {
                 button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")),
                 h("details", {}, h("summary", {}, `${words} in the description until then`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d)))));
         } else if (empty) this.problems.replaceChildren(h("h2", {}, words), h("p", {}, "Draw a link, hold it by a hinge, and pull it by a force or a cable; or write <body> and <revolute> in the text."), button("Draw", { class: "small", icon: "bar" }, () => emit("show-view", "draw")));
-        else this.problems.replaceChildren(h("h2", {}, `${words} in the description`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
+        else this.problems.replaceChildren(h("h2", {}, `${words} in ${whereOf(errors)}`), h("ul", { class: "diagnostics" }, errors.slice(0, MOST).map((d) => diagnosticItem(d))));
     }
 
     /** Why what is shown is old, in words, as soon as it looks old. */
@@ -181,7 +193,7 @@ export class Verdict {
         if (changed) announce(`${word}. ${lines.length ? `${lines[0].label}: ${lines[0].text}` : ""}`);
         this.#bars(v);
         this.#required(v, full);
-        this.#across(full ?? v);
+        this.#across(full ?? v, !full && state.preview.provisional);
         this.#flows(v);
         this.#effects();
         this.#cost();
@@ -220,7 +232,7 @@ export class Verdict {
     }
 
     /** What the terminal says of the ways out of the plane, and of how the device may be dried. */
-    #across(v) {
+    #across(v, look) {
         const named = (x, words) => `${v.flows.length > 1 && x.flow ? `${x.flow}: ` : ""}${words}`;
         const tips = (s) => (s.tips_at === null ? "" : `${s.scene}: does not tip below ${number(s.tips_at / (1 + s.tips_error), 4)} times its forces.`);
         const scene = (s) => [s.lowest_m === undefined ? "" : `${s.scene}: ${s.lowest_m === null ? "how far down is not known" : `down by up to ${si(-s.lowest_m, "m", 4)}, tilted by up to ${degrees(s.tilt_rad)}`}.`, tips(s)].filter(Boolean).join(" ");
@@ -231,8 +243,12 @@ export class Verdict {
             return [named(o, `As drawn it swings out of the plane from ${number(low.f_Hz, 4)} Hz on (${number(low.band_Hz[0], 4)} to ${number(low.band_Hz[1], 4)} Hz; ${low.body} ${low.kind === "tilt" ? "tilts" : "goes up and down"}).${stiff} Its weight lowers it by ${si(o.weight_sag_m, "m", 4)}, at most ${si(o.weight_sag_most_m, "m", 4)}, on a table; below it: ${o.below.words}.`), ...o.scenes.map(scene).filter(Boolean)];
         });
         const dry = (v.stiction ?? []).filter((s) => s.needs && s.drying.how !== "never wet").map((s) => named(s, `Drying: ${s.drying.words}; ${s.needs}.`));
+        const pulled = (v.pull_in ?? []).filter((p) => p.voltage_V !== null).map((p) => named(p, `Pull-in in ${p.scene}: ${p.comb ? `comb drive ${p.comb}` : "the drives"} ${p.kind === "none" ? `is stable up to ${number(p.voltage_V, 4)} V` : `at ${number(p.voltage_V, 4)} V (${p.kind})`}, at least ${number(p.least_V, 4)} V, slowly; the scene asks for up to ${number(p.scene_voltage_V, 4)} V.`));
+        const first = look ? h("p", { class: "doc" }, "Of a first look at the drawing: closer models of the hinges may change it.") : "";
+        refill(this.pulls, first, pulled.map((x) => h("p", {}, x)));
+        become(this.pullIn, { hidden: pulled.length === 0 });
         become(this.across, { hidden: out.length + dry.length === 0 });
-        refill(this.across, this.across.firstChild, [...out, ...dry].map((x) => h("p", {}, x)));
+        refill(this.across, this.across.firstChild, look ? first.cloneNode(true) : "", [...out, ...dry].map((x) => h("p", {}, x)));
     }
 
     /** The same for those who compare. */
@@ -372,6 +388,14 @@ export class Verdict {
     }
 }
 
+/** Where mistakes are: the text of the page, the numbers of a laboratory, or another file that these name. */
+function whereOf(errors) {
+    const places = [["the description", (d) => d.in_text !== false || !d.file], ["the laboratory's numbers", (d) => d.in_text === false && d.file && Object.keys(state.lab).some((name) => d.file?.endsWith(name))]];
+    const named = places.filter(([, is]) => errors.some(is)).map(([words]) => words);
+    const others = [...new Set(errors.filter((d) => !places.some(([, is]) => is(d))).map((d) => d.file ?? "another file"))];
+    return [...named, ...others].join(" and ");
+}
+
 /** Before the word of a decision; seen when that is old. */
 const was = () => h("span", { class: "was" }, "Before: ");
 
@@ -425,7 +449,7 @@ function bar(hinge, most, governing, made, then) {
         h("span", { class: "bar-band", style: { left: x(low), width: `calc(${x(high)} - ${x(low)})` } }),
         then === undefined ? null : h("span", { class: "bar-then", title: `${state.pinned.name}: ${percent(then)}`, style: { left: x(then) } }),
         made ? h("span", { class: "bar-drawn", title: `as drawn: ${percent(hinge.utilisation)}`, style: { left: x(hinge.utilisation ?? 0) } }) : null),
-    h("span", { class: "bar-value", "aria-hidden": "true" }, shown));
+    h("span", { class: "bar-value", "aria-hidden": "true", title: shown }, !Number.isFinite(use) ? "\u221e" : percent(use, use >= 1e5 ? 2 : 3)));
 }
 
 function jumpTo({ currentTarget: { dataset } }) {

@@ -95,6 +95,8 @@ static void what_has_no_mask_is_rejected(void **state) {
     same_as_by_itself(a, 0, "3.4 um");
     same_as_by_itself(a, 1, "8 um");
     assert_string_equal(text_at(json_array_get(points, 0), "state"), "reject");
+    assert_non_null(strstr(text_at(json_array_get(points, 0), "why"), "it cannot be made in "));
+    assert_true(json_is_null(json_object_get(json_array_get(points, 1), "why")));
     assert_true(json_real_value(
                     json_array_get(json_object_get(json_array_get(points, 0), "values"), 0)) < 1);
     json_decref(a);
