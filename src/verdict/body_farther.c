@@ -491,3 +491,31 @@ fw_status fw_verdict_bends_in_plane(fw_arena *arena, const fw_verdict_variant_ve
         to[i] += most[i];
     return FW_OK;
 }
+
+/* ---- what of a clearance is used ---- */
+
+static double between(double used) {
+    const double least = 1e-3, most = 1e3; /* a thousandth is as good as nothing, and has slopes */
+    return fmin(fmax(used, least), most);
+}
+
+/* Share of what there is to use up by the nearest pair: of a motion, the distance that it has lost over
+   what it may lose; of a required box, what is asked for over what is left. At 1 there is just as
+   much as is asked for. */
+double fw_verdict_search_used_nearest(const fw_verdict_clearance *c) {
+    const fw_clearance_least *l = &c->least;
+    const double target = c->required_m + c->wall_m, most = HUGE_VAL;
+    double used = target / l->m;
+    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
+    if (c->box == FW_NONE && l->start_m <= target) used = most;
+    if (l->m <= 0) used = 1 / l->share;
+    return between(used);
+}
+
+/* By any pair of a motion: what is nearest may have lost nothing of its distance, as fingers of a comb that slide
+   by each other, while others have lost nearly all. by_nearest: distances were found, not bounded */
+double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest) {
+    const bool meet = c->least.m <= 0 && c->least.share > 0;
+    const double nearest = by_nearest || meet ? fw_verdict_search_used_nearest(c) : 0;
+    return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
+}

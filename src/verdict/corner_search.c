@@ -28,34 +28,6 @@ static fw_status describe(const fw_verdict_search *s, const double *x, const cha
     return FW_OK;
 }
 
-/* ---- what of a clearance is used ---- */
-
-static double between(double used) {
-    const double least = 1e-3, most = 1e3; /* a thousandth is as good as nothing, and has slopes */
-    return fmin(fmax(used, least), most);
-}
-
-/* Share of what there is to use up by the nearest pair: of a motion, the distance that it has lost over
-   what it may lose; of a required box, what is asked for over what is left. At 1 there is just as
-   much as is asked for. */
-static double used_nearest(const fw_verdict_clearance *c) {
-    const fw_clearance_least *l = &c->least;
-    const double target = c->required_m + c->wall_m, most = HUGE_VAL;
-    double used = target / l->m;
-    if (c->box == FW_NONE) used = (l->start_m - l->m) / (l->start_m - target);
-    if (c->box == FW_NONE && l->start_m <= target) used = most;
-    if (l->m <= 0) used = 1 / l->share;
-    return between(used);
-}
-
-/* By any pair of a motion: what is nearest may have lost nothing of its distance, as fingers of a comb that slide
-   by each other, while others have lost nearly all. by_nearest: distances were found, not bounded */
-static double used_of(const fw_verdict_clearance *c, bool by_nearest) {
-    const bool meet = c->least.m <= 0 && c->least.share > 0;
-    const double nearest = by_nearest || meet ? used_nearest(c) : 0;
-    return between(c->box == FW_NONE ? fmax(nearest, c->way.share) : nearest);
-}
-
 /* ---- checks ---- */
 
 /* Only where a pair has lost much of its distance may a corner take the rest: loads move a device
@@ -64,7 +36,8 @@ static double used_of(const fw_verdict_clearance *c, bool by_nearest) {
 bool fw_verdict_search_clearances_count(const fw_verdict_variant_verdict *v, bool by_nearest) {
     for (int i = 0; i < v->nclearance; i++) {
         const fw_verdict_clearance *c = &v->clearance[i];
-        const double used = by_nearest ? used_nearest(c) : used_of(c, true);
+        const double used =
+            by_nearest ? fw_verdict_search_used_nearest(c) : fw_verdict_search_used(c, true);
         if (used > fw_verdict_clearance_counts) return true;
     }
     return false;
@@ -87,7 +60,8 @@ static void take_checks(const fw_verdict_search *s, const fw_verdict_variant_ver
     for (int i = 0; s->clearances && i < now->nclearance; i++) {
         const fw_verdict_clearance *c = &now->clearance[i];
         int at = c->box == FW_NONE ? c->scene_index : scenes + c->box;
-        if (c->box == FW_NONE || s->nearest) clearance[at] = log(used_of(c, s->nearest));
+        if (c->box == FW_NONE || s->nearest)
+            clearance[at] = log(fw_verdict_search_used(c, s->nearest));
     }
     fw_verdict_across_checks(now, scenes, clearance + scenes + s->device->nworkspace);
     for (int r = 0; r < hinges; r++)

@@ -505,6 +505,8 @@ double fw_verdict_band_above(const fw_verdict_search *s, int hinge);
 fw_status fw_verdict_edge_room_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
+double fw_verdict_search_used_nearest(const fw_verdict_clearance *c); /* body_farther.c */
+double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
 /* fabrication.c, corner_search.c and requirement_corners.c, shared */
 /* requirement_corners.c: shaken of a point with its modes anywhere; may that be the most that any device does? */
 fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
