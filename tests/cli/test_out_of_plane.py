@@ -340,8 +340,9 @@ class OutOfPlane(unittest.TestCase):
         said, codes = self.folded((longer, head), '<gravity gz="-1000 m/s^2"/>')
         self.assertEqual((said["verdict"], codes), ("inconclusive", ["FW-D580"]))
         self.assertTrue(22e-6 < -said["out_of_plane"][0]["scenes"][0]["lowest_m"] < 1.5 * 22e-6)
-        # in the plane: 205 um of 150 between it and the frame at 15000 m/s2, and 7.5 um of what a probe may move at 1000
-        self.assertEqual(self.folded((serpentine, head), '<base-motion ay="-15000 m/s^2" law="ramp" rise="10 ms"/>')[1], ["FW-D638"])
+        # in the plane: 191 um of 150 between it and the frame at 14000 m/s2 (at 15000 it is not known to bear itself, either: at most 100 %, corners
+        # counted three times), and 7.5 um of what a probe may move at 1000
+        self.assertEqual(self.folded((serpentine, head), '<base-motion ay="-14000 m/s^2" law="ramp" rise="10 ms"/>')[1], ["FW-D638"])
         said, codes = self.folded(fold, '<base-motion ay="1000 m/s^2" law="ramp" rise="10 ms"/>',
                                   '<probe id="tip" kind="displacement" on="lo" x="1.05 mm" y="0.4 mm"/><require probe="tip" max="5 um"/>')
         self.assertEqual((said["verdict"], codes), ("inconclusive", ["FW-D639"]))
