@@ -320,8 +320,8 @@ class Plan(InTemporary):
 
     def test_electrodes_hold_nothing_on_an_unstable_equilibrium(self):
         """Leaves between two sides of the frame bear their own stress up to 4 pi^2 E I/L^2 each, at a temperature below that of their
-        making by (pi w/L)^2/(3 alpha) or so: colder, the stage goes aside by micrometres, and its symmetry alone keeps it where the
-        motion has it. Electrodes stand in the scene that are nearer than where descent looks first"""
+        making by (pi w/L)^2/(3 alpha) or so, 69 K by what silicon's mean expansion is there: colder, the stage goes aside by micrometres
+        (with the root of what it is colder by), and its symmetry alone keeps it where the motion has it. Electrodes stand in the scene that are nearer than where descent looks first"""
         sides = ((".6", 0, "right"), ("-.6", 180, "left"))
         plates = "".join(f'<comb-drive id="{id_}" kind="plate" on="mass" x="{x} mm" direction="{d} deg" gap="10 um" length="0.9 mm" voltage="5 V"/>'
                          for x, d, id_ in sides)
@@ -333,7 +333,7 @@ class Plan(InTemporary):
             done = run("check", "-", "--json", "--corners", "none", "--advice", "none", input=self.STAGE % (self.LEAVES, more, drives, change))
             return done, json.loads(done.stdout)
         for drives, more in ((plates, ""), (combs, required)):
-            done, verdict = checked(drives, -110, more)
+            done, verdict = checked(drives, -75, more)
             self.assertEqual((done.returncode, verdict["verdict"]), (4, "inconclusive"), done.stderr)
             reason, = verdict["reasons"]
             self.assertEqual((reason["code"], reason["scene"], reason["verdict"]), ("FW-D259", "cold", "inconclusive"))
@@ -345,18 +345,18 @@ class Plan(InTemporary):
         asked, = verdict["requirements"]
         self.assertEqual((asked["verdict"], asked["value"]), ("inconclusive", None))
         self.assertIn("unstable", asked["why"])
-        self.assertEqual(checked(plates, -90)[1]["verdict"], "accept")
+        self.assertEqual(checked(plates, -60)[1]["verdict"], "accept")
 
         def pull_in(change, *more):
             return run("statics", "-", *more, input=self.STAGE % (self.LEAVES, "", plates, change)).stdout.partition("pull-in:")[2]
         # of a frequency at which loads leave 1.2 % of the stiffness nothing is sure, where 1.6 % may be wrong
-        for change, least, most in ((-100, 1, 1.1), (-50, 0.01, 0.03), (0, 0.005, 0.012)):
+        for change, least, most in ((-68.3, 1, 1.1), (-34, 0.01, 0.03), (0, 0.005, 0.012)):
             found = json.loads(run("modes", "-", "--at", "equilibrium", "--json", input=self.STAGE % (self.LEAVES, "", "", change)).stdout)
             self.assertTrue(least <= found["modes"][0]["frequency_error"] < most, (change, found["modes"][0]))
         counted = "what surfaces near or below it change of the fringe fields"
-        self.assertRegex(pull_in(-90), f"\\(fold\\)[^~]*{counted} may add")
-        self.assertRegex(pull_in(-100), "no limit point was found on it")  # it has no stop or cable that might let go
-        bare = pull_in(-90, "--effects", "none")
+        self.assertRegex(pull_in(-62), f"\\(fold\\)[^~]*{counted} may add")
+        self.assertRegex(pull_in(-68.3), "no limit point was found on it")  # it has no stop or cable that might let go
+        bare = pull_in(-62, "--effects", "none")
         self.assertRegex(bare, "flexures are taken as pins.*what flexures give is not in it")
         self.assertIn("fringe fields that the model leaves out may add", bare)
 

@@ -820,7 +820,8 @@ class Study(unittest.TestCase):
         self.assertIn("nothing inside was estimated", found["sought"])
         self.assertIn(found["sought"], done.stdout)
         # and those that say that the ends are enough
-        self.assertLess(found["devices"], 2 * found["devices_of_one_estimate"] + 300)
+        # (an estimate of the ends may take some hundred more than that of the middle: each looks both ways along its inputs)
+        self.assertLess(found["devices"], 2 * found["devices_of_one_estimate"] + 600)
         for before, end in (("yield", least), (") to", most)):
             share = f"{100 * end['yield']:.2f}".rstrip("0").rstrip(".")
             self.assertIn(f"{before} {share} % (", done.stdout)
