@@ -50,7 +50,8 @@ static modal_speed modal_speed_of(const fw_effects_force_element *e,
                                   const fw_effects_port_state *s) {
     const tendon *d = data_of(e);
     double value[3] = {1, 0, 0}, way;
-    if (d->taken) fw_quantity_law_value(d->taken, s->t_s, s->piece_s, value);
+    /* who takes an element's laws away asks for what it does at their factor 1 */
+    if (d->taken && e->laws > 0) fw_quantity_law_value(d->taken, s->t_s, s->piece_s, value);
     const double own = fw_effects_foreign_at(&d->foreign, s->t_s, s->piece_s, &way);
     return (modal_speed){value[0], s->still ? 0 : value[1], own, s->still ? 0 : way};
 }
