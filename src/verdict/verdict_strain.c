@@ -372,6 +372,7 @@ fw_status fw_verdict_level_strains(fw_arena *arena, const fw_mechanism *m,
     double largest;
     if (share) *share = 0;
     if (!step || step->why_not || !m->device || m->device->nflexure == 0) return FW_OK;
+    if (!share && m->nhinge > 0 && !isnan(step->up.strain[m->nhinge - 1])) return FW_OK; /* there */
     const bool exact = step->used == FW_HINGE_ELASTICA || step->next == FW_HINGE_ELASTICA;
     fw_mark mark = fw_arena_mark(arena);
     fw_flexure_elastica **beam = fw_arena_alloc(arena, (size_t)m->nhinge, sizeof *beam);
