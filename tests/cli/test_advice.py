@@ -40,7 +40,7 @@ class Parameters(unittest.TestCase):
         arguments = [a for s in sets for a in ("--set", s)]
         if plan:
             document = (plan / "verdict.json").read_text()
-        elif PLANS and not sets:  # its verdict.json is what check --json prints
+        elif PLANS and not sets and device.is_relative_to(ROOT / "docs/gallery"):  # its verdict.json is what check --json prints
             plan = pathlib.Path(PLANS) / device.parent.name
             self.assertIn(int(plan.with_name(plan.name + ".status").read_text()), (1, 4))
             document = (plan / "verdict.json").read_text()
