@@ -149,9 +149,10 @@ static fw_status cut_discs(fw_layout_drawing *d, int body, const int *skip, int 
             own = own || skip[i] == j;
         if (own) continue;
         fw_geometry_contour disc;
-        double radius = h->keep_out_m;
-        if (h->lower == body || h->upper == body) radius += side_of(d, j, body)->form.wider_m;
-        FW_TRY(fw_geometry_contour_disc(d->arena, h->centre, radius, &disc));
+        const bool its = h->lower == body || h->upper == body;
+        const fw_layout_side *side = its ? side_of(d, j, body) : NULL;
+        const double radius = h->keep_out_m + (its ? side->form.wider_m : 0.0);
+        FW_TRY(fw_layout_hinge_place(d->arena, side, h->centre, radius, &disc));
         if (!reaches(region, &disc, h->centre)) continue;
         fw_geometry_region hole = {&disc, 1}, left;
         FW_TRY(fw_geometry_region_boolean(d->arena, region, &hole, FW_DIFFERENCE, &left));
@@ -229,8 +230,12 @@ static fw_status unite_parts(fw_layout_drawing *d, int body, const fw_geometry_c
             hole = hole || fw_geometry_contour_area(&region.contour[i]) < 0.0;
         fw_diag_error(d->diags, 123, fw_layout_body_place(d, body),
                       "%s would %s; the layout draws a body as one outline without holes: move "
-                      "its plate or hinges, or change the width of its bars",
-                      label, hole ? "enclose a hole" : "fall apart where hinges cut it");
+                      "its plate or hinges, or %s",
+                      label, hole ? "enclose a hole" : "fall apart where hinges cut it",
+                      hole && has_plate(d, body)
+                          ? "draw it as <plate> inside <body>, which necks enter where it is "
+                            "nearest to their hinge and not towards its middle"
+                          : "change the width of its bars");
         return FW_GEOMETRY;
     }
     *out = region.contour[0];
@@ -291,8 +296,7 @@ fw_status fw_layout_body_round(fw_layout_drawing *d, int body, const fw_geometry
     return FW_GEOMETRY;
 }
 
-/* what is drawn of one body: its hinges, parts that only the base has, and where its eyelets stand
- */
+/* what is drawn of one body: its hinges, parts of the base alone, and where its eyelets stand */
 typedef struct work {
     int body, slot, joint[MOST_JOINTS], njoint;
     const fw_geometry_contour *extra;

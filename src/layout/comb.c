@@ -180,7 +180,7 @@ static fw_status list_for_stator(const fw_layout_drawing *d, int rotor, int befo
                            .centre = e->at,
                            .radius_m = 0.5 * e->hole_m + e->ring_m + LEAST_M};
     }
-    if (fw_layout_body_joints(d->device, FW_GROUND, joint, 3) == 2) {
+    if (fw_layout_body_joints(d->device, FW_GROUND, joint, 3) == 2 && !fw_layout_own_bases(d)) {
         fw_geometry_contour *bar = fw_arena_one(d->arena, fw_geometry_contour);
         FW_NEED(bar);
         FW_TRY(fw_geometry_contour_bar(

@@ -100,10 +100,15 @@ int fw_layout_body_joints(const fw_device *device, int body, int *joint, int mos
     return n;
 }
 
+/* with more than two ground hinges, and where one base between two of them has no way to the frame */
+bool fw_layout_own_bases(const fw_layout_drawing *d) {
+    return d->base_side || fw_layout_body_joints(d->device, FW_GROUND, NULL, 0) > 2;
+}
+
 int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint) {
     const fw_device *device = d->device;
     if (body != FW_GROUND) return body;
-    if (fw_layout_body_joints(device, FW_GROUND, NULL, 0) <= 2) return device->nbody;
+    if (!fw_layout_own_bases(d)) return device->nbody;
     int n = 0;
     for (int j = 0; j < joint; j++)
         n += device->revolute[j].body_a == FW_GROUND || device->revolute[j].body_b == FW_GROUND;

@@ -119,11 +119,19 @@ typedef struct fw_layout_side { /* one body at one hinge */
     double corner_m;   /* where far_m > neck_m: of the plate's corner, along `direction` */
     double neck_end_m; /* from W along `direction` */
     double solid_m;    /* from there on the neck is as wide as neck_m on both sides */
+    bool straight;     /* a head on the line of its leaf, alike on both sides of it: */
+    double root_m;     /* from W to the root; */
+    double clear_m;    /* from W to where its own plate may begin beside it; */
+    double foot_m;     /* from W to where the middle of its neck begins: 0, in a plate root_m */
+    double square_at_m; /* from W to an edge of its plate square to the leaf; 0: it is not square */
     fw_layout_local local;
     fw_geometry_contour head;  /* root block, ring and neck */
     int attempt;               /* at the head's free dimensions, */
     fw_layout_head_shape form; /* which are these */
 } fw_layout_side;
+
+/* a uniform leaf without conjugate surfaces: alike on either side of its line, whichever way `axis` points */
+bool fw_layout_leaf_is_free(const fw_device_flexure *flexure);
 
 typedef struct fw_layout_hinge_plan {
     fw_layout_hinge_shape shape[2]; /* as seen by each side: alike but for paths */
@@ -226,6 +234,7 @@ typedef struct fw_layout_drawing {
 } fw_layout_drawing;
 
 /* index into raw, plain and held; the joint tells bases apart */
+bool fw_layout_own_bases(const fw_layout_drawing *d); /* one for each ground hinge */
 int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint);
 /* held, else plain */
 const fw_geometry_contour *fw_layout_drawing_outline(const fw_layout_drawing *d, int slot);
@@ -268,7 +277,12 @@ fw_status fw_layout_head_draw(fw_layout_drawing *d, int joint, int body, int att
 /* where the root's face, extended outwards, meets the circle of radius q about W */
 fw_geometry_vec2 fw_layout_ring_foot(const fw_layout_hinge_shape *shape, double q);
 /* half width and end of the neck; then block, ring and neck in the body's own frame */
+/* of a free leaf, before its neck is chosen */
+void fw_layout_side_straighten(fw_layout_side *side, const fw_layout_hinge_shape *shape);
 void fw_layout_neck_choose(fw_layout_side *side, double keep_out_m);
+/* of the body on the side `own`, or of another (NULL) */
+fw_status fw_layout_hinge_place(fw_arena *arena, const fw_layout_side *own, fw_geometry_vec2 centre,
+                                double radius_m, fw_geometry_contour *place);
 fw_status fw_layout_head_draw_shape(fw_arena *arena, const fw_layout_hinge_shape *shape,
                                     fw_layout_side *side);
 /* joint: the only one of several bases, or FW_NONE */

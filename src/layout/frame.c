@@ -160,8 +160,8 @@ static fw_status say_no_way(fw_layout_drawing *d, const foot *f, const int *join
                   "a moving part (%s); move the ground hinges to the rim of the mechanism%s%s",
                   FW_NAMED("hinge", d->device->revolute[joint[0]].id), all,
                   n == 2 ? ". These two have one base between them, which nothing that moves may "
-                           "cross: put both on one side of what they hold, or add a third ground "
-                           "hinge, with which each stands on a base of its own"
+                           "cross, and a base of its own for each has no way either: put both on "
+                           "one side of what they hold"
                          : "",
                   apart);
     fw_layout_fault fault = fw_layout_fault_at(fw_layout_joint_point(d->device, joint[0]));
@@ -201,12 +201,16 @@ static fw_status draw_base(fw_layout_drawing *d, const int *joint, int n, int on
     return say_no_way(d, &f, joint, n, order, way);
 }
 
-/* one base for two ground hinges; with more, every hinge has its own to the frame */
+/* one base for two ground hinges; with more, or where that has no way, every hinge has its own to the frame */
 fw_status fw_layout_ground_draw(fw_layout_drawing *d) {
     int n = fw_layout_body_joints(d->device, FW_GROUND, NULL, 0), *joint;
     FW_NEED(joint = fw_arena_array(d->arena, int, (size_t)n));
     fw_layout_body_joints(d->device, FW_GROUND, joint, n);
-    if (n == 2) return draw_base(d, joint, n, FW_NONE);
+    if (n == 2 && !fw_layout_own_bases(d)) { /* else each of them gets its own */
+        const fw_status one = draw_base(d, joint, n, FW_NONE);
+        d->stuck[joint[0]] = d->stuck[joint[1]] = one == FW_GEOMETRY;
+        return one;
+    }
     bool bad = false;
     for (int i = 0; i < n; i++) {
         fw_status status = draw_base(d, &joint[i], 1, n == 1 ? FW_NONE : joint[i]);

@@ -2,6 +2,7 @@
 /* The head of a body at a hinge: root block, ring and neck as one outline, and which of its
    dimensions are free. docs/theory/layout.md, sections 3 and 4. */
 #include "base/constants.h"
+#include "geometry/segment.h"
 #include "layout/draw.h"
 #include <math.h>
 
@@ -107,7 +108,11 @@ static far_path choose_far_path(const fw_layout_hinge_shape *s, fw_layout_side *
     double q0 = side->ring_in_m, q1 = side->ring_out_m;
     fw_geometry_vec2 u = fw_polar(side->own_rad), v = fw_left(u), w = fw_v(0.0, 0.0),
                      i = s->inner_corner;
-    double behind = fmax(side->far_m, fw_dot(s->root, v) + side->form.behind * s->width_m);
+    double deep = side->form.behind * s->width_m;
+    if (side->root_m >
+        0.0) /* nothing turns towards a free leaf's block: as deep as half the neck */
+        deep = fmax(deep, side->form.behind / rule->block_behind_widths * side->neck_m);
+    double behind = fmax(side->far_m, fw_dot(s->root, v) + deep);
     fw_geometry_vec2 end = fw_add(fw_add(w, side->neck_end_m, u), side->far_m, v);
     fw_geometry_vec2 from = fw_add(fw_add(w, fmin(fw_dot(s->root, u), q0), u), behind, v);
     fw_geometry_vec2 along = fw_towards(from, end), out = fw_left(along);
@@ -188,9 +193,65 @@ static void edge(fw_layout_sketch *k, fw_geometry_vec2 centre, double sweep_rad,
         fw_layout_sketch_line(k, to, 0);
 }
 
+/* ---- heads of straight leaves ----
+   A uniform leaf without conjugate surfaces is alike on both sides of its line, and nothing asks for a ring on one of
+   them: its head is a block across the line with a neck in its middle, alike on both sides, too. A head that hangs on one
+   side of its root is a hook, which bends far more than it looks. Section 3; decision 238 */
+
+bool fw_layout_leaf_is_free(const fw_device_flexure *f) {
+    return f->kind == FW_FLEXURE_LEAF && !(f->gap_m > 0.0) && !fw_device_flexure_varies(f);
+}
+
+/* block and neck: the block as deep as a ring is thick, its shoulders of 45 degrees, the neck's middle from foot_m on the
+   leaf's line */
+static fw_status draw_straight(fw_arena *arena, const fw_layout_hinge_shape *s,
+                               fw_layout_side *side) {
+    const double at = s->root.y, neck = side->neck_m, deep = fw_layout_rule.block_depth_m;
+    const double half = fmax(-s->inner_corner.x, neck), lean = cos(side->own_rad);
+    const bool upright = fabs(lean) < 1e-9;
+    const fw_geometry_vec2 u = upright ? fw_v(0.0, 1.0) : fw_polar(side->own_rad), v = fw_left(u),
+                           foot = fw_v(0.0, side->foot_m);
+    const double begin = (at - foot.y + deep + half - neck + neck * fabs(lean)) / u.y;
+    side->solid_m = begin;
+    side->neck_end_m =
+        fmax(side->neck_end_m, begin + (side->foot_m > 0.0 ? fw_layout_rule.neck_corner_clear_m
+                                                           : fw_layout_rule.bar_overlap_m));
+    const fw_geometry_vec2 from = fw_add(foot, begin, u), end = fw_add(foot, side->neck_end_m, u);
+
+    fw_layout_sketch k = fw_layout_sketch_start(arena, &side->local, s->joint_in);
+    fw_layout_sketch_line(&k, s->joint_out, s->cut_flags);
+    fw_layout_sketch_arc(&k, s->outer_centre, s->outer_sweep_rad, s->outer_end);
+    fw_layout_sketch_line(&k, fw_v(half, at), 0);
+    if (half > neck) fw_layout_sketch_line(&k, fw_v(half, at + deep), 0);
+    if (half > neck || !upright) fw_layout_sketch_line(&k, fw_add(from, -neck, v), 0);
+    fw_layout_sketch_line(&k, fw_add(end, -neck, v), 0);
+    fw_layout_sketch_line(&k, fw_add(end, neck, v), NECK_END);
+    if (half > neck || !upright) fw_layout_sketch_line(&k, fw_add(from, neck, v), 0);
+    if (half > neck) fw_layout_sketch_line(&k, fw_v(-half, at + deep), 0);
+    fw_layout_sketch_line(&k, fw_v(-half, at), 0);
+    fw_layout_sketch_line(&k, s->inner_start, 0);
+    fw_layout_sketch_arc(&k, s->inner_centre, s->inner_sweep_rad, s->inner_end);
+    FW_TRY(fw_layout_sketch_close(&k, &side->head));
+    return round_head(arena, side);
+}
+
+/* What a hinge keeps free of a body: the round place. Of the body that a straight head belongs to only what is before its
+   root: what stands beside the head moves with it. */
+fw_status fw_layout_hinge_place(fw_arena *arena, const fw_layout_side *own, fw_geometry_vec2 centre,
+                                double radius_m, fw_geometry_contour *place) {
+    if (!own || !own->straight || own->clear_m >= radius_m)
+        return fw_geometry_contour_disc(arena, centre, radius_m, place);
+    const double y = own->clear_m, x = sqrt(radius_m * radius_m - y * y), a = atan2(y, x);
+    fw_layout_sketch k = fw_layout_sketch_start(arena, &own->local, fw_v(-x, y));
+    fw_layout_sketch_arc(&k, fw_v(0.0, 0.0), FW_PI + 2.0 * a, fw_v(x, y));
+    fw_layout_sketch_line(&k, fw_v(-x, y), 0);
+    return fw_layout_sketch_close(&k, place);
+}
+
 /* root block, ring and neck of one body, in its own frame (block at positive y) */
 fw_status fw_layout_head_draw_shape(fw_arena *arena, const fw_layout_hinge_shape *s,
                                     fw_layout_side *side) {
+    if (side->straight) return draw_straight(arena, s, side);
     const fw_layout_rules *rule = &fw_layout_rule;
     double q0 = side->ring_in_m, q1 = side->ring_out_m, end = side->ring_end_rad;
     fw_geometry_vec2 w = fw_v(0.0, 0.0), q = fw_layout_ring_foot(s, q0), cap = fw_polar(end);
@@ -253,19 +314,116 @@ static void widen_to_corner(fw_layout_side *side, double disc) {
     }
 }
 
+static double half_of_neck(const fw_layout_side *side, double half_width_m) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    return side->form.neck *
+           fmin(half_width_m - rule->neck_inset_m, rule->neck_rings * side->ring_out_m);
+}
+
+/* ---- on the line of a leaf ---- */
+
+/* Where the neck from p along u enters the plate, with the clearance of corners on either side and through one of its
+   edges, nearly enough across that, if it does and has room to end inside; square_m: 0 where that edge is not square */
+static bool enters_plate(const fw_device_body *b, fw_geometry_vec2 p, fw_geometry_vec2 u,
+                         double half, double *begins_m, double *square_m) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    const fw_layout_local plate = {
+        {0.0, 0.0}, cos(b->plate_angle_rad), -sin(b->plate_angle_rad), false};
+    const double size[2] = {0.5 * b->plate_width_m, 0.5 * b->plate_height_m};
+    const double least = rule->block_depth_m + rule->straight_clear_m;
+    const fw_geometry_vec2 way = fw_layout_local_point(&plate, u), across = fw_left(u);
+    const double d[2] = {way.x, way.y};
+    int through[2] = {0, 0};
+    double out = HUGE_VAL;
+    *begins_m = 0.0;
+    for (int i = 0; i < 2; i++) {
+        const double off = (i ? 1.0 : -1.0) * (half + rule->neck_corner_clear_m);
+        const fw_geometry_vec2 q = fw_layout_local_point(
+            &plate, fw_sub(fw_add(p, off, across), fw_v(b->plate_x_m, b->plate_y_m)));
+        const double from[2] = {q.x, q.y};
+        double in = 0.0;
+        for (int k = 0; k < 2; k++) {
+            if (fabs(d[k]) < 1e-12 && fabs(from[k]) >= size[k]) return false;
+            if (fabs(d[k]) < 1e-12) continue;
+            const double edge = copysign(size[k], d[k]), at = (-edge - from[k]) / d[k];
+            out = fmin(out, (edge - from[k]) / d[k]);
+            if (at > in) in = at, through[i] = k + 1;
+        }
+        *begins_m = fmax(*begins_m, in);
+    }
+    if (through[0] != through[1]) return false;
+    const double slope = through[0] ? fabs(d[through[0] - 1]) : 1.0;
+    *square_m = through[0] && slope > 1.0 - 1e-9 ? *begins_m : 0.0;
+    return slope > cos(rule->oblique_side_rad) &&
+           out > fmax(*begins_m, least) + rule->neck_into_plate_m + rule->form_longer_m +
+                     rule->neck_corner_clear_m;
+}
+
+/* from the root along the leaf's line, or as little off it towards the plate's middle as leads into the plate */
+static bool lead_into_plate(fw_layout_side *side) {
+    static const double narrower[] = {1.0, 0.7, 0.5};
+    const fw_layout_rules *rule = &fw_layout_rule;
+    const fw_device_body *b = side->plate;
+    const fw_geometry_vec2 w = side->local.origin,
+                           root = fw_layout_local_point(&side->local, fw_v(0.0, side->root_m)),
+                           line = fw_towards(w, root),
+                           to = fw_sub(fw_v(b->plate_x_m, b->plate_y_m), root);
+    const double sign = cross(line, to) < 0.0 ? -1.0 : 1.0, hand = side->local.mirror ? -1.0 : 1.0;
+    for (size_t i = 0; i < sizeof narrower / sizeof narrower[0]; i++)
+        for (double turn = 0.0; turn < rule->oblique_rad; turn += rule->oblique_step_rad) {
+            const double half_width = narrower[i] * side->half_width_m;
+            const fw_geometry_vec2 u =
+                turn > 0.0 ? fw_geometry_vec_rotate(line, sign * turn) : line;
+            double begins, square;
+            if (!enters_plate(b, root, u, half_of_neck(side, half_width), &begins, &square))
+                continue;
+            side->half_width_m = half_width;
+            side->direction = u;
+            side->own_rad = 0.5 * FW_PI + hand * sign * turn;
+            side->plate_at_m = begins;
+            side->square_at_m = square > 0.0 ? square + side->root_m : 0.0;
+            side->foot_m = side->root_m;
+            return true;
+        }
+    return false;
+}
+
+/* `axis` tells on which side of a free leaf rings would bulge, and there are none: a head has its neck where its body is,
+   so that hinges that mirror each other are drawn as mirror images however their axes are written. */
+void fw_layout_side_straighten(fw_layout_side *side, const fw_layout_hinge_shape *s) {
+    side->root_m = s->root.y;
+    if (sin(side->own_rad) < -1e-9) return; /* beyond its own root: as it always was */
+    side->straight = side->plate && lead_into_plate(side);
+    side->straight =
+        side->straight || fabs(side->own_rad - 0.5 * FW_PI) < fw_layout_rule.straight_rad;
+    if (cos(side->own_rad) > -1e-9) return;
+    side->local =
+        (fw_layout_local){side->local.origin, -side->local.c, -side->local.s, !side->local.mirror};
+    side->own_rad = FW_PI - side->own_rad;
+}
+
 void fw_layout_neck_choose(fw_layout_side *side, double keep_out_m) {
     const fw_layout_rules *rule = &fw_layout_rule;
     const fw_layout_head_shape *c = &side->form;
-    side->neck_m = c->neck * fmin(side->half_width_m - rule->neck_inset_m,
-                                  rule->neck_rings * side->ring_out_m);
+    side->neck_m = half_of_neck(side, side->half_width_m);
     side->far_m = side->neck_m;
     side->neck_end_m = keep_out_m + rule->neck_beyond_m + c->longer_m;
+    side->clear_m = side->root_m + rule->straight_clear_m + c->wider_m;
     if (side->drawn_at_m > 0.0)
         side->neck_end_m =
             fmax(side->drawn_at_m, keep_out_m + c->wider_m) + rule->neck_into_plate_m + c->longer_m;
     if (!side->plate) return;
+    if (side->straight && side->foot_m > 0.0) {
+        /* an edge of the plate that ends beside the root would leave a step: all of it stands back */
+        if (side->square_at_m > side->root_m &&
+            side->square_at_m < side->clear_m + rule->own_hollow_m)
+            side->clear_m = side->square_at_m + rule->straight_clear_m;
+        side->neck_end_m = fmax(side->plate_at_m, side->clear_m - side->root_m) +
+                           rule->neck_into_plate_m + c->longer_m;
+        return;
+    }
     double disc = keep_out_m + c->wider_m;
     side->neck_end_m =
         fmax(disc, side->plate_at_m + side->neck_m) + rule->neck_into_plate_m + c->longer_m;
-    if (!c->plain) widen_to_corner(side, disc);
+    if (!c->plain && !side->straight) widen_to_corner(side, disc);
 }

@@ -363,7 +363,10 @@ fw_status fw_layout_flexure_draw(fw_arena *arena, const fw_device_flexure *f,
     if (fw_device_flexure_varies(f)) return draw_path(arena, f, plan);
     const fw_layout_hinge_shape *s = &plan->shape[1];
     fw_geometry_vec2 low_in = mirrored(s->joint_in), low_out = mirrored(s->joint_out);
-    fw_layout_sketch k = fw_layout_sketch_start(arena, &plan->side[1].local, low_out);
+    fw_layout_local frame = plan->side[1].local;
+    if (frame.mirror) /* its head is drawn from the other side of a leaf: the strip is not */
+        frame = (fw_layout_local){frame.origin, -frame.c, -frame.s, false};
+    fw_layout_sketch k = fw_layout_sketch_start(arena, &frame, low_out);
     if (s->strip_sweep_rad > 0.0)
         fw_layout_sketch_arc(&k, s->arc_centre, s->strip_sweep_rad, s->joint_out);
     else

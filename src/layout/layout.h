@@ -163,6 +163,11 @@ typedef struct fw_layout {
     int ncell;
 } fw_layout;
 
+/* What a message ends with where a body is too narrow at a place: which number of the file makes the head of a hinge
+   wider, which the layout draws, or that the body is to be wider there. layout may be NULL. NULL: out of memory */
+const char *fw_layout_wider_there(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  int body, fw_geometry_vec2 at);
+
 /* the cell that a piece is of; NULL: of none */
 const fw_layout_cell *fw_layout_cell_of(const fw_layout *layout, const fw_layout_piece *piece);
 /* Of what a cell draws on a layer of the device: which of its parts (pieces that touch are one) hang on frame or bases, by

@@ -191,7 +191,7 @@ static fw_status choose_hubs(fw_layout_drawing *d) {
 static fw_status start(fw_layout_drawing *d) {
     const fw_device *device = d->device;
     int nground = fw_layout_body_joints(device, FW_GROUND, NULL, 0);
-    d->nslot = device->nbody + (nground > 2 ? nground : 1);
+    d->nslot = device->nbody + (nground > 0 && fw_layout_own_bases(d) ? nground : 1);
     size_t slots = (size_t)d->nslot;
     for (int j = 0; j < device->nrevolute; j++)
         d->centre = fw_add(d->centre, 1.0 / device->nrevolute, fw_layout_joint_point(device, j));

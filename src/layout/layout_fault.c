@@ -237,3 +237,64 @@ void fw_layout_say_open_hinges(const fw_layout_drawing *d) {
                 FW_NAMED("joint", r->id), fw_number_text(gap, sizeof gap, apart_m * 1e6, 4));
     }
 }
+
+/* ---- where a body is too narrow ---- */
+
+/* the hinge of the body whose head, which the layout draws, lies at that place; FW_NONE: what the file draws does */
+static int head_at(const fw_device *device, const fw_layout *layout, int body,
+                   fw_geometry_vec2 at) {
+    const fw_device_body *b = &device->body[body];
+    const double c = cos(b->plate_angle_rad), s = sin(b->plate_angle_rad);
+    const fw_geometry_vec2 to = fw_sub(at, fw_v(b->plate_x_m, b->plate_y_m));
+    const bool beside_plate = fabs(c * to.x + s * to.y) > 0.5 * b->plate_width_m ||
+                              fabs(c * to.y - s * to.x) > 0.5 * b->plate_height_m;
+    const bool by_heads = beside_plate && b->nshape == 0; /* all that is not its plate */
+    double least = HUGE_VAL;
+    int best = FW_NONE;
+    for (int j = 0; j < device->nrevolute; j++) {
+        const fw_layout_hinge_layout *h = &layout->hinge[j];
+        const double far = fw_norm(fw_sub(at, h->centre));
+        if (!h->drawn || (h->lower != body && h->upper != body) || far >= least) continue;
+        if (!by_heads && far > h->keep_out_m + fw_layout_rule.neck_into_plate_m) continue;
+        least = far, best = j;
+    }
+    return best;
+}
+
+const char *fw_layout_wider_there(fw_arena *arena, const fw_device *device, const fw_layout *layout,
+                                  int body, fw_geometry_vec2 at) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    const fw_device_body *b = &device->body[body];
+    const int joint = layout && layout->drawn ? head_at(device, layout, body, at) : FW_NONE;
+    if (joint == FW_NONE) return "make it wider there";
+    const double wide = isnan(b->width_m) ? rule->neck_width_m : b->width_m,
+                 plate = 2.0 * rule->neck_plate_share * fmin(b->plate_width_m, b->plate_height_m),
+                 most = 2.0 * (rule->neck_rings *
+                                   (layout->hinge[joint].keep_out_m - rule->beside_ring_m) +
+                               rule->neck_inset_m);
+    char now[32], up[32], share[32];
+    const char *how = NULL;
+    fw_layout_um(now, fmin(wide, plate)), fw_layout_um(up, most);
+    if (fmin(wide, plate) >= most)
+        how = "its neck is as wide as so short a flexure lets it be: make the flexure longer, or "
+              "draw "
+              "the body nearer to it";
+    else if (plate < wide)
+        how = fw_arena_printf(
+            arena,
+            "its neck is %s of the lesser side of the plate: make plate-width and "
+            "plate-height larger, up to %s um of neck",
+            fw_number_text(share, sizeof share, 2.0 * rule->neck_plate_share, 2), up);
+    else
+        how = fw_arena_printf(arena,
+                              "its neck is as wide as the body's width%s, %s um, says: write "
+                              "a larger width, up to %s um",
+                              isnan(b->width_m) ? " where none is stated" : "", now, up);
+    if (!how) return NULL;
+    return fw_arena_printf(
+        arena, "that is the head of %s%s, which the layout draws, and %s%s",
+        FW_NAMED("hinge", device->revolute[joint].id), how,
+        device->flexure[device->revolute[joint].flexure].gap_m > 0.0
+            ? "; where nothing asks for conjugate surfaces leave out the gap, and with it the rings"
+            : "");
+}

@@ -65,7 +65,7 @@ static fw_geometry_vec2 body_target(const fw_layout_drawing *d, int body, int jo
     }
     if (body >= 0 && !isnan(device->body[body].plate_width_m))
         return fw_v(device->body[body].plate_x_m, device->body[body].plate_y_m);
-    if (n == 2) return other;
+    if (n == 2 && (body >= 0 || !d->base_side)) return other;
     if (n > 2 && body >= 0) return fw_layout_body_hub(d, body);
     if (body >= 0) return fw_v(device->body[body].x_m, device->body[body].y_m);
     /* own base: straight to the frame (layout_build.c: draw_device) */
@@ -161,15 +161,22 @@ static double keep_out_of(const fw_layout_hinge_plan *plan, double gap) {
     return rings_of(plan, gap).concave_out_m + fw_layout_rule.beside_ring_m;
 }
 
-static void choose_rings(fw_layout_hinge_plan *plan, double gap) {
+static void choose_rings(fw_layout_hinge_plan *plan, const fw_device_flexure *f) {
+    const double gap = f->gap_m;
     rings r = rings_of(plan, gap);
     fw_layout_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
     in->ring_in_m = r.convex_in_m;
     in->ring_out_m = r.convex_out_m;
     out->ring_in_m = r.concave_in_m;
     out->ring_out_m = r.concave_out_m;
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; i++) {
+        if (fw_layout_leaf_is_free(f)) { /* no surfaces: either side has the room of both rings */
+            plan->side[i].ring_in_m = r.convex_in_m;
+            plan->side[i].ring_out_m = r.concave_out_m;
+            fw_layout_side_straighten(&plan->side[i], &plan->shape[i]);
+        }
         fw_layout_neck_choose(&plan->side[i], keep_out_of(plan, gap));
+    }
 }
 
 typedef struct way { /* from a hinge into one of its bodies */
@@ -356,7 +363,7 @@ static fw_status plan_hinge(fw_layout_drawing *d, int joint) {
                       "flexure, or make it thinner or its angle smaller");
     if (!fillet_fits(d, joint, plan->shape[0].fillet_m)) return blame(d, 129, joint, FW_GROUND);
     FW_TRY(choose_sides(d, joint, plan, &axis));
-    choose_rings(plan, f->gap_m);
+    choose_rings(plan, f);
     double facing = choose_ring_ends(plan, f->gap_m);
     if (f->gap_m > 0.0 && facing < fw_layout_rule.facing_least_rad)
         return refuse(

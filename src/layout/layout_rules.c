@@ -77,6 +77,11 @@ const fw_layout_rules fw_layout_rule = {
     .far_side_least_m = 1e-6,
     .far_side_ahead_m = 5e-6,
     .opposite_norm = 0.2,
+    .straight_rad = 0.1,
+    .oblique_rad = 0.79,
+    .oblique_step_rad = 0.035,
+    .oblique_side_rad = 1.05,
+    .straight_clear_m = 24e-6,
     .off_leg_rad = 0.0175,
     .across_leg_rad = 1.3,
 

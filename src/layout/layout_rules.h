@@ -102,9 +102,14 @@ typedef struct fw_layout_rules {
     double far_side_ahead_m;   /* an edge that meets the far side nearer than this meets nothing */
     double opposite_norm;      /* directions to the two bodies whose sum is shorter than this are
                                   opposite: their bisector would be an accident of rounding */
-    double off_leg_rad;        /* a leaf that is turned off a leg by this is said to be, where pins
+    double straight_rad;       /* a bar that leaves its leaf's line by less gets a straight head, */
+    double oblique_rad;        /* a neck that leads into a plate may leave it by this, */
+    double oblique_step_rad;   /* tried in such steps, */
+    double oblique_side_rad;   /* and the plate's side is that much off square at most; */
+    double straight_clear_m; /* its plate begins this much behind the root: room for two corners */
+    double off_leg_rad;      /* a leaf that is turned off a leg by this is said to be, where pins
                                   alone do not move: at 1 degree it gives twice as much along it */
-    double across_leg_rad;     /* and by this wherever it is */
+    double across_leg_rad;   /* and by this wherever it is */
 
     /* ---- bars and hubs ---- */
     double bar_overlap_m;      /* length on which a bar lies inside the neck that it starts in, */

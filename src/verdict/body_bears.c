@@ -286,7 +286,8 @@ static fw_status say_weak(fw_arena *arena, const char *scene, const weak *w,
     const fw_mechanism *m = v->mechanism;
     char high[32], wide[32], x[32], y[32];
     const char *allowed = fw_verdict_allowed_words(arena, m, w->tires);
-    FW_NEED(allowed);
+    const char *wider = fw_layout_wider_there(arena, m->device, m->layout, w->body, w->arm->edge);
+    FW_NEED(allowed && wider);
     const char *text =
         w->arm->lost
             ? fw_arena_printf(
@@ -301,14 +302,13 @@ static fw_status say_weak(fw_arena *arena, const char *scene, const weak *w,
                   arena,
                   "in %s%s %s%s is not known to bear what %s%s%s brings: at most %s %% of %s, "
                   "where "
-                  "it is %s um wide, near (%s, %s) um, corners counted three times; make it wider "
-                  "there, or %s",
+                  "it is %s um wide, near (%s, %s) um, corners counted three times; %s, or make %s",
                   scene ? fw_text_kind("scene ", scene) : "required poses", scene ? scene : "",
                   FW_NAMED("body", m->device->body[w->body].id), w->what, w->id ? " " : "",
                   w->id ? w->id : "", fw_number_text(high, sizeof high, 100 * w->share, 3), allowed,
                   fw_number_text(wide, sizeof wide, 1e6 * w->arm->edge_wide_m, 3),
                   fw_number_text(x, sizeof x, 1e6 * w->arm->edge.x, 4),
-                  fw_number_text(y, sizeof y, 1e6 * w->arm->edge.y, 4),
+                  fw_number_text(y, sizeof y, 1e6 * w->arm->edge.y, 4), wider,
                   scene ? "the load smaller" : "the required box smaller");
     FW_NEED(text);
     v->reason[v->nreason++] = (fw_verdict_reason){.scene = scene ? scene : "workspace",

@@ -584,15 +584,16 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
     const fw_verdict_arm *arm = narrowest(m, b, most);
     if (!arm) return;
     const double most_share = fmin(b->body_J[most] / b->hinges_J, share);
+    const char *wider =
+        fw_layout_wider_there(diags->arena, m->device, m->layout, most, arm->narrow);
     fw_diag_warning(
         diags, 510, m->device->body[most].place,
         "bodies are taken as rigid, and in %s%s they may give by up to %s %s what "
         "the hinges give, %s%s by %s %s it: what is probed may move that much further, and the "
-        "bands allow for it. It is narrowest, %s um, at (%s, %s) um: make it wider "
-        "there, or shorter",
+        "bands allow for it. It is narrowest, %s um, at (%s, %s) um: %s; or make it shorter",
         FW_NAMED("scene", scene->name), number_of(all, share), unit_of(share),
         FW_NAMED("body", m->device->body[most].id), number_of(one, most_share), unit_of(most_share),
         fw_number_text(width, sizeof width, 1e6 * arm->narrow_m, 2),
         fw_number_text(x, sizeof x, 1e6 * arm->narrow.x, 4),
-        fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4));
+        fw_number_text(y, sizeof y, 1e6 * arm->narrow.y, 4), wider ? wider : "make it wider there");
 }

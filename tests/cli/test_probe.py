@@ -421,7 +421,7 @@ class Probe(unittest.TestCase):
     def test_what_is_required_of_equilibria_holds_along_a_scene(self):
         """a plate under a voltage that comes and goes: as soft as while it holds (15 to 25 ms), not as where the scene ends; a
         most is judged where nothing pulls"""
-        for bound, value in (('min="700 Hz"', 684.3), ('max="800 Hz"', 863.3)):
+        for bound, value in (('min="700 Hz"', 684.9), ('max="800 Hz"', 863.9)):
             text = PULSE % f'<require frequency="1" plane="in" {bound} scene="go"/><require probe="k" min="0.1 N/m" scene="go"/>'
             done = run("check", self.file(text), "--corners", "none", "--advice", "none", "--json")
             frequency, stiff = json.loads(done.stdout)["requirements"]
@@ -431,7 +431,7 @@ class Probe(unittest.TestCase):
             self.assertAlmostEqual(stiff["value"], 0.3486, delta=1e-3)
         shown = run("check", self.file(PULSE % '<require frequency="1" plane="in" min="700 Hz" scene="go"/>'), "--corners", "none",
                     "--advice", "none").stdout
-        self.assertRegex(shown, "684.3 Hz at 15 ms .*at least 700 Hz is required in go")
+        self.assertRegex(shown, "684.9 Hz at 15 ms .*at least 700 Hz is required in go")
         self.assertRegex(shown, "reject +go at 15 ms")
 
     def test_a_distance_is_not_below_0(self):
@@ -607,28 +607,28 @@ class Probe(unittest.TestCase):
     def test_a_reason_as_made_has_the_reach_over_all_corners(self):
         """one number, its band where it is worst, and the end that tables and JSON have of all corners"""
         text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text(encoding="utf-8")
-        text = text.replace('measure="parasitic" max="2 um"', 'measure="parasitic" max="1.66 um"')
-        verdict = self.answer(text, "check", "--advice", "none", statuses=(4,))
-        made = next(r for r in verdict["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        late = text.replace('band="4 um" max="30 ms"', 'band="4 um" max="19.3 ms"')
+        verdict = self.answer(late, "check", "--advice", "none", statuses=(4,))
+        made = next(r for r in verdict["requirements"] if r["measure"] == "settling-time")["as_fabricated"]
         self.assertGreater(made["all_corners_band"][1], made["band"][1])
         said = next(r["text"] for r in verdict["reasons"] if r["code"] == "FW-D238")
-        worst, reach = re.search(r"stroke \(parasitic\) is [\d.]+ um \([\d.]+ um to ([\d.]+) um; no corner of the flow is "
-                                 r"above ([\d.]+) um\)", said).groups()
-        self.near(float(worst) * 1e-6, made["band"][1], 1e-3)
-        self.near(float(reach) * 1e-6, made["all_corners_band"][1], 1e-3)
+        worst, reach = re.search(r"stroke \(settling-time\) is [\d.]+ ms \([\d.]+ ms to ([\d.]+) ms; no corner of the flow is "
+                                 r"above ([\d.]+) ms\)", said).groups()
+        self.near(float(worst) * 1e-3, made["band"][1], 1e-3)
+        self.near(float(reach) * 1e-3, made["all_corners_band"][1], 1e-3)
         def least(bound, status):
-            return self.answer(text.replace('measure="parasitic" max="1.66 um"', f'measure="parasitic" min="{bound!r} m"'),
+            return self.answer(text.replace('band="4 um" max="30 ms"', f'band="4 um" min="{bound!r} s"'),
                                "check", "--advice", "none", statuses=(status,))
-        made = next(r for r in least(1e-9, 0)["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        made = next(r for r in least(1e-3, 0)["requirements"] if r["measure"] == "settling-time")["as_fabricated"]
         self.assertLess(made["all_corners_band"][0], made["band"][0])
         low = 0.5 * (made["band"][0] + made["value"])
         verdict = least(low, 4)
-        made = next(r for r in verdict["requirements"] if r["measure"] == "parasitic")["as_fabricated"]
+        made = next(r for r in verdict["requirements"] if r["measure"] == "settling-time")["as_fabricated"]
         said = next(r["text"] for r in verdict["reasons"] if r["code"] == "FW-D238")
-        worst, reach, asked = re.search(r"\(([\d.]+) nm to [\d.]+ nm; no corner of the flow is below ([\d.]+) nm\), and at least ([\d.]+) nm", said).groups()
-        self.near(float(worst) * 1e-9, made["band"][0], 1e-3)
-        self.near(float(reach) * 1e-9, made["all_corners_band"][0], 1e-3)
-        self.near(float(asked) * 1e-9, low, 1e-3)
+        worst, reach, asked = re.search(r"\(([\d.]+) ms to [\d.]+ ms; no corner of the flow is below ([\d.]+) ms\), and at least ([\d.]+) ms", said).groups()
+        self.near(float(worst) * 1e-3, made["band"][0], 1e-3)
+        self.near(float(reach) * 1e-3, made["all_corners_band"][0], 1e-3)
+        self.near(float(asked) * 1e-3, low, 1e-3)
 
     def test_links_that_bend_are_told_and_in_the_bands(self):
         """the same leaves between links of 120 and of 18 um: the second give, which every band and a warning say"""
@@ -649,17 +649,37 @@ class Probe(unittest.TestCase):
             wide[name] = used["utilisation_band"][1] / used["utilisation"] - 1
         self.assertGreater(wide["thin"], wide["stiff"] + 0.05)
 
+    def test_a_head_that_is_narrow_is_named(self):
+        """leaves that vary hang on rings of the layout, one of them on the far side: told was to make the body wider at a place that
+        no number of the file is the width of"""
+        def stage(leaf, wide=""):
+            hinges = "".join(f'<revolute id="{i}" axis="{axis} deg" a="ground" a-x="{x} um" a-y="{y} um" b="shuttle" b-x="{x} um" '
+                             f'b-y="{y} um" hinge="leaf"/>' for i, x, y, axis in (("A", -600, 600, 0), ("B", 600, 600, 0), ("C", -600, -600, 180),
+                                                                                  ("D", 600, -600, 180)))
+            return ('<device xmlns="urn:flexwright:device:1" name="guide"><material ref="silicon-100" thickness="50 um"/>'
+                    f'<flow ref="al-masked-rie"/><flexure id="leaf" kind="leaf" length="400 um" width="8 um" {leaf}/><mechanism>'
+                    f'<body id="shuttle" x="0 mm" y="0 mm" {wide} plate-width="1.6 mm" plate-height="0.5 mm"/>{hinges}</mechanism>'
+                    '<scene name="run" duration="20 ms"><force on="shuttle" fx="10 uN" fy="0 uN" law="ramp" rise="10 ms"/><residual-stress mean="20 MPa"/>'
+                    '<air kind="slide" gap="10 um"/></scene></device>')
+        said = {name: run("check", self.file(stage(*of)), "--corners", "none", "--advice", "none", "--json").stderr
+                for name, of in (("ring", ('fillet="5 um" width-middle="7.9 um"',)), ("narrow", ('fillet="5 um" width-middle="7.9 um"', 'width="60 um"')),
+                                 ("straight", ('fillet="5 um"',)))}
+        self.assertNotIn("FW-D510", said["straight"])
+        for name, width in (("ring", r"width where none is stated, 120 um"), ("narrow", r"width, 60 um")):
+            self.assertRegex(said[name], r"that is the head of hinge [A-D], which the layout draws, and its neck is as wide as the body's "
+                             + width + r", says: write a larger width, up to [\d.]+ um; or make it shorter \[FW-D510\]")
+
     def test_bodies_bend_between_leaves_that_do_not_turn(self):
         """a shuttle between four leaves, pushed across them: they bend to an S and store what they have by deflection.
         Of two bars on a web it gives, a block does not; pushed along its leaves the bars give hundreds of times what they
-        do, which turns the leaves' ends: told, in the bands, and of a large force not accepted"""
+        do, which turns the leaves' ends: told, in the bands, and of a large force not accepted. (The leaves vary by a nanometre: heads of leaves that do not are stiffer.)"""
         def stage(plates, load):
             hinges = "".join(f'<revolute id="{i}" axis="0 deg" a="ground" a-x="{x} um" a-y="{y} um" b="shuttle" b-x="{x} um" '
                              f'b-y="{y} um" hinge="leaf"/>' for i, x, y in zip("ABCD", (-700, 700, -700, 700), [
                                  s * 730 for s in (-1, -1, 1, 1)]))
             return ('<device xmlns="urn:flexwright:device:1" name="guide"><material ref="silicon-100" thickness="50 um"/>'
                     '<limits safety-factor="2"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>'
-                    '<flexure id="leaf" kind="leaf" length="900 um" width="8 um"/><mechanism>'
+                    '<flexure id="leaf" kind="leaf" length="900 um" width="8 um" width-middle="7.999 um"/><mechanism>'
                     f'<body id="shuttle" x="0 mm" y="0 mm">{plates}</body>{hinges}'
                     f'</mechanism><scene name="go" duration="20 ms"><force on="shuttle" {load} law="ramp" rise="10 ms"/>'
                     '<air kind="slide" gap="20 um"/></scene></device>')
@@ -699,13 +719,13 @@ class Probe(unittest.TestCase):
 
     def test_bodies_that_give_only_soften(self):
         """a carrier that shrinks by cold presses four leaves, so that bodies store much beside the hinges: of a mode at rest, and of a
-        compliance, that says nothing, and bodies soften both"""
+        compliance, that says nothing, and bodies soften both. (The leaves vary by a nanometre: heads of those that do not are stiffer.)"""
         hinges = "".join(f'<revolute id="{name}" a="ground" a-x="{x} mm" a-y="{y} mm" b="mass" b-x="{x} mm" b-y="{y} mm" hinge="leaf" axis="{turn} deg"/>'
                          for name, x, y, turn in (("A", -0.45, -0.83, 0), ("B", 0.45, -0.83, 0), ("C", -0.45, 0.83, 180), ("D", 0.45, 0.83, 180)))
         bands = []
         for cold in ("", '<scene name="cold" duration="1 ms"><temperature change="-50 K"/></scene>'):
             text = f"""<device xmlns="urn:flexwright:device:1" name="mass"><material ref="silicon-100" thickness="20 um"/><limits safety-factor="2"/>
-<flow ref="al-masked-rie" carrier="insulating"/><die release-pitch="0 um" tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="6 um"/>
+<flow ref="al-masked-rie" carrier="insulating"/><die release-pitch="0 um" tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="6 um" width-middle="5.999 um"/>
 <mechanism><body id="mass" x="0 mm" y="0 mm" plate-width="1.2 mm" plate-height="1.2 mm"/>{hinges}</mechanism>
 <probe id="k" kind="compliance" on="mass" direction="0 deg"/><require frequency="1" min="3 kHz"/><require probe="k" max="1 m/N"/>
 <scene name="full" duration="5 ms"><base-motion ax="-490.3 m/s^2" law="ramp" rise="3 ms"/><air kind="slide" on="mass" gap="10 um"/></scene>{cold}</device>"""
@@ -826,7 +846,7 @@ class Probe(unittest.TestCase):
         text = text.replace('rise="20 ms"', 'rise="1 ms"')
         asked = '<require probe="stroke" measure="final" min="40 um" scene="draw"/>'
         options = ("check", "--json", "--corners", "none", "--advice", "none")
-        for damped, bound, verdict in ((False, "45 um", "inconclusive"), (False, "90 um", "accept"), (True, "90 um", "accept")):
+        for damped, bound, verdict in ((False, "47 um", "inconclusive"), (False, "90 um", "accept"), (True, "90 um", "accept")):
             device = text if damped else text.replace('<air kind="slide" gap="10 um"/>', "")
             device = device.replace(asked, f'<require probe="stroke" measure="final" max="{bound}" scene="draw"/>')
             done = run(options[0], self.file(device), *options[1:])
@@ -834,8 +854,8 @@ class Probe(unittest.TestCase):
             final = next(r for r in answer["requirements"] if r["measure"] == "final")
             self.assertEqual(final["verdict"], verdict, (damped, bound, final))
             low, high = final["band"]
-            self.assertEqual(low < 45e-6 and high > 70e-6, not damped, (damped, bound, final))
-            told = "has not come to rest (where it ends it still goes to and fro by 15.06 um to either side" in done.stdout
+            self.assertEqual(low < 46e-6 and high > 70e-6, not damped, (damped, bound, final))
+            told = "has not come to rest (where it ends it still goes to and fro by 12.18 um to either side" in done.stdout
             self.assertEqual(told, verdict == "inconclusive", (damped, bound))
 
     def test_a_ring_behind_a_sine_that_has_ended(self):
@@ -909,7 +929,7 @@ class Probe(unittest.TestCase):
             self.assertGreater(len(found), 1)
             self.assertGreater(min(found), 1e-3)
             # but for what blows change, and what hangs over, which bends by less where a measure has a sign (decision 211)
-            self.assertLess(max(found) - min(found), 0.04 * max(found), (probe, found))
+            self.assertLess(max(found) - min(found), 1.25e-3, (probe, found))
 
     def test_what_is_required_decides_at_either_end_of_a_band(self):
         """each kind of value, with bounds just within, in and just beyond its band: decision, margin, share and what the reason says"""

@@ -41,7 +41,6 @@ CASES = {
     "Strength of bodies": (f"{THEORY}/neck.xml", None, "check --corners none --advice none",
                            r"neck: INCONCLUSIVE.*body arm is not known to bear what force brings.*where it is [67]"),
     "Notching at the foot": ("tests/data/swept-holes.xml", None, "check --corners none --advice none -v", "over-etch at the oxide may notch the foot of narrow lines"),
-    "Exactly two ground hinges": ("tests/data/hangs-between.xml", None, "check --corners none --advice none", "one base between them"),
     "Flexures close to each other": ("docs/gallery/straight-stage/device.xml", None,
                                      "check --corners none --advice none --set flexure[leaf]/@length=1900um", r"1500 um apart, but their surfaces .*FW-D125"),
     "Paths with long straight pieces": ("tests/bad/path-ends-meet.xml", None, "check", "FW-D264"),
