@@ -114,15 +114,16 @@ typedef struct fw_layout_side { /* one body at one hinge */
     const fw_device_body *plate;
     double plate_at_m;
     double drawn_at_m; /* from W to where the neck may end in the body's shapes; 0: it has others */
-    double neck_m;     /* half width of the neck between ring and bar */
-    double far_m;      /* the same on the side away from the bulge */
-    double corner_m;   /* where far_m > neck_m: of the plate's corner, along `direction` */
-    double neck_end_m; /* from W along `direction` */
-    double solid_m;    /* from there on the neck is as wide as neck_m on both sides */
-    bool straight;     /* a head on the line of its leaf, alike on both sides of it: */
-    double root_m;     /* from W to the root; */
-    double clear_m;    /* from W to where its own plate may begin beside it; */
-    double foot_m;     /* from W to where the middle of its neck begins: 0, in a plate root_m */
+    double drawn_half_m; /* half the width of what is drawn beside a neck; 0: nothing is */
+    double neck_m;       /* half width of the neck between ring and bar */
+    double far_m;        /* the same on the side away from the bulge */
+    double corner_m;     /* where far_m > neck_m: of the plate's corner, along `direction` */
+    double neck_end_m;   /* from W along `direction` */
+    double solid_m;      /* from there on the neck is as wide as neck_m on both sides */
+    bool straight;       /* a head on the line of its leaf, alike on both sides of it: */
+    double root_m;       /* from W to the root; */
+    double clear_m;      /* from W to where its own plate may begin beside it; */
+    double foot_m;       /* from W to where the middle of its neck begins: 0, in a plate root_m */
     double square_at_m; /* from W to an edge of its plate square to the leaf; 0: it is not square */
     fw_layout_local local;
     fw_geometry_contour head;  /* root block, ring and neck */
@@ -322,10 +323,10 @@ typedef struct fw_layout_neck_way {
     fw_geometry_vec2 w;
     double clear_m, half_m;
     bool across;
+    double half_there_m; /* half the width of what is drawn at clear_m, as far as it matters */
 } fw_layout_neck_way;
-fw_status fw_layout_shape_direction(const fw_layout_drawing *d, int body,
-                                    const fw_layout_neck_way *way, fw_geometry_vec2 *direction,
-                                    double *begins_m, bool *found);
+fw_status fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_layout_neck_way *way,
+                                    fw_geometry_vec2 *direction, double *begins_m, bool *found);
 /* of the way along a direction into the body's own plate, which begins at begins_m: no other shape
    is nearer to the hinge, but for those that the neck enters first; and it closes nothing */
 fw_status fw_layout_plate_way(const fw_layout_drawing *d, int body, const fw_layout_neck_way *way,

@@ -202,31 +202,59 @@ bool fw_layout_leaf_is_free(const fw_device_flexure *f) {
     return f->kind == FW_FLEXURE_LEAF && !(f->gap_m > 0.0) && !fw_device_flexure_varies(f);
 }
 
-/* block and neck: the block as deep as a ring is thick, its shoulders of 45 degrees, the neck's middle from foot_m on the
-   leaf's line */
+/* A bar or plate beside the block and about as wide as it would leave a step that cannot be rounded as the rules want: the
+   block, and the neck with it, is narrower then by as much as that takes. */
+static double half_of_block(const fw_layout_hinge_shape *s, const fw_layout_side *side) {
+    const double half = fmax(-s->inner_corner.x, side->neck_m), bar = side->drawn_half_m;
+    const double step = bar - half, least = fw_layout_rule.block_step_m;
+    return bar > 2.0 * least && fabs(step) < least ? bar - least : half;
+}
+
+/* how deep the block is, and how far its shoulders lead towards the neck at 45 degrees: both leave room before the edge of
+   what is beside the neck, or the block runs into that */
+static double block_depth(const fw_layout_side *side, double half, double *shoulder_m) {
+    const fw_layout_rules *rule = &fw_layout_rule;
+    const double off = fabs(cos(side->own_rad)) * (side->neck_m + rule->neck_corner_clear_m),
+                 plate = side->foot_m > 0.0 ? side->plate_at_m * sin(side->own_rad) - off : 0.0,
+                 to_edge = fmax(plate, side->clear_m - side->root_m),
+                 room = to_edge - rule->block_depth_m - rule->straight_clear_m;
+    *shoulder_m = half - side->neck_m;
+    if (to_edge <= rule->block_depth_m) return rule->block_depth_m;
+    if (room < 0.0) return to_edge + rule->neck_corner_clear_m;
+    *shoulder_m = fmin(*shoulder_m, room);
+    return rule->block_depth_m;
+}
+
+/* block and neck: the block as deep as a ring is thick, the neck's middle from foot_m on the leaf's line */
 static fw_status draw_straight(fw_arena *arena, const fw_layout_hinge_shape *s,
                                fw_layout_side *side) {
-    const double at = s->root.y, neck = side->neck_m, deep = fw_layout_rule.block_depth_m;
-    const double half = fmax(-s->inner_corner.x, neck), lean = cos(side->own_rad);
+    const double half = half_of_block(s, side);
+    side->neck_m = fmin(side->neck_m, half);
+    double shoulder;
+    const double at = s->root.y, neck = side->neck_m, lean = cos(side->own_rad);
+    const double deep = block_depth(side, half, &shoulder);
     const bool upright = fabs(lean) < 1e-9;
     const fw_geometry_vec2 u = upright ? fw_v(0.0, 1.0) : fw_polar(side->own_rad), v = fw_left(u),
                            foot = fw_v(0.0, side->foot_m);
-    const double begin = (at - foot.y + deep + half - neck + neck * fabs(lean)) / u.y;
+    const double begin = (at - foot.y + deep + shoulder + neck * fabs(lean)) / u.y;
     side->solid_m = begin;
     side->neck_end_m =
         fmax(side->neck_end_m, begin + (side->foot_m > 0.0 ? fw_layout_rule.neck_corner_clear_m
                                                            : fw_layout_rule.bar_overlap_m));
-    const fw_geometry_vec2 from = fw_add(foot, begin, u), end = fw_add(foot, side->neck_end_m, u);
+    const fw_geometry_vec2 from = fw_add(foot, begin, u), end = fw_add(foot, side->neck_end_m, u),
+                           brow = fw_v(half - shoulder, at + deep + shoulder);
 
     fw_layout_sketch k = fw_layout_sketch_start(arena, &side->local, s->joint_in);
     fw_layout_sketch_line(&k, s->joint_out, s->cut_flags);
     fw_layout_sketch_arc(&k, s->outer_centre, s->outer_sweep_rad, s->outer_end);
     fw_layout_sketch_line(&k, fw_v(half, at), 0);
     if (half > neck) fw_layout_sketch_line(&k, fw_v(half, at + deep), 0);
+    if (brow.x > neck) fw_layout_sketch_line(&k, brow, 0);
     if (half > neck || !upright) fw_layout_sketch_line(&k, fw_add(from, -neck, v), 0);
     fw_layout_sketch_line(&k, fw_add(end, -neck, v), 0);
     fw_layout_sketch_line(&k, fw_add(end, neck, v), NECK_END);
     if (half > neck || !upright) fw_layout_sketch_line(&k, fw_add(from, neck, v), 0);
+    if (brow.x > neck) fw_layout_sketch_line(&k, fw_v(-brow.x, brow.y), 0);
     if (half > neck) fw_layout_sketch_line(&k, fw_v(-half, at + deep), 0);
     fw_layout_sketch_line(&k, fw_v(-half, at), 0);
     fw_layout_sketch_line(&k, s->inner_start, 0);
@@ -322,10 +350,27 @@ static double half_of_neck(const fw_layout_side *side, double half_width_m) {
 
 /* ---- on the line of a leaf ---- */
 
+typedef struct entry {
+    double begins_m; /* from the root along the neck */
+    double square_m; /* the same; 0: that edge of the plate is not square to the neck */
+} entry;
+
+/* the lesser half of the plate beside a leaf's line through p; 0: its sides are not along that */
+static double half_beside(const fw_device_body *b, fw_geometry_vec2 p, fw_geometry_vec2 line) {
+    const fw_layout_local plate = {
+        {0.0, 0.0}, cos(b->plate_angle_rad), -sin(b->plate_angle_rad), false};
+    const fw_geometry_vec2 along = fw_layout_local_point(&plate, line),
+                           at = fw_layout_local_point(&plate,
+                                                      fw_sub(p, fw_v(b->plate_x_m, b->plate_y_m)));
+    if (fabs(along.y) > 1.0 - 1e-9) return fmax(0.0, 0.5 * b->plate_width_m - fabs(at.x));
+    if (fabs(along.x) > 1.0 - 1e-9) return fmax(0.0, 0.5 * b->plate_height_m - fabs(at.y));
+    return 0.0;
+}
+
 /* Where the neck from p along u enters the plate, with the clearance of corners on either side and through one of its
-   edges, nearly enough across that, if it does and has room to end inside; square_m: 0 where that edge is not square */
+   edges, nearly enough across that, if it does and has room to end inside */
 static bool enters_plate(const fw_device_body *b, fw_geometry_vec2 p, fw_geometry_vec2 u,
-                         double half, double *begins_m, double *square_m) {
+                         double half, entry *to) {
     const fw_layout_rules *rule = &fw_layout_rule;
     const fw_layout_local plate = {
         {0.0, 0.0}, cos(b->plate_angle_rad), -sin(b->plate_angle_rad), false};
@@ -335,7 +380,7 @@ static bool enters_plate(const fw_device_body *b, fw_geometry_vec2 p, fw_geometr
     const double d[2] = {way.x, way.y};
     int through[2] = {0, 0};
     double out = HUGE_VAL;
-    *begins_m = 0.0;
+    *to = (entry){0};
     for (int i = 0; i < 2; i++) {
         const double off = (i ? 1.0 : -1.0) * (half + rule->neck_corner_clear_m);
         const fw_geometry_vec2 q = fw_layout_local_point(
@@ -349,13 +394,13 @@ static bool enters_plate(const fw_device_body *b, fw_geometry_vec2 p, fw_geometr
             out = fmin(out, (edge - from[k]) / d[k]);
             if (at > in) in = at, through[i] = k + 1;
         }
-        *begins_m = fmax(*begins_m, in);
+        to->begins_m = fmax(to->begins_m, in);
     }
     if (through[0] != through[1]) return false;
     const double slope = through[0] ? fabs(d[through[0] - 1]) : 1.0;
-    *square_m = through[0] && slope > 1.0 - 1e-9 ? *begins_m : 0.0;
+    to->square_m = through[0] && slope > 1.0 - 1e-9 ? to->begins_m : 0.0;
     return slope > cos(rule->oblique_side_rad) &&
-           out > fmax(*begins_m, least) + rule->neck_into_plate_m + rule->form_longer_m +
+           out > fmax(to->begins_m, least) + rule->neck_into_plate_m + rule->form_longer_m +
                      rule->neck_corner_clear_m;
 }
 
@@ -374,14 +419,14 @@ static bool lead_into_plate(fw_layout_side *side) {
             const double half_width = narrower[i] * side->half_width_m;
             const fw_geometry_vec2 u =
                 turn > 0.0 ? fw_geometry_vec_rotate(line, sign * turn) : line;
-            double begins, square;
-            if (!enters_plate(b, root, u, half_of_neck(side, half_width), &begins, &square))
-                continue;
+            entry to_plate;
+            if (!enters_plate(b, root, u, half_of_neck(side, half_width), &to_plate)) continue;
             side->half_width_m = half_width;
             side->direction = u;
             side->own_rad = 0.5 * FW_PI + hand * sign * turn;
-            side->plate_at_m = begins;
-            side->square_at_m = square > 0.0 ? square + side->root_m : 0.0;
+            side->plate_at_m = to_plate.begins_m;
+            side->drawn_half_m = half_beside(b, root, line);
+            side->square_at_m = to_plate.square_m > 0.0 ? to_plate.square_m + side->root_m : 0.0;
             side->foot_m = side->root_m;
             return true;
         }

@@ -181,7 +181,7 @@ static void choose_rings(fw_layout_hinge_plan *plan, const fw_device_flexure *f)
 
 typedef struct way { /* from a hinge into one of its bodies */
     fw_geometry_vec2 direction;
-    double half_m, drawn_at_m, plate_at_m; /* as of fw_layout_side */
+    double half_m, drawn_at_m, drawn_half_m, plate_at_m; /* as of fw_layout_side */
     const fw_device_body *plate;
 } way;
 
@@ -215,7 +215,7 @@ static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layo
         return FW_OK;
     const way into_plate = *to;
     const double keep_out = keep_out_of(plan, device->flexure[j->flexure].gap_m);
-    fw_layout_neck_way neck = {w, keep_out, into_plate.half_m, false};
+    fw_layout_neck_way neck = {w, keep_out, into_plate.half_m, false, 0.0};
     bool nearest = false, open = false, found = false;
     if (to->plate)
         FW_TRY(fw_layout_plate_way(d, body, &neck, to->direction, to->plate_at_m, &nearest, &open));
@@ -228,6 +228,7 @@ static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layo
             FW_TRY(
                 fw_layout_shape_direction(d, body, &neck, &to->direction, &to->drawn_at_m, &found));
             to->plate = NULL;
+            to->drawn_half_m = neck.half_there_m;
             if (found) return FW_OK;
         }
     if (into_plate.plate) {
@@ -268,6 +269,7 @@ static fw_status choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_p
         side->plate = is_a ? to_a.plate : to_b.plate;
         side->plate_at_m = is_a ? to_a.plate_at_m : to_b.plate_at_m;
         side->drawn_at_m = is_a ? to_a.drawn_at_m : to_b.drawn_at_m;
+        side->drawn_half_m = is_a ? to_a.drawn_half_m : to_b.drawn_half_m;
         side->local = (fw_layout_local){w, n.x, n.y, i == 0};
         double up = cross(n, side->direction), along = fw_dot(n, side->direction);
         side->own_rad = atan2(i == 0 ? -up : up, along);

@@ -50,6 +50,7 @@ const fw_layout_rules fw_layout_rule = {
 
     .neck_rings = 0.45,
     .neck_inset_m = 3e-6,
+    .block_step_m = 8.5e-6,
     .neck_beyond_m = 12e-6,
     .neck_into_plate_m = 30e-6,
     .neck_beside_block_m = 40e-6,

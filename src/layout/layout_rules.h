@@ -70,6 +70,7 @@ typedef struct fw_layout_rules {
     double neck_rings;        /* greatest half width in outer radii of its ring: at one half the
                                  neck would leave the ring as a tangent */
     double neck_inset_m;      /* of the neck's edge from the bar's, so that they cannot coincide */
+    double block_step_m;      /* from a block to a bar drawn beside it: room for two corners */
     double neck_beyond_m;     /* from the keep-out disc to the neck's end, in a bar, */
     double neck_into_plate_m; /* and from the edge of the plate or of the disc cut out of it */
     double neck_beside_block_m; /* a neck that meets its block's far side ends so much later */

@@ -307,6 +307,18 @@ static double reach_along(const fw_layout_shapes *s, fw_geometry_vec2 w, fw_geom
     return HUGE_VAL;
 }
 
+/* the lesser of what is drawn to either side of the neck's line, up to `most` */
+static double half_there(const fw_layout_shapes *s, fw_geometry_vec2 at, fw_geometry_vec2 u,
+                         double most) {
+    const fw_geometry_vec2 v = fw_left(u);
+    const double step = 0.05 * STEP_M;
+    double half = 0.0;
+    while (half < most && is_solid(s, fw_add(at, half + step, v)) &&
+           is_solid(s, fw_add(at, -half - step, v)))
+        half += step;
+    return half;
+}
+
 static fw_geometry_vec2 nearest_point(const fw_geometry_region *r, fw_geometry_vec2 w) {
     double least = HUGE_VAL;
     fw_geometry_vec2 best = w;
@@ -385,9 +397,8 @@ static fw_status closes_along(const fw_layout_drawing *d, int body, const fw_lay
    inside, or on the edge, of which rounding would say either) on, that of the shortest neck; of
    equally long ones the first, of two as far off as each other the one nearer to the centroid, so
    that mirrored bodies get mirrored necks. Test: test_shapes.py, test_hinges_on_the_edge */
-fw_status fw_layout_shape_direction(const fw_layout_drawing *d, int body,
-                                    const fw_layout_neck_way *way, fw_geometry_vec2 *direction,
-                                    double *begins_m, bool *found) {
+fw_status fw_layout_shape_direction(const fw_layout_drawing *d, int body, fw_layout_neck_way *way,
+                                    fw_geometry_vec2 *direction, double *begins_m, bool *found) {
     const fw_layout_shapes *s = &d->shapes[body];
     const fw_geometry_vec2 w = way->w, middle = fw_geometry_region_moments(&s->all).centroid;
     fw_geometry_vec2 near = nearest_point(&s->all, w);
@@ -409,6 +420,9 @@ fw_status fw_layout_shape_direction(const fw_layout_drawing *d, int body,
         *direction = u;
         *begins_m = far;
     }
+    if (*found)
+        way->half_there_m = half_there(s, fw_add(w, way->clear_m, *direction), *direction,
+                                       way->half_m + 2.0 * fw_layout_rule.block_step_m);
     return FW_OK;
 }
 

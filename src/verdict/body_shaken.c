@@ -461,7 +461,6 @@ fw_status fw_verdict_may_swing(fw_arena *arena, const fw_verdict_variant_verdict
     const double slow_s = sqrt(slow_alone_s2(v, &hangs_s2));
     if (!(slow_s > 0)) return FW_OK;
     const double behind = laws_behind(m, &m->device->scene[scene], 1 / slow_s);
-    if (alone) hangs_s2 = 0;
     if (!((gives + (hangs_s2 > 0)) * behind > little)) return FW_OK;
     FW_TRY(fw_verdict_own_modes(arena, v, own));
     if (!own->modes) return FW_OK;

@@ -657,9 +657,9 @@ class BodiesThatSwing(unittest.TestCase):
     """Bodies of bars whose own mass swings on them: rings whose sides move apart, legs between hinges, stems, hooks, at random. Their first two modes in
     the plane, as plane solids have them, lie in the bands, which begin not far below."""
     FOOT = 60
-    # Hz, two modes of each device in turn: plane solids of the drawn outlines, quadratic triangles of 5 to 14 um, held 24 um behind the roots on the ground
-    SOLIDS = ((14463, 46001), (15706, 61114), (18919, 69692), (20065, 93895), (17773, 79764), (16372, 32237),
-              (12461, 40728), (14303, 82962), (20090, 81327), (20569, 57973), (16496, 59208), (17212, 28395))
+    # Hz, two modes of each device in turn: CalculiX's of the drawn outlines (tools/solids, finer mesh), held behind the roots on the ground
+    SOLIDS = ((14846, 50618), (14771, 74060), (19663, 54102), (19709, 68333), (16931, 43377), (17927, 50594),
+              (14175, 60565), (14217, 59813), (20559, 53766), (21017, 54865), (19384, 45042), (17375, 29933))
     ASKED = '<require frequency="1" plane="in" min="1 Hz"/><require frequency="2" plane="in" min="1 Hz"/>'
 
     def drawn(self, bars, leaves, asked=ASKED):
@@ -701,15 +701,15 @@ class BodiesThatSwing(unittest.TestCase):
                 found = json.loads(done.stdout).get("requirements")
             for mode, (true, row) in enumerate(zip(solid, found)):
                 low, high = row["band"]
-                self.assertTrue(true / (1.2 if mode else 1.06) < low < true < high, (kind, bars, leaves, true, row))
+                self.assertTrue(true / (1.2 if mode else 1.075) < low < true < high, (kind, bars, leaves, true, row))
 
     def test_what_a_ring_and_legs_do_is_not_accepted(self):
-        """solids have the first mode of this ring at 12.03 kHz, and the second of these legs at 46.3 kHz; with bodies' masses in their middles the
-        bands began at 12.2 and 72.9"""
+        """solids have the first mode of this ring at 12.27 kHz, and the second of these legs at 51.1 kHz; with bodies' masses in their middles
+        bands began above both"""
         ring = '<plate x="0 mm" y="0 mm" width="1.6 mm" height="1.2 mm"/><plate x="0 mm" y="0 mm" width="1.48 mm" height="1.08 mm" hole="yes"/>'
         legs = '<plate x="-0.5 mm" y="0 mm" width="60 um" height="1.2 mm"/><plate x="0.5 mm" y="0 mm" width="60 um" height="1.2 mm"/><plate x="0 mm" y="0.57 mm" width="1.06 mm" height="60 um"/>'
         feet = '<plate x="-0.5 mm" y="-0.6 mm" width="60 um" height="60 um"/><plate x="0.5 mm" y="-0.6 mm" width="60 um" height="60 um"/><plate x="0 mm" y="0.65 mm" width="200 um" height="150 um"/>'
-        for body, mode, asked, true in ((ring, 1, 12.15e3, 12.03e3), (legs, 2, 60e3, 46.27e3), (legs, 1, 11.8e3, 11.69e3), (ring, 2, 50e3, 48.06e3)):
+        for body, mode, asked, true in ((ring, 1, 12.39e3, 12.267e3), (legs, 2, 66e3, 51.11e3), (legs, 1, 12.06e3, 11.949e3), (ring, 2, 52e3, 49.894e3)):
             text = self.drawn([], [(-0.5, -0.5, -1), (0.5, -0.5, -1)], f'<require frequency="{mode}" plane="in" min="{asked} Hz"/>')
             done = run("check", "-", "--corners", "none", "--advice", "none", "--json", input=re.sub("<plate.*(?=</body>)", body + feet, text))
             row = json.loads(done.stdout)["requirements"][0]
@@ -742,8 +742,9 @@ class BodiesThatAreShaken(unittest.TestCase):
         return self.said(self.ARM.replace("BARS", bars).replace("REST", rest).replace("WIDE", wide))
 
     def test_legs_between_hinges(self):
-        """stress of the leaves, of 667 MPa, by the mode that is met, at 1e-3 of it lost in a period: 756 and 722 MPa"""
-        for Hz, m_per_s2, true in ((61376, 15000, 1.13), (11700, 2000, 1.08)):
+        """stress of the leaves, of 667 MPa, by the mode that is met, as it grows in 2 ms at a loss factor of 1e-3 (modes of quadratic
+        triangles in plane stress): 753 and 747 MPa"""
+        for Hz, m_per_s2, true in ((68600, 17000, 1.13), (11900, 2000, 1.12)):
             said = self.portal(Hz, m_per_s2)
             self.assertEqual(said["verdict"], "inconclusive")
             high = max(h["utilisation_band"][1] for h in said["hinges"])
@@ -945,7 +946,7 @@ class SlenderArms(unittest.TestCase):
         self.assertLess(high - low, 0.08 * 350e-6)
         self.holds("grips", 182.3e-6, "kw=30 N/m", "arm=60 um")
         self.holds("grips", 723e-6, "kw=20 N/m", "arm=100 um", "gap=20 um")
-        decision, low, _ = self.holds("grips", 472e-6, "arm=400 um", "gripmin=200 uN")
+        decision, low, _ = self.holds("grips", 469e-6, "arm=400 um", "gripmin=200 uN")  # as wide as its block, 0.6 % by its bending
         self.assertEqual(decision, "accept")
         text = (ROOT / "tests/data/arms/grips.xml").read_text()  # a spring in place of the workpiece: 2.53 mN rigid, of which 0.76 are left
         text = re.sub(r'<contact id="work".*?/>', "", text, flags=re.S).replace("</mechanism>", '''<spring id="work" a="lever" a-x="2.8 mm"
@@ -1120,7 +1121,7 @@ class Resonance(unittest.TestCase):
                                                     at=0, fx=100, law=law, more="").replace("silicon-100", "copper-plated").replace('<flow ref="silicon-on-glass"/>', "")
             text = text.replace('width="20 um"/></body>', 'width="100 um"/></body>').replace('"4 ms"', '"40 ms"' if law == "step" else '"12 ms"').replace('loss-factor="0.02"', loss)
             return json.loads(run("check", "-", "--corners", "none", "--advice", "none", "--json", input=text).stdout)["requirements"][0]
-        for law, asked in (("step", 'measure="settling-time" band="5 nm" max="1 s"'), ('sine" frequency="28667 Hz', 'measure="peak" max="1 mm"')):
+        for law, asked in (("step", 'measure="settling-time" band="5 nm" max="1 s"'), ('sine" frequency="28184 Hz', 'measure="peak" max="1 mm"')):
             low, high = row("", law, asked)["band"]
             ends = [row(f'loss-factor="{loss}"', law, asked)["value"] for loss in (1e-3, 4e-3)]
             self.assertTrue(low < ends[1] < ends[0] < high < 1.3 * ends[0], (law, low, high, ends))
@@ -1129,14 +1130,14 @@ class Resonance(unittest.TestCase):
         far, said = self.shaken(500)
         mode = next(r for r in far["requirements"] if r["kind"] == "frequency")
         low, high = (f / mode["value"] for f in mode["band"])
-        self.assertTrue(low < 0.995 and high > 1.002)
+        self.assertTrue(low < 0.997 and high > 1.002)
         self.assertNotIn("FW-D642", said)
-        near, said = self.shaken(0.977 * mode["value"])
+        near, said = self.shaken(0.985 * mode["value"])
         self.assertIn("FW-D642", said)
         self.assertEqual(near["verdict"], "inconclusive")
         self.assertTrue(any("may meet" in r["text"] for r in near["reasons"]), near["reasons"])
         # a device that is a little softer is one that is shaken a little faster
-        softer, _ = self.shaken(0.977 * mode["value"] / (0.25 + 0.75 * low))
+        softer, _ = self.shaken(0.985 * mode["value"] / (0.25 + 0.75 * low))
         for h, other in zip(near["hinges"], softer["hinges"]):
             self.assertGreater(other["utilisation"], 1.15 * h["utilisation"])
             self.assertLess(other["utilisation"], h["utilisation_band"][1])
@@ -1302,7 +1303,7 @@ class Resonance(unittest.TestCase):
         """a law between the frequencies of all corners: each is accepted by itself, and what lies between them is beyond its limit"""
         text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text().replace('safety-factor="2"', 'safety-factor="5"')
         text = re.sub(r'<scene name="draw".*?</scene>|<probe id="tension"[^>]*/>|<require probe="stroke"[^>]*/>', "", text, flags=re.S)
-        text = text.replace("</device>", '<scene name="s" duration="60 ms"><base-motion ax="21 m/s^2" law="sine" frequency="729 Hz"/></scene></device>')
+        text = text.replace("</device>", '<scene name="s" duration="60 ms"><base-motion ax="22 m/s^2" law="sine" frequency="766 Hz"/></scene></device>')
         with tempfile.TemporaryDirectory() as place:
             lab = pathlib.Path(place, "lab.xml")
             lab.write_text(self.LAB)
@@ -1322,7 +1323,7 @@ class Resonance(unittest.TestCase):
     THICKNESS = '<q id="made.cu" value="1" lo="1" hi="1" unit="1" status="measured" src="bench"/>'
 
     def test_between_corners_what_is_met_and_the_lightest(self):
-        """Two pushes 18.3 ms apart: dies of 95 to 105 GPa and of 135 go farther than any corner (85, 115 and 145 GPa). Bands as made hold
+        """Two pushes 17.9 ms apart: dies of 95 to 105 GPa and of 135 go farther than any corner (85, 115 and 145 GPa). Bands as made hold
         them; a stop that only they reach is not left out for its force of nothing; and of dies with one frequency the thinnest goes farthest."""
         push = '<force on="stage" fx="6 uN" law="half-sine" start="%s ms" rise="1.4 ms"/>'
         text = self.PAIR.replace('<material ref="silicon-100" thickness="50 um" strength="2 GPa" youngs-modulus="150 GPa" poisson="0.25"/>',
@@ -1330,7 +1331,7 @@ class Resonance(unittest.TestCase):
         text = text.replace('width="6 um" gap="10 um"', 'width="10 um" fillet="4 um"').replace('plate-height="0.5 mm"', 'plate-height="1.0 mm"')
         text = text.replace("55 ms", "24 ms").replace("300 um", "200 um")
         text = text.replace('<scene name="s"', '<probe id="x" kind="displacement" on="stage" direction="0 deg"/>'
-                            '<require probe="x" measure="peak" max="45 um"/><scene name="s"') % (push % 0 + push % 18.3)
+                            '<require probe="x" measure="peak" max="45 um"/><scene name="s"') % (push % 0 + push % 17.9)
         stop = text.replace("</scene>", '<contact id="stop" a="stage" a-x="0.35 mm" a-y="0 mm" a-face="0 deg" b="ground" b-x="1.289 mm" b-y="1.5 mm" '
                             'side="outside" distance="4 um" undrawn="placed" stiffness="200 N/m"/></scene>').replace(
                                 '<require probe="x"', '<probe id="grip" kind="force" of="stop"/><require probe="grip" measure="peak" max="2 uN"/><require probe="x"')

@@ -82,13 +82,13 @@ class Heated(unittest.TestCase):
         self.assertGreater(hot, cold)  # its legs are in tension
 
     def test_a_shuttle_pressed_from_both_sides(self):
-        """Each leg alone would bend the bars and the plate as a lever: 1.29 of what the legs store. Quadratic triangles on
-        the printed outline give a leg's end 34 to 135 of 1/(E h) along the leg, a leg 67: 0.16 to 0.35 of all"""
+        """Each leg alone would bend the plate as a lever. Quadratic triangles in plane stress on the drawn outline have, of what
+        the legs store, 0.85 % in the plate beyond one width behind the roots, 0.42 % beyond two"""
         self.file.write_text(chevron(heat=300))
         done = run("check", self.file, "--corners", "none", "--advice", "none", "--json")
         shares = [float(x) for x in re.findall(r'"bodies_give": ([0-9.e+-]+)', done.stdout)]
         self.assertEqual(len(shares), 1)
-        self.assertTrue(0.16 < shares[0] < 0.35, shares)
+        self.assertTrue(0.0042 < shares[0] < 0.0085, shares)
 
     def test_a_straight_chevron_buckles(self):
         """to either side, by what takes up the strain beyond Euler's of guided legs, in a half wave of the cosine:

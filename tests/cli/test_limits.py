@@ -282,7 +282,8 @@ class FatigueOfBodies(unittest.TestCase):
         self.assertEqual(self.judged(cycles=""), [])  # once it is borne
         self.assertEqual(self.judged(wide=36), [])
         self.assertEqual(self.last["verdict"], "accept")
-        self.assertTrue(1 < self.judged(wide=24)[0] < 1.3)
+        # 1.19 by the force on the tip; what the hinge brings is followed as far as it leads straight on, without what acts before: 1.22 times as much
+        self.assertTrue(1.19 < self.judged(wide=24)[0] < 1.5)
 
     def test_rims_of_release_holes_tire(self):
         held = dict(flow="soi-deep-rie", wide=130, fx=1000, length=400, leaf=60, die=' release-pitch="50 um"')
