@@ -6,6 +6,7 @@
 #include "base/arena.h"
 #include "base/status.h"
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct fw_text {
     fw_arena *arena;
@@ -96,6 +97,13 @@ const char *fw_text_name(const char *id);
 
 /* Of a list with ", " between its ids, for people: all where they are eight at most, else the first eight "and 92 more". NULL: memory is short, or there is no list */
 const char *fw_text_few(fw_arena *arena, const char *list);
+
+/* FNV-1a of bytes, or of words: where a key lies in a table in memory, and whether two are surely different. It is no
+   proof that they are alike. */
+static const uint64_t FW_HASH_BEGIN = 14695981039346656037u;
+static inline uint64_t fw_hash_add(uint64_t hash, uint64_t word) {
+    return (hash ^ word) * 1099511628211u;
+}
 
 /* SHA-256 (FIPS 180-4). */
 

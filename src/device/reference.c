@@ -56,10 +56,10 @@ static named name_of(const fw_device *d, fw_device_space space, size_t i) {
 
 /* ---- the index: open addressing, at most half full; the first of equal ids stays ---- */
 
-static uint64_t hash_of(const char *id) { /* FNV-1a */
-    uint64_t hash = 14695981039346656037u;
+static uint64_t hash_of(const char *id) {
+    uint64_t hash = FW_HASH_BEGIN;
     for (; *id; id++)
-        hash = (hash ^ (unsigned char)*id) * 1099511628211u;
+        hash = fw_hash_add(hash, (unsigned char)*id);
     return hash ^ (hash >> 32);
 }
 

@@ -9,6 +9,7 @@
 
    A pass is kept when it is asked for a second time: where all devices move differently nothing is kept.
    Test: test_tape.c */
+#include "base/text.h"
 #include "dynamics/run.h"
 #include <stdint.h>
 #include <string.h>
@@ -157,13 +158,13 @@ static fw_status put_pass(fw_dynamics_tapes *t, const fw_dynamics_run *r, const 
     return marked ? put(t, marked->mark_t, (size_t)marked->nmark) : FW_OK;
 }
 
-/* FNV-1a of the key's words */
+/* of the key's words */
 static uint64_t sum_of(const fw_dynamics_tapes *t) {
-    uint64_t sum = 14695981039346656037u;
+    uint64_t sum = FW_HASH_BEGIN;
     for (size_t i = 0; i < t->nkey; i++) {
         uint64_t word;
         memcpy(&word, &t->key[i], sizeof word);
-        sum = (sum ^ word) * 1099511628211u;
+        sum = fw_hash_add(sum, word);
     }
     return sum;
 }

@@ -7,6 +7,7 @@
    Source: Griewank and Walther, Evaluating Derivatives (SIAM 2008), chapter 13. Exact up to
    round-off; cost a few operations per step, no allocation. Test: test_program.c. */
 #include "quantity/program.h"
+#include "base/text.h"
 #include "maths/maths_interval.h"
 #include <float.h>
 #include <math.h>
@@ -438,15 +439,15 @@ void fw_quantity_program_range(const fw_quantity_program *p, double low_s, doubl
     value[0] = r.f.lo, value[1] = r.f.hi, slope[0] = r.d.lo, slope[1] = r.d.hi;
 }
 
-/* FNV-1a over the sides */
+/* of the sides */
 uint64_t fw_quantity_program_branches(const fw_quantity_program *program, double t_s) {
     sides s;
-    uint64_t hash = 14695981039346656037u;
+    uint64_t hash = FW_HASH_BEGIN;
     if (program->smooth) return hash;
     run(program, t_s, &s, true);
     int words = ((s.count < SIDES_MOST ? s.count : SIDES_MOST) + 63) / 64;
     for (int i = 0; i < words; i++)
-        hash = (hash ^ s.bit[i]) * 1099511628211u;
+        hash = fw_hash_add(hash, s.bit[i]);
     return hash;
 }
 

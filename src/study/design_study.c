@@ -2,6 +2,7 @@
 /* Studies as others ask for them: fw_design_study of the public library, with the options and settings of a
    design; and the points that a page looks at while somebody chooses them. */
 #include "base/json.h"
+#include "base/text.h"
 #include "plan/live.h"
 #include "report/report.h"
 #include "study/study_parts.h"
@@ -171,12 +172,12 @@ static fw_status ask_inputs(explored *e) {
 
 /* ---- the way of a verdict: what it says in words and whole numbers, in one number ---- */
 
-typedef struct way { /* FNV-1a of its words */
+typedef struct way {
     uint64_t sum;
 } way;
 
 static void add_byte(way *w, unsigned char byte) {
-    w->sum = (w->sum ^ byte) * 1099511628211u;
+    w->sum = fw_hash_add(w->sum, byte);
 }
 
 static void add_number(way *w, int number) {
@@ -238,7 +239,7 @@ static void add_variant(way *w, const fw_verdict_variant_verdict *v, int scenes)
 
 /* Between devices that have it alike what governs is not known to have an edge or a step. */
 static uint64_t way_of(const fw_verdict *verdict, int scenes) {
-    way w = {14695981039346656037u};
+    way w = {FW_HASH_BEGIN};
     add_number(&w, (int)verdict->decision), add_number(&w, (int)verdict->drawn);
     for (int i = 0; i < verdict->ncomputed; i++)
         add_number(&w, (int)verdict->computed[i].refinement);

@@ -2,6 +2,7 @@
 /* Devices that a flow may make of a description, as a limit state of independent standard normal numbers: each judged as
    made, once for its values, in threads, and kept in the store under its number. A shard judges what chooses later points
    and its share of the rest. Test: tests/cli/test_study.py */
+#include "base/text.h"
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include "verdict/verdict_fabrication.h"
@@ -107,9 +108,9 @@ static fw_status judge_kth(void *context, long k) {
 
 static size_t slot_of(const fw_study_yielding *y, const double *x) {
     size_t values = (size_t)y->scatter.npoint, n = values * sizeof *x, at = 0;
-    uint64_t hash = 14695981039346656037u; /* FNV-1a */
+    uint64_t hash = FW_HASH_BEGIN;
     for (const unsigned char *byte = (const unsigned char *)x; at < n; at++)
-        hash = (hash ^ byte[at]) * 1099511628211u;
+        hash = fw_hash_add(hash, byte[at]);
     size_t k = (size_t)(hash ^ (hash >> 29)) & (y->room - 1);
     while (y->value[k].i >= 0 && memcmp(y->key + k * values, x, n) != 0)
         k = (k + 1) & (y->room - 1);
