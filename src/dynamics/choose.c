@@ -357,11 +357,11 @@ static fw_status report_choice(fw_dynamics_recorder *record, const spectrum *s, 
    besides, by themselves. Test: test_choose.c */
 static void gentle(const fw_dynamics_problem *problem, const fw_effects_loads *loads, double time,
                    double wanted, bool forced, spectrum *s) {
-    if (s->touching > 0 && forced) return;
+    const fw_dynamics_motion *like = problem->options->like;
+    if ((s->touching > 0 && forced) || (like && like->stats.beyond > 1)) return;
     double unit = problem->model->scale.time_s;
     if (!fw_dynamics_run_gentle(problem, loads, s->slow / unit, wanted, !forced)) return;
-    s->slow = 2 * FW_PI / time;
-    s->ringing = 0;
+    s->slow = 2 * FW_PI / time, s->ringing = 0;
 }
 
 /* The cheaper of two costs, each a number of steps times instructions of a step. Explicit steps of order 8 are stable up to

@@ -7,6 +7,7 @@
 #ifndef FW_DYNAMICS_DYNAMICS_H
 #define FW_DYNAMICS_DYNAMICS_H
 #include "multibody/model.h"
+#include <stdatomic.h>
 
 struct fw_statics_level_step;
 
@@ -59,6 +60,14 @@ typedef struct fw_dynamics_tapes fw_dynamics_tapes;
 fw_status fw_dynamics_tapes_new(fw_arena *arena, fw_dynamics_tapes **tapes);
 void fw_dynamics_tapes_free(fw_dynamics_tapes *tapes); /* before its arena; NULL allowed */
 
+/* evaluations: all, and those with exact beams. Of several threads at a time */
+typedef struct fw_dynamics_spent {
+    atomic_llong all, beams;
+} fw_dynamics_spent;
+struct fw_dynamics_motion;
+/* those of this motion, and of the runs that it was found by, are counted elsewhere; NULL allowed, both */
+void fw_dynamics_spent_less(fw_dynamics_spent *spent, const struct fw_dynamics_motion *motion);
+
 typedef struct fw_dynamics_motion_options {
     const char *method;     /* a name of fw_multibody_method_at; NULL: chain */
     const char *integrator; /* a name of fw_dynamics_integrator_at; NULL: auto */
@@ -107,8 +116,9 @@ typedef struct fw_dynamics_motion_options {
     double (*unsettled)(const void *observed, const void *compared, double margin, double accuracy);
     fw_dynamics_tapes *tapes; /* where passes are looked up and kept; NULL: nowhere */
     const struct fw_dynamics_motion
-        *like; /* of a device much like this one in the same scene, which
+        *like;                /* of a device much like this one in the same scene, which
                                               says how tight a tolerance to begin with; or NULL */
+    fw_dynamics_spent *spent; /* by all runs, of motions that failed, too; NULL: nobody counts */
     /* errors are to be small enough, and nobody sees how small: no tolerance is tighter than they seem to need */
     bool sparing;
 } fw_dynamics_motion_options;
@@ -133,6 +143,9 @@ typedef struct fw_dynamics_travel_peak {
     double t_s, error_m;
 } fw_dynamics_travel_peak;
 
+/* times what is wanted that errors are where it may be vain to go on (dynamics_simulate.c) */
+enum { FW_DYNAMICS_VAIN = 10 };
+
 typedef struct fw_dynamics_motion_stats {
     long steps, rejected, rhs, projections;
     long events; /* stops and cables that took hold or let go, blows of drivers */
@@ -151,7 +164,9 @@ typedef struct fw_dynamics_motion_stats {
     double looser_rtol;    /* of the run that was compared with; 0: none */
     double needed_rtol;    /* of that run, at which errors would just have been small enough; 0: it
                               is not known */
-    int runs;              /* that were made in all; 1 for a sequence of equilibria */
+    double
+        beyond; /* errors over what was wanted, where no tolerance makes them smaller; 0: they are small enough */
+    int runs;                /* that were made in all; 1 for a sequence of equilibria */
     long all_steps, all_rhs; /* of them */
 } fw_dynamics_motion_stats;
 

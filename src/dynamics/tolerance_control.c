@@ -127,8 +127,9 @@ static void set_margins(const fw_dynamics_controller *control, fw_dynamics_toler
 static fw_dynamics_tolerances tolerances_at(const fw_dynamics_controller *control, double looser,
                                             double rtol) {
     double tightest = fw_dynamics_tolerance_tightest(control->problem);
+    const double rounded = 1 + 1e-9; /* of a quotient that comes to the tightest one */
     fw_dynamics_tolerances p = {.looser = looser, .rtol = rtol};
-    if (p.rtol <= tightest)
+    if (p.rtol <= rounded * tightest)
         return (fw_dynamics_tolerances){.looser = 100 * tightest, .rtol = tightest, .margin = 1};
     set_margins(control, &p);
     return p;
@@ -173,6 +174,9 @@ static double known_of(const fw_dynamics_motion *like, double wanted) {
 fw_dynamics_tolerances fw_dynamics_tolerance_start(const fw_dynamics_controller *control,
                                                    const fw_maths_stepper_row *row, double wanted) {
     const fw_dynamics_motion_options *o = control->problem->options;
+    if (o->unsettled && o->like &&
+        o->like->stats.beyond >= FW_DYNAMICS_VAIN) /* as far as that went, and no farther */
+        return tolerances_at(control, o->like->stats.looser_rtol, o->like->stats.rtol);
     if (o->unsettled)
         return tolerances_below(control, fmin(fmin(1e-4, wanted / 100), known_of(o->like, wanted)));
     if (control->problem->sudden) return tolerances_below(control, wanted / 30);
@@ -334,6 +338,7 @@ static void warn_energy(const fw_dynamics_run *r) {
 
 /* what was chosen and why */
 static fw_status report_tolerance(fw_dynamics_recorder *record, bool enough) {
+    const double tightest = fw_dynamics_tolerance_tightest(record->problem);
     const fw_dynamics_motion_stats *s = &record->motion->stats;
     bool asked = record->problem->options->rtol > 0;
     char wanted[32], rtol[32], error[32], looser[32];
@@ -346,7 +351,10 @@ static fw_status report_tolerance(fw_dynamics_recorder *record, bool enough) {
         fw_text_printf(&text, "rtol %s was asked for", rtol);
     else
         fw_text_printf(&text, "rtol %s is %s for %s %%", rtol,
-                       enough ? "enough" : "not enough and the tightest that there is", wanted);
+                       enough                   ? "enough"
+                       : s->rtol > 2 * tightest ? "not enough, and a tighter one would not be,"
+                                                : "not enough and the tightest that there is",
+                       wanted);
     if (s->looser_rtol > 0)
         fw_text_printf(&text,
                        ": by a run at %s that it was compared with, peaks are off by at most %s %%",

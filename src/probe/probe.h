@@ -141,6 +141,9 @@ fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
 /* an fw_dynamics_observer of whole instants; context is the monitor */
 void fw_probe_monitor_record(void *context, const fw_dynamics_instant *instant);
 
+/* an fw_dynamics_glance: no extreme that is followed lies in the step, which its thirds stand for; they are not recorded yet */
+bool fw_probe_monitor_glance(const fw_probe_monitor *monitor, const fw_dynamics_instant *third);
+
 /* an fw_dynamics_tracer, which gaps need; context is the monitor */
 void fw_probe_monitor_trace(void *context, const fw_dynamics_piece *piece);
 

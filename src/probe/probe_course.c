@@ -124,6 +124,41 @@ void fw_probe_monitor_record(void *context, const fw_dynamics_instant *now) {
         memset(w->course, 0, n * sizeof *w->course);
 }
 
+/* ---- the thirds of a step ---- */
+
+/* Between places evenly apart a parabola leaves its values by an eighth of their second difference, and what is smooth leaves
+   the parabola by less than the third one. Half of the second one and all of the third must stay short of the extremes so
+   far: so no sine of up to 2.1 rad a third comes to them, whatever its phase (a search over both); more than 2 rad no
+   explicit step has that is stable. Test: test_probe.c thirds_of_a_sine */
+static bool stays_within(const double s[4], double low, double high) {
+    const double bend = fmax(fabs(s[0] - 2 * s[1] + s[2]), fabs(s[1] - 2 * s[2] + s[3])),
+                 beyond = bend / 2 + fabs(s[0] - 3 * s[1] + 3 * s[2] - s[3]);
+    for (int i = 0; i < 4; i++)
+        if (!(s[i] - beyond > low && s[i] + beyond < high)) return false;
+    return true;
+}
+
+bool fw_probe_monitor_glance(const fw_probe_monitor *w, const fw_dynamics_instant *third) {
+    if (w->loads != third[0].loads || !w->probe) return false;
+    for (int i = 0; i < fw_probe_count(w->mechanism); i++) {
+        const fw_probe_course *c = &w->course[i];
+        if (!looks_at(w, i)) continue;
+        double s[4] = {c->s[1]}, across[4] = {c->a[1]};
+        for (int k = 0; k < FW_THIRDS; k++) {
+            const fw_probe_state state = fw_probe_state_of(&third[k]);
+            s[k + 1] = fw_probe_value(&w->probe[i], &state);
+            across[k + 1] = fw_probe_across(&w->probe[i], &state);
+        }
+        if (isnan(s[1]) && c->count == 0) continue;
+        if (c->samples < 2 || (w->history && w->history[i]) ||
+            !stays_within(s, c->minimum.value, c->maximum.value))
+            return false;
+        if (!isnan(across[1]) && !stays_within(across, -c->across.value, c->across.value))
+            return false;
+    }
+    return true;
+}
+
 /* the straight ways of jumps are no part of the motion */
 void fw_probe_monitor_trace(void *context, const fw_dynamics_piece *piece) {
     fw_probe_monitor *w = context;

@@ -45,6 +45,7 @@ typedef struct fw_verdict_trial_end { /* the device with one parameter at its mi
 typedef struct fw_verdict_trial {
     double work;                /* fw_verdict_options.work of the trials so far */
     double most_work;           /* no search goes on beyond that */
+    fw_dynamics_spent spent;    /* evaluations that `work` does not have yet */
     fw_progress_whole told;     /* of the trial that is run */
     double excess_as_described; /* fw_verdict_trial_excess before anything was changed */
     fw_arena *arena;            /* of the plan: outlives the trial */

@@ -194,6 +194,7 @@ static bool refinement_may_decide(const fw_verdict_variant_verdict *now) {
     fw_verdict_refinement refinement = fw_verdict_refinement_of(now->hinge, now->nhinge);
     if (refinement == FW_REFINE_NOTHING)
         refinement = fw_verdict_requirements_refinement(now->requirement, now->nrequirement);
+    if (fw_verdict_in_vain(now, 1)) return false;
     return refinement == FW_REFINE_NUMBERS || fw_verdict_across_open(now);
 }
 

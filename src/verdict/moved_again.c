@@ -357,3 +357,15 @@ fw_status fw_verdict_tell_repeated(fw_arena *arena, const fw_verdict_strain_moni
     }
     return FW_OK;
 }
+
+/* ---- what no closer look makes better ---- */
+
+bool fw_verdict_in_vain(const fw_verdict_variant_verdict *v, double times) {
+    bool any = false;
+    for (int i = 0; v->motion && v->mechanism && i < v->mechanism->device->nscene; i++) {
+        if (!v->motion[i]) continue;
+        any = true;
+        if (!(v->motion[i]->stats.beyond > times)) return false;
+    }
+    return any;
+}

@@ -270,6 +270,7 @@ static fw_status move_it(fw_arena *arena, const fw_mechanism *m, const fw_device
     o.glance = NULL, o.unsettled = NULL, o.other = NULL;
     o.like = NULL, o.tapes = NULL, o.late_rows = false, o.most_angle_rad = FW_TURN;
     o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
+    if (o.alone) o.integrator = like->integrator; /* found by trying */
     o.samples = like->nsample, o.hinge_accuracy = 1;
     o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
     const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, &x);

@@ -451,10 +451,9 @@ fw_status fw_verdict_soft_overtakes(fw_arena *arena, const fw_effect_choice *wit
 
 typedef struct fw_verdict_hinge_peak {
     fw_verdict_largest strain;
-    double least;  /* of what it is at least, of the instants alone */
-    double most;   /* and at most; likewise */
-    double forced; /* largest |strain less that of the rotation alone| at an instant */
-    bool lost;     /* at an instant it was not known, first at lost_s; such are left out */
+    double least, most; /* of what it is at least and at most, of the instants alone */
+    double forced;      /* largest |strain less that of the rotation alone| at an instant */
+    bool lost;          /* at an instant it was not known, first at lost_s; such are left out */
     double lost_s;
 } fw_verdict_hinge_peak;
 
@@ -477,6 +476,7 @@ typedef struct fw_verdict_strain_monitor { /* of one run */
     fw_arena *arena;
     fw_flexure_elastica **beam; /* (nhinge) made when first needed; NULL: not yet */
     bool no_memory; /* for them: strains are those of the closed form, and the run has failed */
+    long glances;   /* steps of this run that were offered as thirds */
     fw_verdict_hinge_peak *hinge;                 /* (nhinge) */
     struct fw_verdict_clearance_watch *clearance; /* verdict_parts.h */
     fw_maths_turning (*root)[FW_FACES]; /* (nhinge) of the strain at both faces of both roots;

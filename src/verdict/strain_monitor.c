@@ -133,6 +133,7 @@ void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *
     if (w->probe) fw_probe_monitor_record(w->probe, now);
     if (now && now->hinge == FW_HINGE_ELASTICA && !w->beam && !w->no_memory)
         w->no_memory = make_beams(w) != FW_OK;
+    if (!now) w->glances = 0;
     if (w->bending.hardest_N) fw_verdict_bending_record(&w->bending, w->mechanism, now);
     fw_verdict_touch_record(w, now);
     for (int k = 0; k < w->mechanism->nhinge; k++) {
@@ -172,10 +173,15 @@ static bool is_enough_to_count(const fw_maths_turning *face, double peak,
     return true;
 }
 
+/* steps of a run that are looked at closely where anything is probed; of those behind them only where it may come to more */
+static const long fw_closely_seen = 4096;
+
 bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *third) {
     fw_verdict_strain_monitor *w = context;
     int n = w->mechanism->nhinge;
-    if (w->probe || n > FW_GLANCED) return false;
+    if (n > FW_GLANCED ||
+        (w->probe && (w->glances++ < fw_closely_seen || !fw_probe_monitor_glance(w->probe, third))))
+        return false;
     fw_verdict_hinge_strains strain[FW_GLANCED][FW_THIRDS];
     for (int k = 0; k < n; k++) {
         if (w->hinge[k].strain.samples < 2) return false;
@@ -192,8 +198,10 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
         }
     for (int i = 0; w->bending.hardest_N && i < FW_THIRDS; i++)
         fw_verdict_bending_record(&w->bending, w->mechanism, &third[i]);
-    for (int i = 0; i < FW_THIRDS; i++)
+    for (int i = 0; i < FW_THIRDS; i++) {
         fw_verdict_touch_record(w, &third[i]);
+        if (w->probe) fw_probe_monitor_record(w->probe, &third[i]);
+    }
     return true;
 }
 

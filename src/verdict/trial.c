@@ -337,7 +337,7 @@ static fw_verdict_options options_of(fw_verdict_trial *trial, fw_verdict_look lo
     fw_verdict_options o = *trial->options;
     o.coarse_first = true;
     if (o.corners == FW_CORNERS_AUTO) o.corners = FW_CORNERS_FIRST;
-    o.work = &trial->work;
+    o.work = &trial->work, o.motion.spent = &trial->spent;
     o.values = true; /* of clearances: they say which corners are run */
     trial->brief = look != FW_LOOK_VALUES;
     if (look == FW_LOOK_WHOLE) return o;
@@ -444,6 +444,14 @@ static fw_status keep_accepted(fw_verdict_trial *trial, const fw_device_set *set
     return FW_OK;
 }
 
+/* evaluations of motions that failed or were computed again, in those of hinges as work_of of variant.c has them */
+static void count_spent(fw_verdict_trial *trial) {
+    const double beam = 30, all = (double)atomic_exchange(&trial->spent.all, 0),
+                 beams = (double)atomic_exchange(&trial->spent.beams, 0);
+    const int hinges = trial->device->nrevolute;
+    trial->work += fmax(all, 0) * (hinges + 1) + fmax(beams, 0) * (beam - 1) * hinges;
+}
+
 fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set *set, int nset,
                                    fw_verdict_look look) {
     const fw_verdict_options o = options_of(trial, look);
@@ -451,6 +459,7 @@ fw_status fw_verdict_trial_restate(fw_verdict_trial *trial, const fw_device_set 
     FW_NEED(scratch);
     fw_status status = restate(trial, scratch, set, nset, &o);
     fw_arena_free(scratch);
+    count_spent(trial);
     for (int k = 0; k < trial->nhinge; k++) /* their names are gone */
         trial->hinge[k].scene = trial->hinge[k].flow = NULL;
     if (status == FW_OK)
@@ -509,5 +518,6 @@ fw_status fw_verdict_trial_run(fw_verdict_trial *trial, fw_verdict_look look) {
         trial->decision = FW_REJECT;
     }
     fw_arena_free(scratch);
+    count_spent(trial);
     return status == FW_NOMEM || status == FW_CANCELLED ? status : FW_OK;
 }

@@ -338,6 +338,7 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         FW_TRY(fw_verdict_scene(arena, scene, (int)i, &motion, diags, v));
         if (monitor[i].no_memory) return FW_NOMEM;
         if (options->work && v->motion[i]) *options->work += work_of(m, scene, v->motion[i]);
+        fw_dynamics_spent_less(motion.spent, v->motion[i]);
         /* a glance of a search takes bodies as beams: what it finds is judged with all */
         const bool beams = options->work && options->at_a_glance;
         FW_TRY(fw_verdict_bending_end(arena, beams ? NULL : layout, &monitor[i], &other[i], v));

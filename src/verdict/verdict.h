@@ -586,6 +586,8 @@ typedef struct fw_verdict_from_outside {
 } fw_verdict_from_outside;
 fw_status fw_verdict_outside(fw_arena *arena, const fw_device *device, const fw_verdict *verdict,
                              const fw_verdict_from_outside **outside, int *n);
+/* no tolerance makes errors of its motions smaller, which are more than so many times what was wanted, each of them */
+bool fw_verdict_in_vain(const fw_verdict_variant_verdict *v, double times);
 /* advice_note where no advice was asked for */
 extern const char fw_verdict_not_searched[];
 /* of what is not accepted, where advice is asked for: proposals, each one run, the value of each

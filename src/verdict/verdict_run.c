@@ -337,7 +337,14 @@ static bool goes_further(fw_verdict_refinement refinement, fw_verdict_refinement
     return false;
 }
 
-/* of hinges, requirements and what tips, whichever goes further */
+static bool all_in_vain(const fw_verdict *verdict, double times) {
+    for (int i = 0; i < verdict->nvariant; i++)
+        if (!fw_verdict_in_vain(&verdict->variant[i], times)) return false;
+    return verdict->nvariant > 0;
+}
+
+/* of hinges, requirements and what tips, whichever goes further; where no tolerance makes numbers better only better hinges,
+   if those are not lost in the numbers */
 static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
     fw_verdict_refinement most = fw_verdict_refinement_of(verdict->hinge, verdict->nhinge);
     for (int i = 0; i < verdict->nvariant; i++) {
@@ -347,7 +354,8 @@ static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
         if (goes_further(also, most)) most = also;
         if (most == FW_REFINE_NOTHING && fw_verdict_across_open(v)) most = FW_REFINE_NUMBERS;
     }
-    return most;
+    if (all_in_vain(verdict, FW_DYNAMICS_VAIN)) return FW_REFINE_NOTHING;
+    return most == FW_REFINE_NUMBERS && all_in_vain(verdict, 1) ? FW_REFINE_HINGES : most;
 }
 
 /* what was computed stays in the arena when it is computed once more */

@@ -70,6 +70,40 @@ static void a_jump_is_no_peak(void **state) {
     fw_arena_free(f.arena);
 }
 
+/* a third of a step is up to 2.1 rad of a sine: steps whose thirds stand for them never hold an extreme beyond those so far,
+   at any phase; and most steps of a swing that is not the largest do stand */
+static void thirds_of_a_sine(void **state) {
+    (void)state;
+    int stood = 0, of = 0;
+    for (int n = 1; n <= 42; n++)
+        for (int k = 0; k < 90; k++) {
+            const double third = 0.05 * n, at = acos(-1.0) * k / 45, most = n % 2 ? 1 : 1.2;
+            fixture f;
+            begin(&f);
+            f.history = false;
+            show(&f, -3, -most, true), show(&f, -2, most, false), show(&f, -1, 0, false);
+            show(&f, 0, sin(at), false);
+            f.monitor.course->maximum.value = most, f.monitor.course->minimum.value = -most;
+            double angle[FW_THIRDS], top = sin(at);
+            fw_dynamics_instant now[FW_THIRDS];
+            double q[FW_THIRDS][3] = {{0}};
+            for (int i = 0; i < FW_THIRDS; i++) {
+                q[i][2] = angle[i] = sin(at + (i + 1) * third);
+                now[i] = (fw_dynamics_instant){
+                    .t_s = i + 1, .piece_s = i + 1, .q = q[i], .loads = &f.loads};
+            }
+            for (int i = 0; i <= 300; i++)
+                top = fmax(top, fabs(sin(at + i * third / 100)));
+            const bool stands = fw_probe_monitor_glance(&f.monitor, now);
+            if (most <= 1) assert_false(stands && top > 0.999999);
+            stood += stands && most > 1 && third<0.3, of += most> 1 && third < 0.3;
+            f.history = true;
+            assert_false(fw_probe_monitor_glance(&f.monitor, now)); /* whose course is kept */
+            fw_arena_free(f.arena);
+        }
+    assert_int_equal(stood, of);
+}
+
 /* e^-t cos(10 t) about 0: within 0.1 for good from where e^-t cos(10 t) = +-0.1 last */
 static void settles_at_the_last_crossing(void **state) {
     (void)state;
@@ -234,6 +268,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_extremes_between_instants),
         cmocka_unit_test(a_jump_is_no_peak),
+        cmocka_unit_test(thirds_of_a_sine),
         cmocka_unit_test(settles_at_the_last_crossing),
         cmocka_unit_test(looks_at_what_is_asked_for),
         cmocka_unit_test(an_error_has_the_share_of_the_motion_and_rounding),
