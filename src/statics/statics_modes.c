@@ -592,6 +592,7 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
         to->softer = as_shapes_are(&w.reduced, found, next.softer);
         FW_TRY(set_errors(&w, next.each, to));
+        FW_TRY(fw_statics_films_raise(arena, mechanism, scene, diags, to));
         if (!fw_statics_level_climb(&step, accuracy, &options->effects, &choice)) return FW_OK;
         choice.below_of = of_any;
     }

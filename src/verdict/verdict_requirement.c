@@ -574,7 +574,7 @@ static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verd
     decide(r);
     fw_verdict_requirement_shaken(s->required, s->required_late,
                                   m->device->requirement[r->asked].measure, r);
-    return FW_OK;
+    return fw_verdict_requirement_lacking(v, r);
 }
 
 fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
