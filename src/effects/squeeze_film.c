@@ -234,7 +234,7 @@ bool fw_effects_squeeze_push(const fw_effect_case *c, const fw_device_air *a, do
 
    and the damper alone is short of it by D = K - i w c = sum of k w^2 t^2/(1 + i w t). In: SI; out: K, N/m, and |D|. Terms up
    to m, n = 31: K within 3 %, and Im K, by which D is divided, too small. Source: W. E. Langlois, Quart. Appl. Math. 20
-   (1962) 131; Blech, as above. Test: test_air.c compressed_film (differences in time), test_film_lacks.py */
+   (1962) 131; Blech, as above. Test: test_air.c compressed_film (differences in time), test_film_springs.py */
 enum { TERMS_MOST = 31 };
 static const double fw_terms_miss = 1.04; /* the spring is at most so many times what these have */
 

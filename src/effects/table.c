@@ -227,8 +227,9 @@ static fw_status take_lacking(const fw_effect_case *c, int i, fw_effect_entry *e
     FW_TRY(rows[i]->lacking(c, &share, &words));
     if (!(share > 0)) return FW_OK;
     ledger->beside += share / (1 + share);
+    ledger->lacking_share = share;
     if (!words || share < fw_lacking_told) return FW_OK;
-    ledger->lacking = words, ledger->lacking_share = share;
+    ledger->lacking = words;
     fw_percent_text(text, sizeof text, share);
     FW_NEED(e->reason = fw_arena_printf(c->arena, "%s; %s: %s %% of what is seen, in every band",
                                         e->reason, words, text));

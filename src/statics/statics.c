@@ -524,6 +524,18 @@ fw_status fw_statics_stressed_way(fw_arena *arena, const fw_mechanism *m,
     return way_of(arena, m, &stressed, way, known);
 }
 
+/* ---- what frequencies are off by ---- */
+
+/* Of a frequency, by the error e of its stiffness: half of it, and above a tenth 1 - sqrt(1 - e), which is the larger of
+   both sides (5 % of half of it more there), and all of it from e = 1 on: nothing may be left. */
+double fw_statics_root_error(double error) {
+    return error > 0.1 ? 1 - sqrt(1 - fmin(error, 1)) : 0.5 * error;
+}
+
+double fw_statics_mode_error(const fw_statics_mode *mode) {
+    return mode->model_error + fw_statics_root_error(mode->stiffness_error);
+}
+
 /* ---- films of gas that are springs as well (effects/squeeze_film.c) ---- */
 
 fw_status fw_statics_films_raise(fw_arena *arena, const fw_mechanism *m,

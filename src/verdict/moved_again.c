@@ -378,11 +378,9 @@ fw_status fw_verdict_requirement_lacking(const fw_verdict_variant_verdict *v,
                       measure == FW_MEASURE_PARASITIC || measure == FW_MEASURE_SETTLING;
     const double from = isfinite(r->origin) ? r->origin : 0,
                  far = fmax(r->swing, fmax(fabs(r->high - from), fabs(r->low - from)));
-    if (size)
-        fw_verdict_requirement_widen(r->low * share / (1 + share),
-                                     isfinite(r->high) ? r->high * share : 0, r);
-    else
-        fw_verdict_requirement_widen(share * far, share * far, r);
+    r->low -= size ? r->low * share / (1 + share) : share * far;
+    r->high += size ? r->high * share : share * far;
+    if (r->size) r->low = fmax(0, r->low);
     if (r->value != 0 && isfinite(share)) r->lasting += share;
     return FW_OK;
 }
@@ -408,14 +406,19 @@ fw_status fw_verdict_tell_lacking(fw_arena *arena, fw_verdict_variant_verdict *v
         const fw_effect_ledger *l = v->motion[i] ? &v->motion[i]->ledger : NULL;
         if (!l || !l->lacking || !(l->lacking_share > lacks_enough) || !undecided_in(v, i))
             continue;
-        FW_TRY(fw_verdict_scene_reason(
-            v, &d->scene[i], 753, FW_INCONCLUSIVE, FW_VERDICT_KEEP_MOST,
-            fw_arena_printf(
-                arena,
-                "in %s%s %s; bands reach to %s times what the motion has: widen the gap, "
-                "make the wall smaller, drive it more slowly, or ask for less",
-                FW_NAMED("scene", d->scene[i].name), l->lacking,
-                fw_number_text(by, sizeof by, 1 + l->lacking_share, 3))));
+        const char *text = fw_arena_printf(arena,
+                                           "in %s%s %s; bands reach to %s times what the motion "
+                                           "has: widen the gap, make the wall smaller, drive "
+                                           "it more slowly, or ask for less",
+                                           FW_NAMED("scene", d->scene[i].name), l->lacking,
+                                           fw_number_text(by, sizeof by, 1 + l->lacking_share, 3));
+        FW_NEED(text);
+        v->reason[v->nreason++] = (fw_verdict_reason){.scene = d->scene[i].name,
+                                                      .flow = v->mechanism->variant->flow,
+                                                      .number = 753,
+                                                      .decision = FW_INCONCLUSIVE,
+                                                      .keep = FW_VERDICT_KEEP_MOST,
+                                                      .text = text};
     }
     return FW_OK;
 }

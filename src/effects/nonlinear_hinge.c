@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far the peaks of a mechanism with ideal pins are from those of one whose hinges give and
+/* Flexures as they are instead of pins (the element is in hinge_element.c, the law in flexure/finite.c): the row, and its bound.
+   How far the peaks of a mechanism with ideal pins are from those of one whose hinges give and
    drift. Two motions under the same loads are known up to their peaks (peaks.c): the linear one
    with pins (a), and the one with hinges as springs and with what of a hinge is not linear along it
    (b; hinge_source.c). To |peak a - peak b| is added, with u the nonlinearity estimate of the
@@ -300,7 +301,7 @@ fw_status fw_effects_hinge_give_bound(const fw_effect_case *c, double *value, co
     return FW_OK;
 }
 
-/* Which gaps the motion can close at all: hinges by the give and drift of W (hinge_give.c), points
+/* Which gaps the motion can close at all: hinges by the give and drift of W (above), points
    by the reach of their bodies. Inputs SI from the envelope. Test:
    test_hinge_give.c, test_contact.c. */
 
