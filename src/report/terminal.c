@@ -318,13 +318,13 @@ static void placed(fw_text *out, const fw_verdict_variant_verdict *of) {
             fw_text_printf(out, "; the flexures open it with %s uN",
                            fw_number_text(opens, sizeof opens, 1e6 * c->opens_N[0], 3));
         if (isfinite(c->opens_N[0]) && c->radius_m > 0)
-            fw_text_printf(
-                out,
-                ", which takes a ball of radius %s um off a work of adhesion up to %s mJ/m2 "
-                "(JKR, 2 F/(3 pi R))",
-                fw_number_text(radius, sizeof radius, 1e6 * c->radius_m, 3),
-                fw_number_text(work, sizeof work, 2e3 * c->opens_N[0] / (3 * FW_PI * c->radius_m),
-                               3));
+            fw_text_printf(out,
+                           ", which takes a ball of relative radius %s um off a work of adhesion "
+                           "up to %s mJ/m2 "
+                           "(JKR, 2 F/(3 pi R))",
+                           fw_number_text(radius, sizeof radius, 1e6 * c->radius_m, 3),
+                           fw_number_text(work, sizeof work,
+                                          2e3 * c->opens_N[0] / (3 * FW_PI * c->radius_m), 3));
         fw_text_add(out, "\n");
     }
 }
