@@ -116,7 +116,11 @@ static void hinge_text(fw_text *out, const fw_plan_ladders *all, const fw_plan_l
     fw_text_real(out, "%.5e", l->mechanism->pin[h->pin].stiffness_Nm_per_rad);
     fw_text_add(out, " N m/rad");
     if (hypot(c->offset_m[0], c->offset_m[1]) > 5e-10) {
-        fw_text_add(out, ",\n    crystal moves the elastic centre by ");
+        fw_text_add(
+            out, h->input.crystal.known
+                     ? ",\n    crystal moves the elastic centre by "
+                     : ",\n    bends of different radius, which the layer's depth stiffens unlike, "
+                       "move the elastic centre by ");
         fw_text_real(out, "%.3f", c->offset_m[0] * 1e6);
         fw_text_add(out, " um along and ");
         fw_text_real(out, "%.3f", c->offset_m[1] * 1e6);

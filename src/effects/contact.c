@@ -456,7 +456,7 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
 }
 
 /* 0 where the envelope of the motion leaves every gap open (hinges: force and drift of W by
-   hinge_give.c; points: reach of their bodies, and the same for every hinge on the way); otherwise
+   nonlinear_hinge.c; points: reach of their bodies, and the same for every hinge on the way); otherwise
    what it changes is everything behind the touch. Test: test_contact.c. */
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     *value = (double)INFINITY;

@@ -159,7 +159,7 @@ const char *fw_effects_hinge_forced_reason(const fw_effect_choice *choice);
 fw_status fw_effects_hinge_settle(const fw_effect_case *c, const fw_effect_choice *choice,
                                   fw_effect_ledger *ledger, fw_effects_loads *loads);
 
-/* ---- air.c, and its tests ---- */
+/* ---- air.c, squeeze_film.c, and their tests ---- */
 
 typedef struct fw_effects_gas { /* dry air, or what the scene states of it */
     double pressure_Pa, temperature_K, viscosity_Pas, density_kg_per_m3;
@@ -203,6 +203,15 @@ fw_effects_squeeze fw_effects_air_squeeze(const fw_effects_gas *gas, double leng
 double fw_effects_squeeze_at(const fw_effects_squeeze *film, double gap_m, double *slope);
 double fw_effects_air_depth(const fw_mechanism *mechanism,
                             const fw_device_air *air); /* NaN: not known */
+/* its element; what it pushes with at most within the envelope: force (3 nbody) +=, false: nothing bounds that */
+fw_status fw_effects_squeeze_add(const fw_effect_case *c, fw_effects_loads *loads,
+                                 const fw_device_air *air);
+bool fw_effects_squeeze_push(const fw_effect_case *c, const fw_device_air *air, double *force);
+/* K(i omega) of the gas as it is compressed and flows, N/m, and by how much the damper alone is off it */
+double fw_effects_squeeze_lacks_N_per_m(const fw_effects_gas *gas, double length_m, double depth_m,
+                                        double gap_m, double omega_per_s, double stiffness[2]);
+/* what the films of a scene lack as dampers: the share of what is seen by which a value may be off; words: NULL, nothing */
+fw_status fw_effects_squeeze_lacking(const fw_effect_case *c, double *share, const char **words);
 
 /* ---- ends of fingers (element.c) ---- */
 

@@ -134,9 +134,8 @@ typedef enum fw_effect_mode {
     FW_EFFECTS_LIST,
     FW_EFFECTS_WHOLE /* all, without having been asked for: equilibria and modes for auto */
 } fw_effect_mode;
-/* How flexures enter the mechanism, the cheapest first. AUTO: pins where the bound on what they
-   change is below the accuracy, else compliance, and elastica where the step there is computed to
-   change more than the accuracy (statics/statics.h). */
+/* How flexures enter the mechanism, the cheapest first. AUTO: pins where the bound on what they change is below the accuracy,
+   else compliance, and elastica where the step there is computed to change more than the accuracy (statics/statics.h). */
 typedef enum fw_effects_hinge_model {
     FW_HINGE_AUTO,
     FW_HINGE_REVOLUTE,   /* pins at the elastic centres */
@@ -157,10 +156,9 @@ typedef struct fw_effect_choice {
     bool ended;     /* hinge is ELASTICA because the closed form does not hold where this leads */
     bool elsewhere; /* likewise, because exact beams may rest elsewhere */
     bool untold;    /* nobody reads bounds: those that decide nothing are not found */
-    double
-        stiffer; /* all flexures have 1 + this times their stiffness, as if their modulus had; 0: as described */
-    double
-        along; /* and beside that 1 + this times their stiffness against forces: of leaves along the strip alone */
+    /* All flexures have 1 + `stiffer` times their stiffness, as if their modulus had (0: as described), and beside that 1 + `along`
+       times their stiffness against forces: of leaves along the strip alone */
+    double stiffer, along;
     const struct fw_effect_ledger *like; /* of a device much like this one, or NULL: what acts there
                                             by far is taken to act here without finding its bound */
 } fw_effect_choice;
@@ -176,10 +174,11 @@ typedef struct fw_effects_hinge_use { /* how the hinges were taken */
 typedef struct fw_effect_entry { /* a line of the ledger */
     const char *id;
     bool called_for, active;
-    double bound; /* on the relative change of the peak hinge deflection when left out; inf when
-                     the effect is the motion itself; 0 when it is not called for */
-    double cost;  /* instructions per right-hand side that it takes when it is on, as measured once
-                     (docs/theory/effects/costs.md); 0 when it is not called for */
+    double
+        bound; /* on the relative change of the peak hinge deflection when left out; inf when the effect is the motion */
+    double
+        cost; /* instructions per right-hand side when it is on, as measured once (docs/theory/effects/costs.md) */
+    /* both are 0 when it is not called for */
     const char *reason;
     const char *looked_at; /* why auto keeps it whatever its bound is (fw_effect_row); or NULL */
 } fw_effect_entry;
@@ -187,20 +186,19 @@ typedef struct fw_effect_ledger {
     fw_effect_entry *item; /* (count) */
     int count;
     double left_out; /* sum of the bounds of what auto left out; 0 where the choice was asked for */
-    double
-        beside; /* likewise of what no motion has, whatever was asked for; where nothing bounds it, and it is
-                      small, twice the share by which it may change forces */
-    double beside_rad; /* what those of it do at most that are bounded alone */
-    double rubs;       /* share by which they change the tension of a cable that bends */
-    const char
-        *undecided; /* what no motion has, matters and nothing bounds: a sentence; NULL: nothing */
-    double undecided_share; /* by which it may change forces */
+    /* likewise of what no motion has, whatever was asked for; where nothing bounds it, and it is small, twice the share by which
+       it may change forces; what those do at most that are bounded alone */
+    double beside, beside_rad;
+    double rubs; /* share by which they change the tension of a cable that bends */
+    /* What no motion has, matters and nothing bounds, a sentence; what the formula of an active effect leaves out, a clause,
+       which is in every band; NULL: nothing. By which they may change forces; of what is seen */
+    const char *undecided, *lacking;
+    double undecided_share, lacking_share;
     /* share of the largest deflection that what is looked at by its velocity moves: the bound of inertia where auto keeps
        it for that; else infinite */
     double swing;
     fw_effects_hinge_use hinge;
 } fw_effect_ledger;
-
 /* ---- what acts, compiled to plain arrays in SI; an absent effect leaves no entry behind ---- */
 typedef struct fw_effects_torsion { /* per pin with a spring or damper */
     int pin, body_a, body_b;
@@ -388,6 +386,9 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     /* of such an effect whose forces are what they are however far the motion goes: by how many rad all of it may turn a
        hinge further (infinite: nothing bounds that), and by what share it changes a tension; NULL: its bound is one of others */
     fw_status (*alone)(const fw_effect_case *c, double *rad, double *share);
+    /* of what acts: what its own formula leaves out of it, as a share of what is seen by which values may be off, in every band,
+       and in words (NULL: nothing); the member NULL: nothing */
+    fw_status (*lacking)(const fw_effect_case *c, double *share, const char **words);
     /* its part of the sentence about a scene, each item behind "; "; NULL: nothing that the scene
        states */
     void (*describe)(const fw_device *device, const fw_device_scene *scene,
@@ -580,11 +581,10 @@ const fw_device_comb *fw_effects_levitation_lift(const fw_mechanism *mechanism,
 
 /* ---- adhesion.c: surfaces that have met ---- */
 
+/* of surfaces of a hinge that is drawn, or of bodies of known radius, in a flow that knows their adhesion */
 typedef struct fw_effects_adhered {
-    bool
-        known; /* surfaces of a hinge that is drawn, or two bodies of known radius; a flow that knows their adhesion */
-    double holds_N,
-        opens_N; /* at most, by adhesion; what the flexure of a hinge alone gives back where they touch */
+    bool known;
+    double holds_N, opens_N; /* at most, by adhesion; what a hinge's flexure alone gives back */
 } fw_effects_adhered;
 fw_effects_adhered fw_effects_adhesion_of(const fw_effect_case *effect_case,
                                           const fw_device_contact_use *use,

@@ -42,6 +42,12 @@ typedef struct fw_effects_envelope {
                           says so */
 } fw_effects_envelope;
 
+/* m or m/s: how far or fast a point of a body can get, arm in m; way: reach or speed */
+static inline double fw_effects_envelope_point(const double *way, int body, double arm_m) {
+    if (body == FW_GROUND) return 0;
+    return hypot(way[3 * body], way[3 * body + 1]) + arm_m * way[3 * body + 2];
+}
+
 /* of the scene with everything that it calls for and that linear theory can take in; what is
    `kept` first, so that an effect's `add` sees at least that envelope */
 fw_status fw_effects_envelope_find(fw_arena *arena, const fw_mechanism *mechanism,
@@ -90,6 +96,12 @@ double fw_effects_envelope_varying(const fw_effect_case *c, double part);
    among those of the envelope: what the motion is without them. envelope_strain.c */
 fw_status fw_effects_envelope_strain(const fw_effect_case *c, const double *strain,
                                      const fw_quantity_law *law, double *bound);
+
+/* squeeze_film.c, rad/s: where a mode of this shape (3 nbody) and modal mass is at most with the springs of the squeezed films
+   of a scene */
+fw_status fw_effects_squeeze_raised(fw_arena *arena, const fw_mechanism *mechanism,
+                                    const fw_device_scene *scene, const double *shape, double mass,
+                                    double omega_per_s, double *raised_per_s);
 
 /* N: a tendon's tension within the envelope at most; infinite: it is not in it, or may go slack */
 double fw_effects_envelope_tension(const fw_effect_case *c, const fw_device_tendon *tendon);

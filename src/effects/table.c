@@ -214,6 +214,28 @@ static fw_status set_aside(const fw_effect_case *c, fw_effect_entry *entry,
     return FW_OK;
 }
 
+/* What the formula of something that acts leaves out. It is a share of what is seen; that beside is one of the truth, of which
+   what is seen is at least 1 less it. */
+static const double fw_lacking_told = 1e-3;
+
+static fw_status take_lacking(const fw_effect_case *c, int i, fw_effect_entry *e,
+                              fw_effect_ledger *ledger) {
+    char text[32];
+    double share = 0;
+    const char *words = NULL;
+    if (!e->active || !rows[i]->lacking) return FW_OK;
+    FW_TRY(rows[i]->lacking(c, &share, &words));
+    if (!(share > 0)) return FW_OK;
+    ledger->beside += share / (1 + share);
+    ledger->lacking_share = share;
+    if (!words || share < fw_lacking_told) return FW_OK;
+    ledger->lacking = words;
+    fw_percent_text(text, sizeof text, share);
+    FW_NEED(e->reason = fw_arena_printf(c->arena, "%s; %s: %s %% of what is seen, in every band",
+                                        e->reason, words, text));
+    return FW_OK;
+}
+
 /* smallest bounds first, while their sum stays below the accuracy; hinges as they were asked for */
 static fw_status leave_out_small(const fw_effect_case *c, double accuracy,
                                  const fw_effect_choice *choice, bool calm,
@@ -344,7 +366,8 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
     FW_NEED(ledger->item = fw_arena_array(arena, fw_effect_entry, ROWS));
     ledger->count = ROWS;
     ledger->left_out = ledger->beside = ledger->beside_rad = ledger->rubs = 0;
-    ledger->undecided = NULL, ledger->undecided_share = 0;
+    ledger->undecided = ledger->lacking = NULL;
+    ledger->undecided_share = ledger->lacking_share = 0;
     ledger->swing = (double)INFINITY;
     FW_TRY(fw_effects_loads_new(arena, mechanism, scene, loads));
     FW_NEED(envelope.taken = fw_arena_array(arena, bool, ROWS));
@@ -359,6 +382,7 @@ fw_status fw_effects_compile(fw_arena *arena, const fw_mechanism *mechanism,
     acting.ledger = ledger;
     for (int i = 0; i < ROWS; i++) {
         fw_effect_entry *e = &ledger->item[i];
+        FW_TRY(take_lacking(&c, i, e, ledger));
         if (e->called_for && rows[i]->note) FW_TRY(rows[i]->note(&c, &e->reason));
         if (!e->called_for && rows[i]->idle && !choice->untold && diags) rows[i]->idle(&c, diags);
         bool forced, was;

@@ -73,7 +73,7 @@ typedef struct fw_flexure_result {
     double centre_m;    /* W on the symmetry axis, from O (leaf: from the middle: 0), of a uniform
                            modulus: where hinge and conjugate surfaces are drawn */
     double offset_m[2]; /* true centre of compliance less that, along and across the axis: of a
-                           crystal; else 0 */
+                           crystal, or of a path whose bends the depth stiffens unlike; else 0 */
     double stiffness_Nm_per_rad;   /* with depth and root corrections */
     double stiffness_thin;         /* E I / L, without them, for the record */
     double kx_N_per_m, ky_N_per_m; /* 1/compliance[1][1], 1/compliance[2][2] */

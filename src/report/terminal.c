@@ -304,6 +304,31 @@ static void out_of_plane(fw_text *out, const fw_verdict *v) {
     }
 }
 
+/* a line each: what a scene presses onto something that is placed, whose surfaces nobody knows, and the force that opens it.
+   By Johnson, Kendall and Roberts a ball of radius R comes off at 3/2 pi W R, whatever it is made of */
+static void placed(fw_text *out, const fw_verdict_variant_verdict *of) {
+    const fw_verdict_stiction *s = of->stiction;
+    char opens[32], radius[32], work[32];
+    for (int k = 0; s && k < s->nstuck; k++) {
+        const fw_verdict_stuck *c = &s->stuck[k];
+        if (!c->contact || !c->why || c->decision != FW_ACCEPT) continue;
+        fw_text_printf(out, "  %s%s in %s%s: %s, so that whether it lets go is not judged",
+                       FW_NAMED("contact", c->contact), FW_NAMED("scene", c->scene), c->why);
+        if (isfinite(c->opens_N[0]))
+            fw_text_printf(out, "; the flexures open it with %s uN",
+                           fw_number_text(opens, sizeof opens, 1e6 * c->opens_N[0], 3));
+        if (isfinite(c->opens_N[0]) && c->radius_m > 0)
+            fw_text_printf(out,
+                           ", which takes a ball of relative radius %s um off a work of adhesion "
+                           "up to %s mJ/m2 "
+                           "(JKR, 2 F/(3 pi R))",
+                           fw_number_text(radius, sizeof radius, 1e6 * c->radius_m, 3),
+                           fw_number_text(work, sizeof work,
+                                          2e3 * c->opens_N[0] / (3 * FW_PI * c->radius_m), 3));
+        fw_text_add(out, "\n");
+    }
+}
+
 /* a line a flow: how it is dried, and what the device needs */
 static fw_status stiction(fw_text *out, const fw_verdict *v) {
     for (int i = 0; i < v->nvariant; i++) {
@@ -313,6 +338,7 @@ static fw_status stiction(fw_text *out, const fw_verdict *v) {
         if (!needs || of->variant->drying.how == FW_DRIED_NEVER) continue;
         fw_text_printf(out, "\ndrying%s%s: %s; %s\n", flow ? ", " : "", flow ? flow : "",
                        of->variant->drying.words, needs);
+        placed(out, of);
     }
     return FW_OK;
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "effects/envelope.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "statics/statics_equilibrium.h"
@@ -521,4 +522,43 @@ fw_status fw_statics_stressed_way(fw_arena *arena, const fw_mechanism *m,
     const fw_device_scene stressed = {
         .name = "(none)", .duration_s = 1, .stress = scene->stress, .nstress = scene->nstress};
     return way_of(arena, m, &stressed, way, known);
+}
+
+/* ---- what frequencies are off by ---- */
+
+/* Of a frequency, by the error e of its stiffness: half of it, and above a tenth 1 - sqrt(1 - e), which is the larger of
+   both sides (5 % of half of it more there), and all of it from e = 1 on: nothing may be left. */
+double fw_statics_root_error(double error) {
+    return error > 0.1 ? 1 - sqrt(1 - fmin(error, 1)) : 0.5 * error;
+}
+
+double fw_statics_mode_error(const fw_statics_mode *mode) {
+    return mode->model_error + fw_statics_root_error(mode->stiffness_error);
+}
+
+/* ---- films of gas that are springs as well (effects/squeeze_film.c) ---- */
+
+fw_status fw_statics_films_raise(fw_arena *arena, const fw_mechanism *m,
+                                 const fw_device_scene *scene, fw_diags *diags,
+                                 fw_statics_modes *modes) {
+    char was[32], may[32];
+    for (int k = 0; k < modes->count; k++) {
+        fw_statics_mode *mode = &modes->mode[k];
+        double omega;
+        mode->raised = 1;
+        if (!(mode->stiffness_per_s2 > 0) || scene->nair == 0) continue;
+        FW_TRY(fw_effects_squeeze_raised(arena, m, scene, mode->shape, mode->modal_mass_kg_m2,
+                                         mode->omega_rad_per_s, &omega));
+        mode->raised = omega / mode->omega_rad_per_s;
+        if (!diags || !(mode->raised - 1 > fw_statics_mode_error(mode))) continue;
+        fw_diag_warning(
+            diags, 754, scene->place,
+            "mode %d of %s%s has squeezed films as dampers alone, whose gas is compressed "
+            "within a period and pushes back as a spring: with that it lies between "
+            "%s and %s kHz",
+            k + 1, FW_NAMED("scene", scene->name),
+            fw_number_text(was, sizeof was, 1e-3 * mode->f_Hz, 4),
+            fw_number_text(may, sizeof may, 1e-3 * mode->f_Hz * mode->raised, 4));
+    }
+    return FW_OK;
 }

@@ -226,6 +226,8 @@ typedef struct fw_statics_mode {
     /* relative: what flexures may be off, by their part of it; what the next model of the hinges
        changes of the frequency, NaN: not known */
     double stiffness_error, model_error;
+    double
+        raised; /* 1 or more: its frequency with the springs of squeezed films over that without, at most */
     double *shape;    /* (3 nbody) undamped, m and rad per unit; the largest of
                                       |rotation| and |displacement| / unit_length_m is 1 */
     double *damped;   /* (6 nbody) shape of eigenvalue_per_s[0]: real, then imaginary

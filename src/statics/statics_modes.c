@@ -473,16 +473,6 @@ fw_status fw_statics_equilibrium_modes(fw_statics_equilibrium *w,
 
 /* ---- what flexures' errors do to frequencies ---- */
 
-/* Of a frequency, by the error e of its stiffness: half of it, and above a tenth 1 - sqrt(1 - e), which is the larger of
-   both sides (5 % of half of it more there), and all of it from e = 1 on: nothing may be left. */
-static double of_root(double error) {
-    return error > 0.1 ? 1 - sqrt(1 - fmin(error, 1)) : 0.5 * error;
-}
-
-double fw_statics_mode_error(const fw_statics_mode *mode) {
-    return mode->model_error + of_root(mode->stiffness_error);
-}
-
 /* each: what the next level changes; NULL: not compared by mode */
 static fw_status set_errors(const fw_statics_equilibrium *w, const double *each,
                             fw_statics_modes *modes) {
@@ -503,7 +493,7 @@ static fw_status set_errors(const fw_statics_equilibrium *w, const double *each,
     for (int k = 0; k < m->nhinge; k++) /* any of the slow ones may live in one alone */
         if (!m->hinge[k].stated) first = fmax(first, m->hinge[k].closed_form.error.stiffness);
     modes->stiffness_error = first;
-    modes->frequency_error = of_root(first) + level;
+    modes->frequency_error = fw_statics_root_error(first) + level;
     return FW_OK;
 }
 
@@ -592,6 +582,7 @@ fw_status fw_statics_small_motions(fw_arena *arena, const fw_mechanism *mechanis
         FW_TRY(fw_statics_level_note(arena, &step, accuracy, &options->effects, &to->ledger.hinge));
         to->softer = as_shapes_are(&w.reduced, found, next.softer);
         FW_TRY(set_errors(&w, next.each, to));
+        FW_TRY(fw_statics_films_raise(arena, mechanism, scene, diags, to));
         if (!fw_statics_level_climb(&step, accuracy, &options->effects, &choice)) return FW_OK;
         choice.below_of = of_any;
     }

@@ -369,3 +369,68 @@ bool fw_verdict_in_vain(const fw_verdict_variant_verdict *v, double times) {
     }
     return any;
 }
+
+/* ---- what the formula of an effect lacks (fw_effect_row.lacking) ----
+   A share of what is seen, and of what a mode that lies elsewhere makes of it, so that it comes last. A size is between that share more and as
+   much less, 1/(1 + share) of it; of other values it is what they are from where they began. What rings decays otherwise with a
+   spring beside the damper: where that is more than a little, a settling time has no bound. */
+static const double hardly_lacks = 0.1, lacks_enough = 0.02;
+
+fw_status fw_verdict_requirement_lacking(const fw_verdict_variant_verdict *v,
+                                         fw_verdict_requirement *r) {
+    const fw_dynamics_motion *x = r->scene_index == FW_NONE ? NULL : v->motion[r->scene_index];
+    const fw_device_measure measure = v->mechanism->device->requirement[r->asked].measure;
+    const double share = x ? x->ledger.lacking_share : 0;
+    if (!(share > 0)) return FW_OK;
+    if (measure == FW_MEASURE_SETTLING && share > hardly_lacks) {
+        r->low = 0, r->high = HUGE_VAL;
+        FW_NEED(r->open = x->ledger.lacking);
+    }
+    const bool size = measure == FW_MEASURE_PEAK || measure == FW_MEASURE_PEAK_TO_PEAK ||
+                      measure == FW_MEASURE_PARASITIC || measure == FW_MEASURE_SETTLING;
+    const double from = isfinite(r->origin) ? r->origin : 0,
+                 far = fmax(r->swing, fmax(fabs(r->high - from), fabs(r->low - from)));
+    r->low -= size ? r->low * share / (1 + share) : share * far;
+    r->high += size ? r->high * share : share * far;
+    if (r->size) r->low = fmax(0, r->low);
+    if (r->value != 0 && isfinite(share)) r->lasting += share;
+    return FW_OK;
+}
+
+/* what is undecided in a scene whose bands have such a share, and may be for that */
+static bool undecided_in(const fw_verdict_variant_verdict *v, int scene) {
+    const char *name = v->mechanism->device->scene[scene].name;
+    for (int k = 0; k < v->nrequirement; k++)
+        if (v->requirement[k].scene_index == scene && v->requirement[k].measure &&
+            v->requirement[k].decision == FW_INCONCLUSIVE)
+            return true;
+    for (int k = 0; k < v->nhinge; k++)
+        if (v->hinge[k].decision == FW_INCONCLUSIVE && v->hinge[k].scene &&
+            strcmp(v->hinge[k].scene, name) == 0)
+            return true;
+    return false;
+}
+
+fw_status fw_verdict_tell_lacking(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    char by[32];
+    for (int i = 0; i < d->nscene; i++) {
+        const fw_effect_ledger *l = v->motion[i] ? &v->motion[i]->ledger : NULL;
+        if (!l || !l->lacking || !(l->lacking_share > lacks_enough) || !undecided_in(v, i))
+            continue;
+        const char *text = fw_arena_printf(arena,
+                                           "in %s%s %s; bands reach to %s times what the motion "
+                                           "has: widen the gap, make the wall smaller, drive "
+                                           "it more slowly, or ask for less",
+                                           FW_NAMED("scene", d->scene[i].name), l->lacking,
+                                           fw_number_text(by, sizeof by, 1 + l->lacking_share, 3));
+        FW_NEED(text);
+        v->reason[v->nreason++] = (fw_verdict_reason){.scene = d->scene[i].name,
+                                                      .flow = v->mechanism->variant->flow,
+                                                      .number = 753,
+                                                      .decision = FW_INCONCLUSIVE,
+                                                      .keep = FW_VERDICT_KEEP_MOST,
+                                                      .text = text};
+    }
+    return FW_OK;
+}

@@ -135,6 +135,7 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
                                  fw_verdict_small_others *to) {
     *to = (fw_verdict_small_others){0};
     if (scene == FW_NONE || !modes) return FW_OK;
+    to->at = modes;
     const ways w = ways_of(m, scene, modes, v);
     const double missing = fw_verdict_pull_missing(v, scene);
     if (!isfinite(w.off)) return FW_OK; /* bands have no ends then */
@@ -176,6 +177,7 @@ void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_prob
         if (!isfinite(x)) continue;
         *low = fmin(*low, x * fmin(1, times)), *high = fmax(*high, x * fmax(1, times));
     }
+    if (others->at && mode > 0) *high *= others->at->mode[mode - 1].raised;
     if (others->lost) *low = 0, *high = HUGE_VAL;
 }
 

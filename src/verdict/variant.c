@@ -397,6 +397,12 @@ static void widen(const double factor[2], fw_verdict_hinge_verdict *h) {
         h->decision = decide(h->utilisation_low, h->utilisation_high);
 }
 
+/* What a formula lacks is a share of all of that: what is seen has it already (fw_verdict_motion_beside) */
+static void lacks_of_that(double up, double share, fw_verdict_hinge_verdict *h) {
+    const double by[2] = {1 + (up - 1) * share, 1};
+    widen(by, h);
+}
+
 /* and by what flexures weigh (flexure_swing.c): strains */
 static void weigh_on(const double strain[2], fw_verdict_hinge_verdict *h) {
     const double share = h->peak_strain > 0 ? 1 / h->peak_strain : 0,
@@ -420,6 +426,7 @@ static fw_status judge_hinge(fw_arena *arena, const fw_device *device, const jud
         FW_TRY(judge_scene(arena, by, v->motion[i], saw ? saw : &monitor[i], k,
                            device->scene[i].name, &now));
         widen(shaken ? shaken->factor + 2 * k : NULL, &now);
+        lacks_of_that(shaken ? shaken->factor[2 * k] : 1, v->motion[i]->ledger.lacking_share, &now);
         widen(shaken && shaken->grown ? shaken->grown + 2 * k : NULL, &now);
         if (shaken && shaken->flexed) weigh_on(shaken->flexed + 2 * k, &now);
         if (now.touches) FW_TRY(fw_verdict_touching(arena, by->drawn, &now, diags, v));
@@ -584,6 +591,7 @@ fw_status fw_verdict_variant(fw_arena *arena, const fw_device *device, const fw_
             (v->governing == FW_NONE || fw_verdict_governs(&v->hinge[k], &v->hinge[v->governing])))
             v->governing = k;
     }
+    FW_TRY(fw_verdict_tell_lacking(arena, v));
     FW_TRY(fw_verdict_required_poses(arena, v));
     FW_TRY(fw_verdict_missing(arena, device, layout, v));
     for (int i = 0; i < v->nreason; i++)

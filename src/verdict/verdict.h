@@ -139,6 +139,8 @@ typedef struct fw_verdict_pull {
 typedef struct fw_verdict_stuck { /* surfaces that a scene closes: of a hinge or of a contact */
     const char *scene, *hinge, *contact, *why; /* why: one of the forces is not known; NULL */
     double holds_N[2], opens_N[2]; /* by adhesion; by flexures: least, most; NaN: not known */
+    double
+        radius_m; /* of two bodies, relative, at most (fw_effects_contact_radius); NaN or 0: not known */
     fw_verdict_decision decision;
 } fw_verdict_stuck;
 

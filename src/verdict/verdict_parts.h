@@ -28,7 +28,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 16 }; /* of one scene at most, contacts apart */
+enum { FW_REASONS = 17 }; /* of one scene at most, contacts apart */
 /* of one flow at most */
 size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 
@@ -266,10 +266,9 @@ void fw_verdict_off_by_itself(const fw_mechanism *mechanism, double *bending, do
 fw_verdict_way fw_verdict_way_of(int k, double bending, double along, double gives);
 /* moved_again.c: moves such a scene again in all four: hinges, ways (v->shaken[scene].grown) and requirements have it in their bands; what
    does not stand then is undecided (FW-D699) */
-fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
-                                 const fw_dynamics_motion_options *options,
-                                 const fw_verdict_required *required,
-                                 fw_verdict_variant_verdict *v);
+fw_status fw_verdict_grown_again(fw_arena *arena, const fw_mechanism *m, int scene,
+                                 const fw_dynamics_motion_options *o,
+                                 const fw_verdict_required *required, fw_verdict_variant_verdict *);
 /* most of a pull that may be missing in a scene (fw_effects_comb_fringe), relative; 0: no electrodes act */
 double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
 /* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with the pull as
@@ -277,36 +276,33 @@ double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
 typedef struct fw_verdict_small_others {
     const fw_statics_modes *modes[2 * 3 * FW_VERDICT_WAYS]; /* (count) */
     int count;
-    const char *lost; /* a clause: one of them is not there; NULL: all are */
+    const fw_statics_modes *at; /* as they are; NULL: without a scene */
+    const char *lost;           /* a clause: one of them is not there; NULL: all are */
 } fw_verdict_small_others;
-fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *mechanism,
-                                 const fw_device_scene *of, int scene,
-                                 const fw_statics_mode_options *options,
+fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
+                                 int scene, const fw_statics_mode_options *o,
                                  const fw_statics_modes *modes, const fw_verdict_variant_verdict *v,
                                  fw_verdict_small_others *others);
-/* a band takes in what a probe, or the frequency of a mode (from 1 on; 0: the probe), is in these. times: of the softer side, by
-   what the place of the probe gives */
+/* a band takes in what a probe (mode 0), or a mode's frequency (from 1 on), is in these. times: of the softer side, by its place */
 void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
                             double times, double *low, double *high);
-/* required_small.c: relative, by the energies that flexures have of what the probe's unit load displaces */
-fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *mechanism,
-                               const fw_statics_modes *modes, const fw_probe *probe, double *off);
-/* why a band has no ends, and what would give it some */
-const char *fw_verdict_small_open(fw_arena *arena, const fw_mechanism *mechanism,
-                                  const fw_statics_modes *modes,
-                                  const fw_verdict_small_others *others);
+/* required_small.c: relative, by the energies that flexures have of what the probe's unit load displaces; why a band has no
+   ends, and what would give it some */
+fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,
+                               const fw_statics_modes *modes, const fw_probe *p, double *off);
+const char *fw_verdict_small_open(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_statics_modes *modes, const fw_verdict_small_others *);
 /* the largest in the scene: (nbody) ways of centres, then turns, then (nhinge) angles */
 void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far);
 /* moved_again.c: what of v->shaken[scene] grows where what takes hold again and again meets other phases (FW-D685) */
-fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
-                                  const fw_dynamics_motion_options *options, bool brief,
-                                  fw_diags *diags, fw_verdict_variant_verdict *v);
+fw_status fw_verdict_thrown_again(fw_arena *arena, const fw_mechanism *m, int scene,
+                                  const fw_dynamics_motion_options *o, bool brief, fw_diags *diags,
+                                  fw_verdict_variant_verdict *v);
 /* v->shaken, whose factors are 1 where no law goes to and fro and loads leave most of the stiffness; bodies (nscene): share
    that they give (fw_verdict_bending_share). Warnings (FW-D642, FW-D672), and what may meet then, or may not, is undecided */
-fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *mechanism, const double *bodies,
-                            const fw_dynamics_motion_options *options,
-                            const fw_verdict_required *required, bool brief, fw_diags *diags,
-                            fw_verdict_variant_verdict *v);
+fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double *bodies,
+                            const fw_dynamics_motion_options *o, const fw_verdict_required *of,
+                            bool brief, fw_diags *diags, fw_verdict_variant_verdict *v);
 /* may what the clearance is of meet where everything goes up to `by` times as far? */
 bool fw_verdict_may_come(const fw_verdict_clearance *clearance, double by);
 /* a copy that lives as long as the arena; NULL where nothing was run */
@@ -365,14 +361,18 @@ fw_status fw_verdict_requirements_of_scene(const fw_mechanism *mechanism, int sc
                                            const fw_probe_monitor *looser,
                                            fw_verdict_variant_verdict *v);
 /* those of equilibria; reasons of all that are not met */
-fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *mechanism,
-                                      const fw_dynamics_motion_options *options,
+fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
+                                      const fw_dynamics_motion_options *o,
                                       fw_verdict_variant_verdict *v);
-/* what a mode that lies elsewhere may do to one of a motion (resonance.c): the most of the factors, which widen it */
+/* resonance.c: what a mode that lies elsewhere may do to one of a motion: the most of the factors, which widen it.
+   required_small.c: its band takes in what it is in the motions of shaken->other */
 void fw_verdict_requirement_factor(const double *factor, int nhinge, double most[2]);
-/* required_small.c: its band takes in what it is in the motions of shaken->other */
 fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
                                         const fw_verdict_shaken *shaken, fw_verdict_requirement *r);
+/* moved_again.c: its band holds what formulas of effects lack in its scene; and why what is then undecided is (FW-D753) */
+fw_status fw_verdict_requirement_lacking(const fw_verdict_variant_verdict *v,
+                                         fw_verdict_requirement *r);
+fw_status fw_verdict_tell_lacking(fw_arena *arena, fw_verdict_variant_verdict *v);
 /* verdict_bending.c: what bands of a device that is not drawn are without, by name */
 fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v);
 void fw_verdict_requirement_widen(double down, double up, fw_verdict_requirement *r);
@@ -505,7 +505,7 @@ double fw_verdict_band_above(const fw_verdict_search *s, int hinge);
 fw_status fw_verdict_edge_room_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
-double fw_verdict_search_used_nearest(const fw_verdict_clearance *c); /* body_farther.c */
+double fw_verdict_search_used_nearest(const fw_verdict_clearance *c);          /* body_farther.c */
 double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
 /* fabrication.c, corner_search.c and requirement_corners.c, shared */
 /* requirement_corners.c: shaken of a point with its modes anywhere; may that be the most that any device does? */

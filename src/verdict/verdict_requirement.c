@@ -571,10 +571,10 @@ static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verd
                             fw_verdict_requirement *r) {
     const fw_verdict_shaken *s = &v->shaken[r->scene_index];
     FW_TRY(fw_verdict_requirement_others(v, s, r));
-    decide(r);
     fw_verdict_requirement_shaken(s->required, s->required_late,
                                   m->device->requirement[r->asked].measure, r);
-    return FW_OK;
+    FW_TRY(fw_verdict_requirement_lacking(v, r));
+    return decide(r), FW_OK;
 }
 
 fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,

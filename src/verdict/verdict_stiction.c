@@ -387,6 +387,7 @@ static fw_status judge_touch(device *d, const fw_device_scene *s, const fw_verdi
                               .contact = fw_text_name(use->id),
                               .holds_N = {(double)NAN, (double)NAN},
                               .opens_N = {(double)NAN, (double)NAN},
+                              .radius_m = fw_effects_contact_radius(use),
                               .decision = FW_INCONCLUSIVE};
     FW_TRY(give_back(d, use, arm, one));
     if (!drawn && use->undrawn == FW_UNDRAWN_PLACED) {

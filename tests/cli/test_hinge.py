@@ -286,6 +286,19 @@ class Hinge(unittest.TestCase):
         below = run("hinge", path, "--deck", path / "place")  # of a file
         self.assertEqual(below.returncode, 5, below.stderr)
 
+    def test_what_moves_the_elastic_centre(self):
+        """of a path of two bends without a crystal it is the layer's depth, which a thin layer has not"""
+        def said(text):
+            return run("hinge", "-", "--level", "closed-form", input=text).stdout
+
+        path = '<flexure id="f0" kind="path" width="10 um"><arc radius="100 um" angle="100 deg"/><arc radius="80 um" angle="-140 deg"/></flexure>'
+        of = {key: re.sub(r"<flexure [^>]*/>", path, device([(leaf(200, 10, 5), 0)], **more))
+              for key, more in {"deep": {}, "thin": {"depth": "5 um"}, "crystal": {"crystal": True}}.items()}
+        self.assertRegex(said(of["deep"]), r"bends of different radius, which the layer's depth stiffens unlike, move the elastic centre by -?0\.0\d+ um")
+        self.assertNotIn("crystal moves", said(of["deep"]))
+        self.assertNotIn("the elastic centre by", said(of["thin"]))
+        self.assertIn("crystal moves the elastic centre by", said(of["crystal"]))
+
     def test_paths_as_exact_beams(self):
         """hinges whose width varies: both models of what gives agree, and the exact one keeps the energy"""
         path = GALLERY.parent.parent / "free-form-four-bar/device.xml"

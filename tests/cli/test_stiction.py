@@ -258,6 +258,15 @@ class Stiction(unittest.TestCase):
         verdict, codes, (one,) = pushed(stop % (652, 50, "placed"))
         self.assertEqual((verdict, codes, one["verdict"]), ("accept", set(), "accept"))
         self.assertIn("put there", one["why"])
+        # `check` lists it: by hand, JKR's 3/2 pi W R of a ball of 50 um
+        said = run("check", self.file, *QUICK).stdout
+        found = re.search(r"contact stop in scene push: what is put there .* whether it lets go is not judged; the flexures open it "
+                          r"with ([\d.]+) uN, which takes a ball of relative radius 50 um off a work of adhesion up to ([\d.]+) mJ/m2", said)
+        self.assertIsNotNone(found, said)
+        self.assertAlmostEqual(float(found[1]) / (1e6 * one["opens_N"]), 1, 2)
+        self.assertAlmostEqual(float(found[2]) / (2e3 * one["opens_N"] / (3 * math.pi * 50e-6)), 1, 2)
+        # a place for one of which no radius is known: the force alone
+        self.assertNotIn("ball of relative radius", (pushed(stop % (602, 0, "placed")), run("check", self.file, *QUICK).stdout)[1])
 
     def dried(self, parts="", scene=""):
         self.file.write_text(GLASSED % (parts, scene))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What ideal pins leave out, as hinge_give.c bounds it, against whole motions: the same mechanism
+/* What ideal pins leave out, as nonlinear_hinge.c bounds it, against whole motions: the same mechanism
    with hinges as they are and with hinges so stiff and free of drift that they are pins, from rest
    under loads put on at once. */
 #include "flexure/path.h"
