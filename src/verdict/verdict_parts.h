@@ -28,7 +28,7 @@ fw_status fw_verdict_check_closure(const fw_device *device, const fw_mechanism *
 
 /* ---- verdict_scene.c: a scene is run, and what speaks against it beside its hinges ---- */
 
-enum { FW_REASONS = 17 }; /* of one scene at most, contacts apart */
+enum { FW_REASONS = 18 }; /* of one scene at most, contacts apart */
 /* of one flow at most */
 size_t fw_verdict_reasons_most(const fw_device *device, int nrequirement);
 

@@ -114,16 +114,24 @@ class Shapes(unittest.TestCase):
         return json.loads(run("modes", self.device(shapes), "--json").stdout)["modes"]
 
     def test_two_jaws_too_near_each_other_are_told_how_far_apart(self):
-        """the distance that FW-D128 names is the least at which the base between them finds its way"""
-        def said(apart):
-            parts = "".join(f'<body id="{b}" x="{x} um" y="0 um"><bar x="0 um" y="0 um" to-x="0 um" to-y="900 um" width="120 um"/></body>'
+        """the distance that FW-D128 names is the least at which the base between them finds its way, where neither has one by itself: one jaw
+        reaches round both. Two plain jaws get a base each, as near as their round places let them"""
+        def said(apart, *round_both):
+            def bars(*way):
+                return "".join(f'<bar x="{a} um" y="{b} um" to-x="{c} um" to-y="{d} um" width="120 um"/>' for (a, b), (c, d) in zip(way, way[1:]))
+            far = apart + 700
+            left = ((0, 0), (0, 900)) + (((-700, 900), (-700, -700), (far, -700), (far, 900)) if round_both else ())
+            parts = "".join(f'<body id="{b}" x="{x} um" y="0 um">{bars(*way)}</body>'
                             f'<revolute id="{b}{b}" a="ground" a-x="{x} um" a-y="0 um" b="{b}" b-x="0 um" b-y="0 um" hinge="f"/>'
-                            for b, x in (("L", -apart / 2), ("R", apart / 2)))
+                            for b, x, way in (("L", -apart / 2, left), ("R", apart / 2, left[:2])))
             return run("check", "-", "--corners", "none", "--advice", "none", "--hinge-model", "revolute", input=TWO % parts).stderr
-        found = re.search(r"The two are 520 um apart; a base between their round places needs ([\d.]+) um at least \[FW-D128\]", said(520))
+        found = re.search(r"The two are 520 um apart; a base between their round places needs ([\d.]+) um at least \[FW-D128\]", said(520, True))
         self.assertTrue(found)
-        self.assertIn("FW-D128", said(float(found.group(1)) - 0.3))
-        self.assertNotIn("FW-D128", said(float(found.group(1)) + 0.3))
+        self.assertIn("FW-D128", said(float(found.group(1)) - 0.3, True))
+        self.assertNotIn("FW-D128", said(float(found.group(1)) + 0.3, True))
+        near = re.search(r"hinges LL and RR are 460 um apart, but their surfaces and clearance need ([\d.]+) um; .*\[FW-D125\]", said(460))
+        self.assertIn("FW-D125", said(float(near.group(1)) - 0.3))
+        self.assertNotIn("error", said(float(near.group(1)) + 0.3))
 
     def test_four_ways_are_one_jaw(self):
         for seed in range(4):
