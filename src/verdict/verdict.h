@@ -194,8 +194,10 @@ typedef struct fw_verdict_requirement {
     /* bound / value of a min, value / bound of a max; where a bound is not above 0 both from the value
        as drawn: 1 at the bound; NaN: nothing to measure by */
     double utilisation, utilisation_low, utilisation_high;
-    bool by_max;    /* of its max; else of its min */
-    double swing;   /* how far it goes from where it was drawn; of a gap, how far outlines move */
+    bool by_max;  /* of its max; else of its min */
+    double swing; /* how far it goes from where it was drawn; of a gap, how far outlines move */
+    double
+        swing_most; /* the same of devices that a band holds whose modes lie where they were computed */
     bool size;      /* it is a gap, which is not below 0 */
     double numeric; /* part of the band on either side that a tighter run would take away */
     double lasting; /* relative part of it that no better model of the hinges would take away */

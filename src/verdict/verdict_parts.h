@@ -187,13 +187,14 @@ fw_verdict_bends fw_verdict_bend_of(const fw_mechanism_hinge *hinge, double turn
 double fw_verdict_bends_most(fw_verdict_bends b);
 /* a mode that swings in a scene whose law goes to and fro, or where something comes again */
 typedef struct fw_verdict_shaken_mode {
-    int number;                       /* from 0 */
-    double omega, damping, low, high; /* rad/s; where it may lie */
-    double soft,
-        stiff; /* likewise, by its stiffness alone: without what the scene passes on its way to its loads and contacts */
+    int number;                          /* from 0 */
+    double omega, low, high, damping[3]; /* rad/s; where it may lie; critical shares (body.h) */
+    double soft, stiff; /* likewise by stiffness, without what the scene passes on its way */
     /* (nhinge + nbody + nreach) what it does as computed of the most that each is bent, or goes; 0: that hardly is */
     fw_verdict_bends *bends;
-    double late;  /* how far it still swings at the end, over how far it ever does */
+    /* how far it still swings at the end, and goes from the start, over how far it ever swings */
+    double late, goes;
+    double held;  /* how much farther bands hold what is softer goes, by what stiffness is off by */
     double start; /* modal speed at the start, over how far it swings, 1/s */
     /* (nload) where something comes again: modal forces over mass and omega^2 and how far it swings; NULL: it hardly does */
     double *size;
@@ -505,7 +506,7 @@ double fw_verdict_band_above(const fw_verdict_search *s, int hinge);
 fw_status fw_verdict_edge_room_made(fw_verdict_search *s);
 /* why a corner is not accepted; a requirement with its band over all corners, as tables have it. NULL: no memory */
 const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
-double fw_verdict_search_used_nearest(const fw_verdict_clearance *c); /* body_farther.c */
+double fw_verdict_search_used_nearest(const fw_verdict_clearance *c);          /* body_farther.c */
 double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
 /* fabrication.c, corner_search.c and requirement_corners.c, shared */
 /* requirement_corners.c: shaken of a point with its modes anywhere; may that be the most that any device does? */

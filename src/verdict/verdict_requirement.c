@@ -551,8 +551,8 @@ static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_req
 void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
                                    fw_verdict_requirement *r) {
     const bool final = measure == FW_MEASURE_FINAL;
-    const double more = r->swing * (final ? late : factor[0] - 1),
-                 less = r->swing * (final ? late : 1 - factor[1]);
+    const double more = r->swing_most * (final ? late : factor[0] - 1),
+                 less = r->swing_most * (final ? late : 1 - factor[1]);
     if (!(fmax(more, less) > 0)) return;
     if (measure == FW_MEASURE_SETTLING) {
         if (factor[0] - 1 < 0.02) return;
@@ -570,6 +570,8 @@ void fw_verdict_requirement_shaken(const double factor[2], double late, fw_devic
 static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v,
                             fw_verdict_requirement *r) {
     const fw_verdict_shaken *s = &v->shaken[r->scene_index];
+    const double has = fmax(r->high - r->value, r->value - r->low);
+    r->swing_most = r->swing + (isfinite(has) ? has : 0); /* what is softer swings farther */
     FW_TRY(fw_verdict_requirement_others(v, s, r));
     decide(r);
     fw_verdict_requirement_shaken(s->required, s->required_late,
