@@ -237,7 +237,7 @@ typedef struct fw_verdict_swung {
 fw_status fw_verdict_swung_modes(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, int count, fw_verdict_swung *swung,
                                  const char **why);
-/* ringing.c: how far one unit of each driver that moves, then of heats, then the stress of layers, hold every body from where it
+/* body_together.c: how far one unit of each driver that moves, then of heats, then the stress of layers, hold every body from where it
    rests (n x 3 nbody), and their laws (n); unknown: what holds it nowhere that was found, or NULL */
 typedef struct fw_verdict_held_ways {
     const double *way;
@@ -245,6 +245,8 @@ typedef struct fw_verdict_held_ways {
     int n;
     const char *unknown;
 } fw_verdict_held_ways;
+int fw_verdict_laws_held(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                         fw_quantity_law_load *load);
 fw_status fw_verdict_ways_held(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_device_scene *scene, fw_verdict_held_ways *held);
 

@@ -471,3 +471,47 @@ fw_status fw_verdict_may_swing(fw_arena *arena, const fw_verdict_variant_verdict
     *may = (gives + hangs_s2 * first) * behind > little;
     return FW_OK;
 }
+
+/* ---- what of a device that was made is kept and compared ---- */
+
+fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                 const fw_verdict_shaken **kept) {
+    const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1,
+                 bodies = (size_t)v->nhinge + (size_t)v->mechanism->nbody;
+    fw_verdict_shaken *to;
+    *kept = NULL;
+    if (!v->shaken) return FW_OK;
+    FW_NEED(to = fw_arena_grow(arena, v->shaken, scenes, scenes, sizeof *to));
+#define KEEP(what, count)                                                                          \
+    if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
+    for (size_t i = 0; i < scenes; i++) {
+        fw_verdict_shaken *of = &to[i];
+        for (int k = 0; k < 4; k++)
+            of->other[k].probe = NULL, of->own = NULL;
+        const size_t n = (size_t)of->n, loads = (size_t)of->nload, reach = (size_t)of->nreach,
+                     rows = bodies + reach;
+        KEEP(of->factor, 2 * h);
+        KEEP(of->grown, 2 * h);
+        KEEP(of->flexed, 2 * h - 2);
+        KEEP(of->each, rows);
+        KEEP(of->most, rows);
+        KEEP(of->reach, reach);
+        for (size_t k = 0; k < reach; k++) {
+            of->reach[k].element = NULL, of->reach[k].stop = NULL;
+            if (of->reach[k].id) FW_NEED(of->reach[k].id = fw_arena_strdup(arena, of->reach[k].id));
+        }
+        if (n == 0) continue;
+        KEEP(of->mode, n);
+        KEEP(of->load, loads);
+        KEEP(of->way, (size_t)of->ways * rows);
+        for (size_t k = 0; k < loads; k++) /* that of a driver stands in the mechanism */
+            KEEP(of->load[k].law, 1);
+        for (size_t k = 0; k < n; k++) {
+            KEEP(of->mode[k].bends, rows);
+            KEEP(of->mode[k].size, loads);
+        }
+    }
+#undef KEEP
+    *kept = to;
+    return FW_OK;
+}

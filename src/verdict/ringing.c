@@ -81,53 +81,11 @@ static int elements_on(const fw_device_scene *s, const acting *by, const double 
     return n;
 }
 
-static int laws_of(const fw_mechanism *m, const fw_device_scene *s, fw_quantity_law_load *load) {
-    int n = 0;
-    double from, to;
-    for (int i = 0; i < m->ndriver; i++)
-        if (fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to))
-            load[n++] = (fw_quantity_law_load){&m->driver[i].law, 1, false, from, true};
-    for (int i = 0; i < s->ntemperature; i++)
-        if (s->temperature[i].change_K != 0)
-            load[n++] = (fw_quantity_law_load){s->temperature[i].law, 1, false, 0, false};
-    if (s->nstress > 0) load[n++] = (fw_quantity_law_load){.size = 1};
-    return n;
-}
-
-/* *unknown: what of it holds the device nowhere that was found; NULL: all is known */
 static fw_status acting_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                            const fw_effects_loads *loads, acting *by, const char **unknown) {
-    const int size = 3 * m->nbody;
-    double from, to, *way;
-    bool known = true;
-    *by = (acting){.loads = loads};
-    *unknown = NULL;
-    FW_NEED(by->way = way = fw_arena_array(
-                arena, double, (size_t)size *(size_t)(m->ndriver + s->ntemperature + 1)));
-    for (int i = 0; i < m->ndriver; i++) {
-        if (!fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to)) continue;
-        FW_TRY(fw_statics_driven_way(arena, m, i, s->duration_s, way + size * by->ways++, &known));
-        if (!known) *unknown = "a driver";
-    }
-    for (int i = 0; i < s->ntemperature; i++) {
-        if (s->temperature[i].change_K == 0) continue;
-        FW_TRY(
-            fw_statics_heated_way(arena, m, &s->temperature[i], way + size * by->ways++, &known));
-        if (!known) *unknown = "heat";
-    }
-    if (s->nstress > 0)
-        FW_TRY(fw_statics_stressed_way(arena, m, s, way + size * by->ways++, &known));
-    if (!known && !*unknown) *unknown = "the stress of a layer";
-    return FW_OK;
-}
-
-fw_status fw_verdict_ways_held(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                               fw_verdict_held_ways *to) {
-    acting by;
-    *to = (fw_verdict_held_ways){0};
-    FW_TRY(acting_of(arena, m, s, NULL, &by, &to->unknown));
-    FW_NEED(to->load = fw_arena_array(arena, fw_quantity_law_load, (size_t)by.ways + 1));
-    to->way = by.way, to->n = laws_of(m, s, to->load);
+    fw_verdict_held_ways held;
+    FW_TRY(fw_verdict_ways_held(arena, m, s, &held));
+    *by = (acting){.loads = loads, .way = held.way, .ways = held.n}, *unknown = held.unknown;
     return FW_OK;
 }
 
@@ -163,7 +121,7 @@ static int loads_on(const fw_mechanism *m, const fw_device_scene *s, const actin
         load[n++] = (fw_quantity_law_load){
             .size = shape ? with_masses(m, shape, s->gx_m_per_s2, s->gy_m_per_s2) / unit : 1};
     n += elements_on(s, by, q, shape, unit, load + n);
-    const int laws = laws_of(m, s, load + n);
+    const int laws = fw_verdict_laws_held(m, s, load + n);
     for (int i = 0; shape && i < laws; i++) {
         const double *way = by->way + (size_t)i * 3 * (size_t)m->nbody;
         load[n + i].size = fw_verdict_mass_form(m, shape, way) * square / unit;

@@ -192,12 +192,11 @@ typedef struct fw_verdict_shaken_mode {
     double soft, stiff; /* likewise by stiffness, without what the scene passes on its way */
     /* (nhinge + nbody + nreach) what it does as computed of the most that each is bent, or goes; 0: that hardly is */
     fw_verdict_bends *bends;
-    /* how far it still swings at the end, and goes from the start, over how far it ever swings */
-    double late, goes;
-    double held;  /* how much farther bands hold what is softer goes, by what stiffness is off by */
-    double start; /* modal speed at the start, over how far it swings, 1/s */
-    /* (nload) where something comes again: modal forces over mass and omega^2 and how far it swings; NULL: it hardly does */
-    double *size;
+    /* over how far it swings: how far it still does at the end, and goes from the start; its speed at the start, 1/s */
+    double late, goes, start;
+    double held; /* times as far as bands hold that what is softer goes */
+    double
+        *size; /* (nload) modal forces over mass, omega^2 and its swing; NULL: none comes again */
 } fw_verdict_shaken_mode;
 /* a scene that was moved again (near_a_fold.c) */
 typedef struct fw_verdict_other {
