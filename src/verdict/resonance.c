@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a law does near a resonance. Bands hold what a stiffness is off by in proportion. A law that goes to and fro near a mode does much more or less where
    the mode lies a little lower or higher than computed, which its own error allows. Of every mode k and each such law,
-   whatever it acts by, A(w) is the largest answer of an oscillator with the mode's damping (fw_quantity_law_swing), and
+   whatever it acts by, A(w) is the largest answer of an oscillator (fw_quantity_law_swing), and
 
      r_k = max over laws and over w of A(w)/A(w_k),
 
-   w within the mode's error and what bodies give, half a radian apart at the end of the scene. How far a mode swings is
-   seen in the motion: a_k, the largest of its modal speed over w_k, shape . M v. Of a hinge that is bent in mode k by
-   s_k, and by S at most in the motion,
+   w within the mode's error and what bodies give, half a radian apart at the end of the scene. A(w_k) is damped as the motion
+   is, whose whole scene says what is set off (set_off); A(w) by the least loss factor that the material may have, or by
+   the largest where that is less (moved_again.c). What is softer goes farther besides, by w_k^2/w^2 less what bands hold
+   of that. How far a mode swings is seen in the motion: a_k, the largest of its modal speed, shape . M v, over w_k, or over
+   the law's frequency where that is lower, but no more than it is ever away from the start. Of a hinge that is bent in
+   mode k by s_k, and by S at most in the motion,
 
      up = 1 + sum a_k s_k (r_k - 1)/S,
 
@@ -219,6 +222,12 @@ static fw_status add_answers(fw_arena *arena, const fw_mechanism *m, const shaki
     return FW_OK;
 }
 
+/* Of a frequency what its own error and what bodies give leave of it. They add to compliances, 1/omega^2 goes by 1 + bodies:
+   of what gives much no less than by twice that, where a share of the frequency would leave nothing */
+static double lowest(double off, double bodies) {
+    return fmax(1 - off - 0.5 * bodies, (1 - off) / sqrt(1 + 2 * bodies));
+}
+
 /* where the modes of `other`, at rest, lie elsewhere: the scene passes there */
 static void hold_both(const fw_statics_modes *other, double bodies, fw_verdict_shaken *s) {
     for (int k = 0; k < s->n; k++) {
@@ -227,7 +236,7 @@ static void hold_both(const fw_statics_modes *other, double bodies, fw_verdict_s
         const fw_statics_mode *at = &other->mode[mode->number];
         if (!(at->stiffness_per_s2 > 0)) continue;
         const double off = fmin(fw_statics_mode_error(at), 0.5);
-        mode->low = fmin(mode->low, at->omega_rad_per_s * (1 - off - 0.5 * bodies));
+        mode->low = fmin(mode->low, at->omega_rad_per_s * lowest(off, bodies));
         mode->high = fmax(mode->high, at->omega_rad_per_s * (1 + off));
     }
 }
@@ -289,9 +298,10 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     FW_TRY(damped_within(arena, m, reached ? &steady : &still, reached && moves, to));
     for (int k = 0; k < to->n; k++) {
         const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
-        to->mode[k].low = to->mode[k].soft = to->mode[k].omega * (1 - off - 0.5 * bodies);
+        to->mode[k].low = to->mode[k].soft = to->mode[k].omega * lowest(off, bodies);
         to->mode[k].high = to->mode[k].stiff = to->mode[k].omega * (1 + off);
         to->mode[k].held = 1 + fw_verdict_motion_lasting_error(m);
+        to->mode[k].least = to->mode[k].omega * (1 - off);
     }
     for (int c = 0; c < to->nreach; c++)
         held = held || (to->reach[c].rests && to->reach[c].gap_m > 0);
@@ -408,8 +418,8 @@ static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, con
                      damping = fw_verdict_damping_of(mode),
                      off = fmin(fw_statics_mode_error(mode), 0.5);
         if (!(0.25 * share * omega * by->end_s > log(much))) continue;
-        const double grown = grows_most(by, omega * (1 - off - 0.5 * bodies), omega * (1 + off),
-                                        omega, damping, share);
+        const double grown =
+            grows_most(by, omega * lowest(off, bodies), omega * (1 + off), omega, damping, share);
         if (grown > much) return tell_pumped(arena, s, mode, share, grown, v);
     }
     return FW_OK;

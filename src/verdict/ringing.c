@@ -7,7 +7,7 @@
      A_i = max over time of |sum of b_ki q_k + sum of (c_ij - sum of b_ki p_kj) f_j|/S_i
 
    q_k the oscillator, p_kj its part of law j: the modes ring, and what they leave out is where it rests. A_i(w) - A_i as
-   computed widens by one mode that lies elsewhere, for all that do; and of all together where all lie lower, or higher, by
+   computed widens by one mode that lies elsewhere, or is damped by either end of a loss factor, for all that do; and of all together where all lie lower, or higher, by
    one share, since then what rings in one may meet what rings in another.
 
    In: the motion, modes, loads. Out: answers of hinges and bodies. Range: small motions; modes that bend or move by a hundredth
@@ -326,7 +326,8 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
 
 double fw_verdict_soft_within(fw_verdict_softness softer, const fw_verdict_shaken_mode *mode,
                               double at) {
-    const double is = fmin(fmax(at, mode->soft), mode->stiff), by = mode->omega / is;
+    const double is = fmin(fmax(at, mode->soft), mode->stiff),
+                 by = mode->omega / fmax(is, mode->least); /* bands hold all that bodies give */
     return softer == FW_VERDICT_AS_STIFF ? fmax(1, by * by / mode->held)
                                          : fw_verdict_soft_by(softer, mode->omega, is);
 }

@@ -194,9 +194,8 @@ typedef struct fw_verdict_shaken_mode {
     fw_verdict_bends *bends;
     /* over how far it swings: how far it still does at the end, and goes from the start; its speed at the start, 1/s */
     double late, goes, start;
-    double held; /* times as far as bands hold that what is softer goes */
-    double
-        *size; /* (nload) modal forces over mass, omega^2 and its swing; NULL: none comes again */
+    double held, least; /* times as far as bands hold; rad/s by flexures' errors alone */
+    double *size; /* (nload) modal forces/(mass omega^2) over its swing; NULL: none come again */
 } fw_verdict_shaken_mode;
 /* a scene that was moved again (near_a_fold.c) */
 typedef struct fw_verdict_other {
