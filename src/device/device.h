@@ -365,6 +365,9 @@ typedef struct fw_device_scene {
     int nforce, ntorque, ninitial;
     fw_device_scene_part *part;
     int ntendon, ncomb, nbase, nfriction, ncontact, ndamping, ntemperature, nstress, nair, npart;
+    /* the scene of which this one has a part of the loads: what its laws set ringing is damped by the material here, too
+       (effects/hinge_source.c); NULL: its own laws tell */
+    const struct fw_device_scene *set_off;
     fw_place place;
 } fw_device_scene;
 /* the scene gets arrays of its own, which may be changed, its tendons their eyelets; FW_NOMEM */

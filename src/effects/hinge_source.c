@@ -63,9 +63,10 @@ static bool springs_let_go(const fw_mechanism *m) {
 }
 
 /* The largest of all that has a law, drivers among it, of what begins with a velocity, and of springs that are let go;
-   weight and friction are there from the start and jolt nothing. */
+   weight and friction are there from the start and jolt nothing. Where a scene has a part of another's loads it is damped as
+   that one is. */
 static double largest_jolt(const fw_effect_case *c, double omega) {
-    const fw_device_scene *s = c->scene;
+    const fw_device_scene *s = c->scene->set_off ? c->scene->set_off : c->scene;
     const fw_mechanism *m = c->mechanism;
     double most = 0, end = s->duration_s;
     for (int i = 0; i < s->nforce; i++)

@@ -169,6 +169,17 @@ static inline double fw_verdict_mass_form(const fw_mechanism *m, const double *a
 
 /* ---- ringing.c, resonance.c ---- */
 
+/* of a mode: as the motion has it, and by the ends of a loss factor that is known within limits */
+typedef enum fw_verdict_damped {
+    FW_VERDICT_AS_DAMPED,
+    FW_VERDICT_LEAST_DAMPED,
+    FW_VERDICT_MOST_DAMPED
+} fw_verdict_damped;
+static inline double fw_verdict_damping_of(const fw_statics_mode *mode) { /* NaN: 0 */
+    const double is = mode->damping_ratio > 0 ? mode->damping_ratio : 0;
+    return is < 0.99 ? is : 0.99;
+}
+
 /* times as much as computed: up >= 1, down <= 1; up of what strains */
 typedef struct fw_verdict_answer {
     double up, down, strained;
@@ -226,7 +237,7 @@ typedef struct fw_verdict_swung {
 fw_status fw_verdict_swung_modes(fw_arena *arena, const fw_mechanism *mechanism,
                                  const fw_verdict_arm *arm, int count, fw_verdict_swung *swung,
                                  const char **why);
-/* ringing.c: how far one unit of each driver that moves, then of heats, then the stress of layers, hold every body from where it
+/* body_together.c: how far one unit of each driver that moves, then of heats, then the stress of layers, hold every body from where it
    rests (n x 3 nbody), and their laws (n); unknown: what holds it nowhere that was found, or NULL */
 typedef struct fw_verdict_held_ways {
     const double *way;
@@ -234,6 +245,8 @@ typedef struct fw_verdict_held_ways {
     int n;
     const char *unknown;
 } fw_verdict_held_ways;
+int fw_verdict_laws_held(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                         fw_quantity_law_load *load);
 fw_status fw_verdict_ways_held(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_device_scene *scene, fw_verdict_held_ways *held);
 
@@ -291,24 +304,15 @@ fw_status fw_verdict_hold_new(fw_arena *arena, const fw_mechanism *m, const fw_d
                               double more, fw_verdict_hold *to);
 void fw_verdict_hold_run(const fw_mechanism *m, const fw_dynamics_motion *x,
                          const fw_verdict_strain_monitor *saw, const fw_verdict_hold *hold);
-/* The loss factor of a scene's flexures at least and at most; false: it is as stated, or damps nothing */
-static inline bool fw_verdict_loss_ends(const fw_mechanism *m, const fw_device_scene *s,
-                                        double ends[2]) {
-    const fw_quantity *q = &m->variant->material.loss;
-    const double known = 1e-3;
-    if (s->ndamping == 0 || !isnan(s->damping[s->ndamping - 1].loss_factor)) return false;
-    if (q->unknown || !(q->value > 0)) return false;
-    const double by = 1 + 2 * q->uncertainty / q->value;
-    ends[0] = q->interval ? fmax(q->low, 0) : q->value / by;
-    ends[1] = q->interval ? q->high : q->value * by;
-    return ends[1] > (1 + known) * ends[0];
-}
-/* as a share of what damps with the factor as it is, at least */
-static inline double fw_verdict_least_damped(const fw_mechanism *m, const fw_device_scene *s) {
-    double ends[2];
-    return fw_verdict_loss_ends(m, s, ends) ? ends[0] / m->variant->material.loss.value : 1;
-}
-/* body_shaken.c: factors of hinges and bands of what is required hold both; shaken: a law goes to and fro */
+/* moved_again.c: the loss factor of a scene's flexures at least and at most; false: it is as stated, or damps nothing */
+bool fw_verdict_loss_ends(const fw_mechanism *mechanism, const fw_device_scene *scene,
+                          double ends[2]);
+/* the same device in the same scene with another loss factor of its material: what flexures without a stated damping lose */
+fw_status fw_verdict_with_loss(fw_arena *arena, const fw_mechanism *mechanism,
+                               const fw_device_scene *scene, double loss, fw_mechanism *to,
+                               fw_device_scene *to_scene);
+/* moved_again.c: bands of what is required, and factors of hinges, hold both; shaken: a law goes to and fro, and modes
+   have that in these already */
 struct fw_verdict_required;
 fw_status fw_verdict_damped_again(fw_arena *arena, int scene, bool shaken,
                                   const fw_dynamics_motion_options *options,

@@ -246,7 +246,7 @@ static bool is_own(const fw_verdict_own *own, int nbody, int k, double *low, dou
 static double damping_of(const fw_verdict_own *own, const fw_verdict_shaken *to, int k) {
     double least = to->n > 0 ? 0.99 : 0;
     for (int i = 0; i < to->n; i++)
-        least = fmin(least, to->mode[i].damping);
+        least = fmin(least, to->mode[i].damping[FW_VERDICT_LEAST_DAMPED]);
     return least * fmin(fmax(own->w->flexures[k], 0), 1);
 }
 
@@ -471,73 +471,46 @@ fw_status fw_verdict_may_swing(fw_arena *arena, const fw_verdict_variant_verdict
     return FW_OK;
 }
 
-/* ---- a loss factor that is known within limits ----
-   What rings on, how high a resonance gets and when something has settled goes by what damps, which is known the least of all. A
-   factor of the material is anywhere in its interval, or between 1/(1 + 2u) and 1 + 2u times its value, u its relative standard
-   uncertainty: two of these either way where it is small, and above 0 always. Where a scene damps by it, and something in it
-   goes to and fro or is asked for behind its first swing, it is moved again with either end. In: v->motion, v->probed. Out:
-   factors of hinges and of what goes farthest, bands of requirements. Range: <material-damping> without a factor of its own. Error: between
-   both ends all of that goes one way. Cost: two motions. Test: test_effects.py
-   Resonance, what_damps */
+/* ---- what of a device that was made is kept and compared ---- */
 
-/* what is asked for behind the first swing */
-static bool asks_later(const fw_verdict_variant_verdict *v, int scene) {
-    const fw_device *d = v->mechanism->device;
-    for (int k = 0; k < v->nrequirement; k++) {
-        const fw_verdict_requirement *r = &v->requirement[k];
-        const fw_device_measure measure = d->requirement[r->asked].measure;
-        if (r->scene_index == scene && r->measure &&
-            (measure == FW_MEASURE_SETTLING || measure == FW_MEASURE_FINAL ||
-             measure == FW_MEASURE_PEAK_TO_PEAK || measure == FW_MEASURE_MINIMUM))
-            return true;
+fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                                 const fw_verdict_shaken **kept) {
+    const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1,
+                 bodies = (size_t)v->nhinge + (size_t)v->mechanism->nbody;
+    fw_verdict_shaken *to;
+    *kept = NULL;
+    if (!v->shaken) return FW_OK;
+    FW_NEED(to = fw_arena_grow(arena, v->shaken, scenes, scenes, sizeof *to));
+#define KEEP(what, count)                                                                          \
+    if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
+    for (size_t i = 0; i < scenes; i++) {
+        fw_verdict_shaken *of = &to[i];
+        for (int k = 0; k < 4; k++)
+            of->other[k].probe = NULL, of->own = NULL;
+        const size_t n = (size_t)of->n, loads = (size_t)of->nload, reach = (size_t)of->nreach,
+                     rows = bodies + reach;
+        KEEP(of->factor, 2 * h);
+        KEEP(of->grown, 2 * h);
+        KEEP(of->flexed, 2 * h - 2);
+        KEEP(of->each, rows);
+        KEEP(of->most, rows);
+        KEEP(of->reach, reach);
+        for (size_t k = 0; k < reach; k++) {
+            of->reach[k].element = NULL, of->reach[k].stop = NULL;
+            if (of->reach[k].id) FW_NEED(of->reach[k].id = fw_arena_strdup(arena, of->reach[k].id));
+        }
+        if (n == 0) continue;
+        KEEP(of->mode, n);
+        KEEP(of->load, loads);
+        KEEP(of->way, (size_t)of->ways * rows);
+        for (size_t k = 0; k < loads; k++) /* that of a driver stands in the mechanism */
+            KEEP(of->load[k].law, 1);
+        for (size_t k = 0; k < n; k++) {
+            KEEP(of->mode[k].bends, rows);
+            KEEP(of->mode[k].size, loads);
+        }
     }
-    return false;
-}
-
-static fw_status damped_with(fw_arena *arena, int i, double loss,
-                             const fw_dynamics_motion_options *given,
-                             const fw_verdict_required *required, const fw_verdict_hold *h,
-                             fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    fw_device_scene changed = m->device->scene[i];
-    fw_dynamics_motion_options o = *given;
-    fw_verdict_strain_monitor monitor;
-    fw_probe_monitor *probe[2];
-    const fw_dynamics_motion *x;
-    const fw_device_material_damping as = {
-        .loss_factor = loss, .frequency_Hz = changed.damping[changed.ndamping - 1].frequency_Hz};
-    fw_device_material_damping *damping;
-    FW_NEED(damping = fw_arena_one(arena, fw_device_material_damping));
-    *damping = as, changed.damping = damping, changed.ndamping = 1;
-    FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
-    FW_TRY(required->watch(arena, m, i, v, true, probe));
-    monitor.probe = probe[0];
-    o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
-    o.whole = probe[0] != NULL, o.trace = probe[0] ? fw_verdict_clearance_trace : NULL;
-    FW_TRY(fw_statics_move_stiffer(arena, m, &changed, 0, v->motion[i], &o, &x));
-    if (monitor.no_memory || (probe[0] && probe[0]->no_memory)) return FW_NOMEM;
-    if (!x || x->ended) return FW_OK;
-    fw_verdict_hold_run(m, x, &monitor, h);
-    return probe[0] ? required->take_in(m, i, x, probe[0], 0, v) : FW_OK;
-}
-
-fw_status fw_verdict_damped_again(fw_arena *arena, int i, bool shaken,
-                                  const fw_dynamics_motion_options *options,
-                                  const fw_verdict_required *required,
-                                  fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    const fw_dynamics_motion *x = v->motion[i];
-    const size_t nh = (size_t)m->nhinge;
-    double ends[2], *to = v->shaken[i].factor;
-    if (!x || x->ended || !x->observed || nh == 0 || (x->loads && x->loads->quasi_static) ||
-        !fw_verdict_loss_ends(m, &m->device->scene[i], ends))
-        return FW_OK;
-    if (!shaken && !asks_later(v, i)) return FW_OK;
-    fw_verdict_hold h;
-    FW_TRY(fw_verdict_hold_new(arena, m, x, 1, &h));
-    for (int k = 0; k < 2; k++)
-        FW_TRY(damped_with(arena, i, ends[k], options, required, &h, v));
-    for (size_t k = 0; k < 2 * nh + 2; k++)
-        to[k] *= h.f[k];
+#undef KEEP
+    *kept = to;
     return FW_OK;
 }

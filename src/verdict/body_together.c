@@ -542,3 +542,46 @@ void fw_verdict_courses_record(fw_verdict_bending *b, const fw_mechanism *m,
         add_directions(c, fw_verdict_course_of_place(m, k), now, acts[0], acts[1]);
     }
 }
+
+/* ---- how far what has no force of its own holds bodies: drivers, heat, stress ---- */
+
+int fw_verdict_laws_held(const fw_mechanism *m, const fw_device_scene *s,
+                         fw_quantity_law_load *load) {
+    int n = 0;
+    double from, to;
+    for (int i = 0; i < m->ndriver; i++)
+        if (fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to))
+            load[n++] = (fw_quantity_law_load){&m->driver[i].law, 1, false, from, true};
+    for (int i = 0; i < s->ntemperature; i++)
+        if (s->temperature[i].change_K != 0)
+            load[n++] = (fw_quantity_law_load){s->temperature[i].law, 1, false, 0, false};
+    if (s->nstress > 0) load[n++] = (fw_quantity_law_load){.size = 1};
+    return n;
+}
+
+fw_status fw_verdict_ways_held(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                               fw_verdict_held_ways *held) {
+    const int size = 3 * m->nbody;
+    double from, to, *way;
+    bool known = true;
+    int n = 0;
+    *held = (fw_verdict_held_ways){0};
+    FW_NEED(held->load = fw_arena_array(arena, fw_quantity_law_load,
+                                        (size_t)(m->ndriver + s->ntemperature + 1)));
+    FW_NEED(held->way = way = fw_arena_array(
+                arena, double, (size_t)size *(size_t)(m->ndriver + s->ntemperature + 1)));
+    for (int i = 0; i < m->ndriver; i++) {
+        if (!fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to)) continue;
+        FW_TRY(fw_statics_driven_way(arena, m, i, s->duration_s, way + size * n++, &known));
+        if (!known) held->unknown = "a driver";
+    }
+    for (int i = 0; i < s->ntemperature; i++) {
+        if (s->temperature[i].change_K == 0) continue;
+        FW_TRY(fw_statics_heated_way(arena, m, &s->temperature[i], way + size * n++, &known));
+        if (!known) held->unknown = "heat";
+    }
+    if (s->nstress > 0) FW_TRY(fw_statics_stressed_way(arena, m, s, way + size * n, &known));
+    if (!known && !held->unknown) held->unknown = "the stress of a layer";
+    held->n = fw_verdict_laws_held(m, s, held->load);
+    return FW_OK;
+}

@@ -364,12 +364,15 @@ static const fw_verdict_shaken_mode *nearest_mode(const fw_verdict_variant_verdi
 static double damping_of_mode(const fw_verdict_variant_verdict *v, const fw_device_scene *s,
                               const fw_verdict_shaken_mode *near, bool flexures, bool away) {
     const fw_quantity *loss = &v->mechanism->variant->material.loss;
-    const double of_it = loss->unknown ? 0 : loss->value,
+    double ends[2];
+    const double of_it = fw_verdict_loss_ends(v->mechanism, s, ends) ? ends[0]
+                         : loss->unknown                             ? 0
+                                                                     : loss->value,
                  says = s->ndamping > 0 ? s->damping[s->ndamping - 1].loss_factor : 0,
                  own = fmax(0.5 * (isnan(says) ? of_it : says), 0);
     if (!near || flexures) return own;
-    return fmax(away && s->ndamping > 0 && s->nair == 0 ? fmin(near->damping, own) : near->damping,
-                0);
+    const double has = near->damping[FW_VERDICT_LEAST_DAMPED];
+    return away && s->ndamping > 0 && s->nair == 0 ? fmin(has, own) : has;
 }
 
 /* in: (rows) what each mode is of account; what hardly is has one answer for all */

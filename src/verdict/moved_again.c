@@ -434,3 +434,153 @@ fw_status fw_verdict_tell_lacking(fw_arena *arena, fw_verdict_variant_verdict *v
     }
     return FW_OK;
 }
+
+/* ---- a loss factor that is known within limits ----
+   What rings on, how high a resonance gets and when something has settled goes by what damps, which is known the least of all. A
+   factor of the material is anywhere in its interval, or between 1/(1 + 2u) and 1 + 2u times its value, u its relative standard
+   uncertainty: two of these either way where it is small, and above 0 always. Where a scene damps by it, be it by its
+   <material-damping> or by the estimate for hinges that state no damping, modes that ring under laws are damped by either end
+   (resonance.c, ringing.c), and what is asked for behind its first swing is moved again with either end. In: v->motion,
+   v->probed. Out: factors of hinges and of what goes farthest, bands of requirements. Range: a factor that the scene does not
+   state. Error: between both ends all of that goes one way. Cost: one search for modes; two motions. Test: test_effects.py
+   Resonance, what_damps */
+
+bool fw_verdict_loss_ends(const fw_mechanism *m, const fw_device_scene *s, double ends[2]) {
+    const fw_quantity *q = &m->variant->material.loss;
+    const double known = 1e-3;
+    bool estimated = false;
+    for (int k = 0; k < m->nhinge; k++)
+        estimated = estimated || !m->hinge[k].damping_stated;
+    if (!estimated || (s->ndamping > 0 && !isnan(s->damping[s->ndamping - 1].loss_factor)))
+        return false;
+    if (q->unknown || !(q->value > 0)) return false;
+    const double by = 1 + 2 * q->uncertainty / q->value;
+    ends[0] = q->interval ? fmax(q->low, 0) : q->value / by;
+    ends[1] = q->interval ? q->high : q->value * by;
+    return ends[1] > (1 + known) * ends[0];
+}
+
+fw_status fw_verdict_with_loss(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                               double loss, fw_mechanism *to, fw_device_scene *scene) {
+    const double by = loss / m->variant->material.loss.value;
+    fw_mechanism_variant *variant;
+    fw_device_material_damping *damping;
+    *to = *m, *scene = *s;
+    if (s->ndamping > 0) {
+        FW_NEED(damping = fw_arena_one(arena, fw_device_material_damping));
+        *damping = s->damping[s->ndamping - 1], damping->loss_factor = loss;
+        scene->damping = damping, scene->ndamping = 1;
+        return FW_OK;
+    }
+    FW_NEED(variant = fw_arena_one(arena, fw_mechanism_variant));
+    *variant = *m->variant, variant->material.loss.value = loss;
+    to->variant = variant;
+    FW_NEED(to->pin =
+                fw_arena_grow(arena, m->pin, (size_t)m->npin, (size_t)m->npin, sizeof *m->pin));
+    for (int k = 0; k < m->nhinge; k++)
+        if (!m->hinge[k].damping_stated) to->pin[m->hinge[k].pin].damping_Nms_per_rad *= by;
+    return FW_OK;
+}
+
+/* what is asked for behind the first swing; shaken: beside what bands have by modes (resonance.c) */
+static bool asks_later(const fw_verdict_variant_verdict *v, int scene, bool shaken) {
+    const fw_device *d = v->mechanism->device;
+    for (int k = 0; k < v->nrequirement; k++) {
+        const fw_verdict_requirement *r = &v->requirement[k];
+        const fw_device_measure measure = d->requirement[r->asked].measure;
+        const bool settles = measure == FW_MEASURE_SETTLING;
+        if (r->scene_index == scene && r->measure &&
+            (settles ||
+             (!shaken && (measure == FW_MEASURE_FINAL || measure == FW_MEASURE_PEAK_TO_PEAK ||
+                          measure == FW_MEASURE_MINIMUM))))
+            return true;
+    }
+    return false;
+}
+
+static fw_status damped_with(fw_arena *arena, int i, double loss,
+                             const fw_dynamics_motion_options *given,
+                             const fw_verdict_required *required, const fw_verdict_hold *h,
+                             fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    fw_mechanism lossy;
+    fw_device_scene scene;
+    fw_dynamics_motion_options o = *given;
+    fw_verdict_strain_monitor monitor;
+    fw_probe_monitor *probe[2];
+    const fw_dynamics_motion *x;
+    FW_TRY(fw_verdict_with_loss(arena, m, &m->device->scene[i], loss, &lossy, &scene));
+    FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
+    FW_TRY(required->watch(arena, m, i, v, true, probe));
+    monitor.probe = probe[0];
+    o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    o.whole = probe[0] != NULL, o.trace = probe[0] ? fw_verdict_clearance_trace : NULL;
+    FW_TRY(fw_statics_move_stiffer(arena, &lossy, &scene, 0, v->motion[i], &o, &x));
+    if (monitor.no_memory || (probe[0] && probe[0]->no_memory)) return FW_NOMEM;
+    if (!x || x->ended) return FW_OK;
+    fw_verdict_hold_run(m, x, &monitor, h);
+    return probe[0] ? required->take_in(m, i, x, probe[0], 0, v) : FW_OK;
+}
+
+fw_status fw_verdict_damped_again(fw_arena *arena, int i, bool shaken,
+                                  const fw_dynamics_motion_options *options,
+                                  const fw_verdict_required *required,
+                                  fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *x = v->motion[i];
+    const size_t nh = (size_t)m->nhinge;
+    double ends[2], *to = v->shaken[i].factor;
+    if (!x || x->ended || !x->observed || nh == 0 || (x->loads && x->loads->quasi_static) ||
+        !fw_verdict_loss_ends(m, &m->device->scene[i], ends) || !asks_later(v, i, shaken))
+        return FW_OK;
+    fw_verdict_hold h;
+    FW_TRY(fw_verdict_hold_new(arena, m, x, 1, &h));
+    for (int k = 0; k < 2; k++)
+        FW_TRY(damped_with(arena, i, ends[k], options, required, &h, v));
+    for (size_t k = 0; !shaken && k < 2 * nh + 2; k++)
+        to[k] *= h.f[k];
+    return FW_OK;
+}
+
+/* ---- scenes in which nothing moves ---- */
+
+/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
+static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
+    for (int k = 0; k < v->nrequirement; k++) {
+        const fw_verdict_requirement *r = &v->requirement[k];
+        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
+        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
+    }
+    return fw_text_end(list);
+}
+
+fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
+                                const fw_verdict_variant_verdict *v) {
+    const fw_device *d = v->mechanism->device;
+    int ran = 0, still = 0, first = FW_NONE;
+    bool told = false;
+    for (int i = 0; i < d->nscene; i++) {
+        fw_text met = fw_text_new(arena);
+        ran += v->motion[i] != NULL;
+        if (!fw_verdict_stands_still(v, i)) continue;
+        if (still++ == 0) first = i;
+        FW_TRY(met_there(v, i, &met));
+        if (met.length == 0) continue;
+        const char *few = fw_text_few(arena, met.data);
+        FW_NEED(few);
+        told = true;
+        fw_diag_warning(
+            diags, 655, d->scene[i].place,
+            "nothing moves in %s%s: what is required there of %s is met by a device that "
+            "does nothing; give the scene what drives the device",
+            FW_NAMED("scene", d->scene[i].name), few);
+    }
+    if (ran > 0 && still == ran && !told && !v->workspace.required)
+        fw_diag_warning(
+            diags, 655, d->scene[first].place,
+            "nothing moves in %s: that no hinge is strained says nothing of what the device "
+            "bears (a study's governing.utilisation likewise); give a scene what drives it",
+            ran > 1 ? "any scene"
+                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
+    return diags->failed ? FW_NOMEM : FW_OK;
+}

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a law does near a resonance. Bands hold what a stiffness is off by in proportion. A law that goes to and fro near a mode does much more or less where
    the mode lies a little lower or higher than computed, which its own error allows. Of every mode k and each such law,
-   whatever it acts by, A(w) is the largest answer of an oscillator with the mode's damping (fw_quantity_law_swing), and
+   whatever it acts by, A(w) is the largest answer of an oscillator (fw_quantity_law_swing), and
 
      r_k = max over laws and over w of A(w)/A(w_k),
 
-   w within the mode's error and what bodies give, half a radian apart at the end of the scene. How far a mode swings is
-   seen in the motion: a_k, the largest of its modal speed over w_k, shape . M v. Of a hinge that is bent in mode k by
-   s_k, and by S at most in the motion,
+   w within the mode's error and what bodies give, half a radian apart at the end of the scene. A(w_k) is damped as the motion
+   is, whose whole scene says what is set off (set_off); A(w) by the least loss factor that the material may have, or by
+   the largest where that is less (moved_again.c). What is softer goes farther besides, by w_k^2/w^2 less what bands hold
+   of that. How far a mode swings is seen in the motion: a_k, the largest of its modal speed, shape . M v, over w_k, or over
+   the law's frequency where that is lower, but no more than it is ever away from the start. Of a hinge that is bent in
+   mode k by s_k, and by S at most in the motion,
 
      up = 1 + sum a_k s_k (r_k - 1)/S,
 
@@ -85,6 +88,7 @@ static fw_status steady_part(fw_arena *arena, const fw_device_scene *s, fw_devic
                              bool *moves, bool *slowly) {
     const double end = s->duration_s;
     *to = *s;
+    to->set_off = s; /* it is damped as in the motion */
     FW_TRY(fw_device_own_scene(arena, to));
     to->nforce = to->ntorque = to->ntendon = to->nbase = to->ntemperature = to->npart = 0;
     *slowly = false;
@@ -126,24 +130,39 @@ static answer answers_to(const shaking *by, double end_s, const fw_verdict_shake
     const fw_quantity_law_wave wave = fw_quantity_law_wave_of(by->law);
     const double a_second = fmax(steps, 48 * wave.fastest_Hz),
                  end = fmin(end_s, most_steps / a_second); /* by then it swings evenly */
-    const double as_computed =
-        fw_quantity_law_swing(by->law, by->as, end, mode->omega, mode->damping);
+    const double as_computed = fw_quantity_law_swing(by->law, by->as, end, mode->omega,
+                                                     mode->damping[FW_VERDICT_AS_DAMPED]);
     const double own = (by->as == FW_LAW_SQUARED ? 2 : 1) * wave.rad_per_s;
     const double n =
         fmin(2 + ceil((high - low) * end / 0.5), fmax(20, most_steps / (a_second * end)));
     answer r = {1, 1, 1};
+    double least_at = mode->omega;
     if (!(as_computed > 0)) return r;
-    for (double k = 0; k <= n; k++) {
-        const double at = k == n ? fmin(fmax(own, low), high) : low + (high - low) * k / (n - 1);
-        const double now = fw_quantity_law_swing(by->law, by->as, end, at, mode->damping);
+    for (double k = 0; k < n + 4; k++) { /* the last two with what damps most */
+        const double at = k < n        ? low + (high - low) * k / (n - 1)
+                          : k == n     ? fmin(fmax(own, low), high)
+                          : k == n + 2 ? least_at
+                                       : mode->omega;
+        const double now = fw_quantity_law_swing(
+            by->law, by->as, end, at,
+            mode->damping[k < n + 2 ? FW_VERDICT_LEAST_DAMPED : FW_VERDICT_MOST_DAMPED]);
         const double by_stiffness =
             by->as == FW_LAW_OF_COORDINATE ? 1 : fw_verdict_soft_within(softer, mode, at);
         if (!(now >= 0)) continue;
         r.strained = fmax(r.strained, now / as_computed * fmax(1, by_stiffness));
         r.up = fmax(r.up, now / as_computed * by_stiffness);
-        r.down = fmin(r.down, now / as_computed * by_stiffness);
+        if (now / as_computed * by_stiffness < r.down)
+            r.down = now / as_computed * by_stiffness, least_at = at;
     }
     return r;
+}
+
+/* How far it goes by a law, over its largest speed over its own frequency: what a slower law moves is slower */
+static double slower_by(const shaking *by, const fw_verdict_shaken_mode *mode) {
+    const double law =
+        (by->as == FW_LAW_SQUARED ? 2 : 1) * fw_quantity_law_wave_of(by->law).rad_per_s;
+    if (by->as == FW_LAW_OF_COORDINATE) return 1;
+    return law > 0 ? fmax(1, fmin(mode->omega / law, mode->goes)) : mode->goes;
 }
 
 /* of what comes again, and of each law that goes to and fro; to: rows, of every hinge and body */
@@ -154,10 +173,11 @@ static fw_status answers_of(fw_arena *arena, const shakings *by, const fw_verdic
     for (int j = 0; j < by->n; j++) {
         const answer now = answers_to(&by->item[j], by->end_s, mode, softer);
         for (int i = 0; i < rows; i++) {
-            const double share = fw_verdict_bends_most(mode->bends[i]);
+            const double share =
+                slower_by(&by->item[j], mode) * fw_verdict_bends_most(mode->bends[i]);
             to[i].up = fmax(to[i].up, 1 + share * (now.up - 1));
             to[i].strained = fmax(to[i].strained, 1 + share * (now.strained - 1));
-            to[i].down = fmin(to[i].down, 1 - share * (1 - now.down));
+            to[i].down = fmin(to[i].down, fmax(0, 1 - share * (1 - now.down)));
         }
     }
     return FW_OK;
@@ -202,6 +222,12 @@ static fw_status add_answers(fw_arena *arena, const fw_mechanism *m, const shaki
     return FW_OK;
 }
 
+/* Of a frequency what its own error and what bodies give leave of it. They add to compliances, 1/omega^2 goes by 1 + bodies:
+   of what gives much no less than by twice that, where a share of the frequency would leave nothing */
+static double lowest(double off, double bodies) {
+    return fmax(1 - off - 0.5 * bodies, (1 - off) / sqrt(1 + 2 * bodies));
+}
+
 /* where the modes of `other`, at rest, lie elsewhere: the scene passes there */
 static void hold_both(const fw_statics_modes *other, double bodies, fw_verdict_shaken *s) {
     for (int k = 0; k < s->n; k++) {
@@ -210,9 +236,41 @@ static void hold_both(const fw_statics_modes *other, double bodies, fw_verdict_s
         const fw_statics_mode *at = &other->mode[mode->number];
         if (!(at->stiffness_per_s2 > 0)) continue;
         const double off = fmin(fw_statics_mode_error(at), 0.5);
-        mode->low = fmin(mode->low, at->omega_rad_per_s * (1 - off - 0.5 * bodies));
+        mode->low = fmin(mode->low, at->omega_rad_per_s * lowest(off, bodies));
         mode->high = fmax(mode->high, at->omega_rad_per_s * (1 + off));
     }
+}
+
+/* with the least loss factor of flexures, where that is known within limits; *ends: both of them, or twice the same */
+static fw_status least_lossy(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                             double ends[2], fw_mechanism *to, fw_device_scene *scene) {
+    *to = *m, *scene = *s, ends[0] = ends[1] = m->variant->material.loss.value;
+    if (!fw_verdict_loss_ends(m, s, ends)) return FW_OK;
+    return fw_verdict_with_loss(arena, m, s, ends[0], to, scene);
+}
+
+/* what damps modes at least and at most: by their modes with the least loss, and in proportion beyond the factor as it is */
+static fw_status damped_within(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
+                               bool at_equilibrium, fw_verdict_shaken *to) {
+    const double loss = m->variant->material.loss.value;
+    const fw_statics_modes *modes;
+    fw_mechanism lossy;
+    fw_device_scene scene;
+    double ends[2];
+    FW_TRY(least_lossy(arena, m, s, ends, &lossy, &scene));
+    if (!(ends[1] > ends[0])) return FW_OK;
+    FW_TRY(fw_verdict_modes_about(arena, &lossy, &scene, at_equilibrium, 0.03, &modes));
+    for (int k = 0; k < to->n; k++) {
+        const int number = to->mode[k].number;
+        double *is = to->mode[k].damping, *least = &is[FW_VERDICT_LEAST_DAMPED];
+        *least = modes && number < modes->count ? fw_verdict_damping_of(&modes->mode[number])
+                                                : *is * ends[0] / loss;
+        *least = fmin(*least, *is);
+        is[FW_VERDICT_MOST_DAMPED] =
+            fmin(0.99, loss > ends[0] ? *is + (*is - *least) * (ends[1] - loss) / (loss - ends[0])
+                                      : *is * ends[1] / loss);
+    }
+    return FW_OK;
 }
 
 /* modes of the scene with how far they swing in it; none: nothing goes to and fro, or nothing swings */
@@ -220,7 +278,11 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
                              const fw_dynamics_motion *motion, double bodies, bool own,
                              shakings *by, fw_verdict_shaken *to) {
     const fw_statics_modes *modes = NULL, *rest = NULL;
-    fw_device_scene steady, still = {.name = "(none)", .duration_s = 1};
+    fw_device_scene steady, still = {.name = "(none)",
+                                     .duration_s = 1,
+                                     .set_off = s,
+                                     .damping = s->damping,
+                                     .ndamping = s->ndamping};
     bool moves, slowly, held = false;
     FW_TRY(find_laws(arena, m, s, by));
     if (motion->loads && motion->loads->quasi_static)
@@ -233,10 +295,13 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     if (!modes) return FW_OK;
     FW_NEED(to->mode = fw_arena_array(arena, fw_verdict_shaken_mode, MODES_SHAKEN));
     FW_TRY(fw_verdict_swings(arena, m, s, by->again, modes, motion, MODES_SHAKEN, to));
+    FW_TRY(damped_within(arena, m, reached ? &steady : &still, reached && moves, to));
     for (int k = 0; k < to->n; k++) {
         const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
-        to->mode[k].low = to->mode[k].soft = to->mode[k].omega * (1 - off - 0.5 * bodies);
+        to->mode[k].low = to->mode[k].soft = to->mode[k].omega * lowest(off, bodies);
         to->mode[k].high = to->mode[k].stiff = to->mode[k].omega * (1 + off);
+        to->mode[k].held = 1 + fw_verdict_motion_lasting_error(m);
+        to->mode[k].least = to->mode[k].omega * (1 - off);
     }
     for (int c = 0; c < to->nreach; c++)
         held = held || (to->reach[c].rests && to->reach[c].gap_m > 0);
@@ -335,6 +400,8 @@ static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, con
     const fw_device_scene *s = &m->device->scene[scene];
     const fw_statics_modes *at[2] = {NULL, NULL}, *rest = NULL;
     fw_device_scene held, steady;
+    fw_mechanism lossy;
+    double ends[2];
     bool moves, slowly;
     if (by->n == 0) return FW_OK;
     for (int i = 0; i < 2; i++) {
@@ -342,16 +409,17 @@ static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, con
         FW_TRY(fw_verdict_modes_about(arena, m, &held, true, fine, &at[i]));
     }
     FW_TRY(steady_part(arena, s, &steady, &moves, &slowly));
-    FW_TRY(fw_verdict_modes_about(arena, m, &steady, moves, fine, &rest));
+    FW_TRY(least_lossy(arena, m, &steady, ends, &lossy, &held));
+    FW_TRY(fw_verdict_modes_about(arena, &lossy, &held, moves, fine, &rest));
     for (int k = 0; rest && (at[0] || at[1]) && k < rest->count && k < MODES_SHAKEN; k++) {
         const fw_statics_mode *mode = &rest->mode[k];
         if (!(mode->stiffness_per_s2 > 0)) continue;
         const double share = comes_and_goes(rest, at, k), omega = mode->omega_rad_per_s,
-                     damping = fmin(fmax(mode->damping_ratio, 0), 0.99),
+                     damping = fw_verdict_damping_of(mode),
                      off = fmin(fw_statics_mode_error(mode), 0.5);
         if (!(0.25 * share * omega * by->end_s > log(much))) continue;
-        const double grown = grows_most(by, omega * (1 - off - 0.5 * bodies), omega * (1 + off),
-                                        omega, damping, share);
+        const double grown =
+            grows_most(by, omega * lowest(off, bodies), omega * (1 + off), omega, damping, share);
         if (grown > much) return tell_pumped(arena, s, mode, share, grown, v);
     }
     return FW_OK;
@@ -511,90 +579,5 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
                         fw_number_text(down, sizeof down, least, 2),
                         fw_number_text(up, sizeof up, most, 2));
     }
-    return diags->failed ? FW_NOMEM : FW_OK;
-}
-
-/* ---- what of a device that was made is kept and compared ---- */
-
-fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdict *v,
-                                 const fw_verdict_shaken **kept) {
-    const size_t scenes = (size_t)v->mechanism->device->nscene, h = (size_t)v->nhinge + 1,
-                 bodies = (size_t)v->nhinge + (size_t)v->mechanism->nbody;
-    fw_verdict_shaken *to;
-    *kept = NULL;
-    if (!v->shaken) return FW_OK;
-    FW_NEED(to = fw_arena_grow(arena, v->shaken, scenes, scenes, sizeof *to));
-#define KEEP(what, count)                                                                          \
-    if (what) FW_NEED(what = fw_arena_grow(arena, what, (count), (count), sizeof *(what)))
-    for (size_t i = 0; i < scenes; i++) {
-        fw_verdict_shaken *of = &to[i];
-        for (int k = 0; k < 4; k++)
-            of->other[k].probe = NULL, of->own = NULL;
-        const size_t n = (size_t)of->n, loads = (size_t)of->nload, reach = (size_t)of->nreach,
-                     rows = bodies + reach;
-        KEEP(of->factor, 2 * h);
-        KEEP(of->grown, 2 * h);
-        KEEP(of->flexed, 2 * h - 2);
-        KEEP(of->each, rows);
-        KEEP(of->most, rows);
-        KEEP(of->reach, reach);
-        for (size_t k = 0; k < reach; k++) {
-            of->reach[k].element = NULL, of->reach[k].stop = NULL;
-            if (of->reach[k].id) FW_NEED(of->reach[k].id = fw_arena_strdup(arena, of->reach[k].id));
-        }
-        if (n == 0) continue;
-        KEEP(of->mode, n);
-        KEEP(of->load, loads);
-        KEEP(of->way, (size_t)of->ways * rows);
-        for (size_t k = 0; k < loads; k++) /* that of a driver stands in the mechanism */
-            KEEP(of->load[k].law, 1);
-        for (size_t k = 0; k < n; k++) {
-            KEEP(of->mode[k].bends, rows);
-            KEEP(of->mode[k].size, loads);
-        }
-    }
-#undef KEEP
-    *kept = to;
-    return FW_OK;
-}
-
-/* "stroke (final), stroke (parasitic)": what is accepted of a scene; "" */
-static fw_status met_there(const fw_verdict_variant_verdict *v, int scene, fw_text *list) {
-    for (int k = 0; k < v->nrequirement; k++) {
-        const fw_verdict_requirement *r = &v->requirement[k];
-        if (!r->measure || r->scene_index != scene || r->decision != FW_ACCEPT) continue;
-        fw_text_printf(list, "%s%s (%s)", list->length ? ", " : "", r->probe, r->measure);
-    }
-    return fw_text_end(list);
-}
-
-fw_status fw_verdict_tell_still(fw_arena *arena, fw_diags *diags,
-                                const fw_verdict_variant_verdict *v) {
-    const fw_device *d = v->mechanism->device;
-    int ran = 0, still = 0, first = FW_NONE;
-    bool told = false;
-    for (int i = 0; i < d->nscene; i++) {
-        fw_text met = fw_text_new(arena);
-        ran += v->motion[i] != NULL;
-        if (!fw_verdict_stands_still(v, i)) continue;
-        if (still++ == 0) first = i;
-        FW_TRY(met_there(v, i, &met));
-        if (met.length == 0) continue;
-        const char *few = fw_text_few(arena, met.data);
-        FW_NEED(few);
-        told = true;
-        fw_diag_warning(
-            diags, 655, d->scene[i].place,
-            "nothing moves in %s%s: what is required there of %s is met by a device that "
-            "does nothing; give the scene what drives the device",
-            FW_NAMED("scene", d->scene[i].name), few);
-    }
-    if (ran > 0 && still == ran && !told && !v->workspace.required)
-        fw_diag_warning(
-            diags, 655, d->scene[first].place,
-            "nothing moves in %s: that no hinge is strained says nothing of what the device "
-            "bears (a study's governing.utilisation likewise); give a scene what drives it",
-            ran > 1 ? "any scene"
-                    : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", d->scene[first].name)));
     return diags->failed ? FW_NOMEM : FW_OK;
 }

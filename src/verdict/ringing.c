@@ -7,7 +7,7 @@
      A_i = max over time of |sum of b_ki q_k + sum of (c_ij - sum of b_ki p_kj) f_j|/S_i
 
    q_k the oscillator, p_kj its part of law j: the modes ring, and what they leave out is where it rests. A_i(w) - A_i as
-   computed widens by one mode that lies elsewhere, for all that do; and of all together where all lie lower, or higher, by
+   computed widens by one mode that lies elsewhere, or is damped by either end of a loss factor, for all that do; and of all together where all lie lower, or higher, by
    one share, since then what rings in one may meet what rings in another.
 
    In: the motion, modes, loads. Out: answers of hinges and bodies. Range: small motions; modes that bend or move by a hundredth
@@ -81,53 +81,11 @@ static int elements_on(const fw_device_scene *s, const acting *by, const double 
     return n;
 }
 
-static int laws_of(const fw_mechanism *m, const fw_device_scene *s, fw_quantity_law_load *load) {
-    int n = 0;
-    double from, to;
-    for (int i = 0; i < m->ndriver; i++)
-        if (fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to))
-            load[n++] = (fw_quantity_law_load){&m->driver[i].law, 1, false, from, true};
-    for (int i = 0; i < s->ntemperature; i++)
-        if (s->temperature[i].change_K != 0)
-            load[n++] = (fw_quantity_law_load){s->temperature[i].law, 1, false, 0, false};
-    if (s->nstress > 0) load[n++] = (fw_quantity_law_load){.size = 1};
-    return n;
-}
-
-/* *unknown: what of it holds the device nowhere that was found; NULL: all is known */
 static fw_status acting_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                            const fw_effects_loads *loads, acting *by, const char **unknown) {
-    const int size = 3 * m->nbody;
-    double from, to, *way;
-    bool known = true;
-    *by = (acting){.loads = loads};
-    *unknown = NULL;
-    FW_NEED(by->way = way = fw_arena_array(
-                arena, double, (size_t)size *(size_t)(m->ndriver + s->ntemperature + 1)));
-    for (int i = 0; i < m->ndriver; i++) {
-        if (!fw_quantity_law_goes(&m->driver[i].law, s->duration_s, &from, &to)) continue;
-        FW_TRY(fw_statics_driven_way(arena, m, i, s->duration_s, way + size * by->ways++, &known));
-        if (!known) *unknown = "a driver";
-    }
-    for (int i = 0; i < s->ntemperature; i++) {
-        if (s->temperature[i].change_K == 0) continue;
-        FW_TRY(
-            fw_statics_heated_way(arena, m, &s->temperature[i], way + size * by->ways++, &known));
-        if (!known) *unknown = "heat";
-    }
-    if (s->nstress > 0)
-        FW_TRY(fw_statics_stressed_way(arena, m, s, way + size * by->ways++, &known));
-    if (!known && !*unknown) *unknown = "the stress of a layer";
-    return FW_OK;
-}
-
-fw_status fw_verdict_ways_held(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
-                               fw_verdict_held_ways *to) {
-    acting by;
-    *to = (fw_verdict_held_ways){0};
-    FW_TRY(acting_of(arena, m, s, NULL, &by, &to->unknown));
-    FW_NEED(to->load = fw_arena_array(arena, fw_quantity_law_load, (size_t)by.ways + 1));
-    to->way = by.way, to->n = laws_of(m, s, to->load);
+    fw_verdict_held_ways held;
+    FW_TRY(fw_verdict_ways_held(arena, m, s, &held));
+    *by = (acting){.loads = loads, .way = held.way, .ways = held.n}, *unknown = held.unknown;
     return FW_OK;
 }
 
@@ -163,7 +121,7 @@ static int loads_on(const fw_mechanism *m, const fw_device_scene *s, const actin
         load[n++] = (fw_quantity_law_load){
             .size = shape ? with_masses(m, shape, s->gx_m_per_s2, s->gy_m_per_s2) / unit : 1};
     n += elements_on(s, by, q, shape, unit, load + n);
-    const int laws = laws_of(m, s, load + n);
+    const int laws = fw_verdict_laws_held(m, s, load + n);
     for (int i = 0; shape && i < laws; i++) {
         const double *way = by->way + (size_t)i * 3 * (size_t)m->nbody;
         load[n + i].size = fw_verdict_mass_form(m, shape, way) * square / unit;
@@ -232,19 +190,40 @@ static double bent_between(const fw_mechanism *m, const fw_mechanism_hinge *h, c
         fw_verdict_bend_of(h, turn, after.x - before.x, after.y - before.y));
 }
 
-/* largest modal speed over w of every mode: in the scene, and in the last period of its frequency; *start: at the start,
-   with its sign */
+/* u . M (x, y) of one body, by what it is given turned back by `turn` */
+static double of_body(const fw_mechanism *m, int b, const double *u, const double *of,
+                      double turn) {
+    const fw_geometry_vec2 at = fw_geometry_vec_rotate((fw_geometry_vec2){of[0], of[1]}, -turn);
+    const fw_mechanism_mass *is = &m->body[b];
+    return is->mass_kg * (u[0] * at.x + u[1] * at.y) + is->inertia_kg_m2 * u[2] * of[2];
+}
+
+/* how far a mode is from where it began, in units of its shape */
+static double way_from(const fw_mechanism *m, const fw_statics_mode *mode,
+                       const fw_dynamics_motion *motion, int row) {
+    double sum = 0;
+    for (int b = 0; b < m->nbody; b++) {
+        const double *from = motion->q + 3 * b, *to = from + (size_t)row * 3 * (size_t)m->nbody;
+        const double way[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+        sum += of_body(m, b, mode->shape + 3 * b, way, 0.5 * way[2]);
+    }
+    return sum / mode->modal_mass_kg_m2;
+}
+
+/* largest modal speed over w of every mode: in the scene, and in the last period of its frequency; how far it goes from the
+   start, no less than the first (bodies that turn: along the chord); *start: its speed there, with its sign */
 static void see_swings(const fw_mechanism *m, const fw_statics_modes *modes,
-                       const fw_dynamics_motion *motion, int k, double swings[2], double *start) {
+                       const fw_dynamics_motion *motion, int k, double swings[3], double *start) {
     const fw_statics_mode *mode = &modes->mode[k];
     const double w = mode->omega_rad_per_s, late = motion->end_s - 2 * FW_PI / w;
-    swings[0] = swings[1] = *start = 0;
+    swings[0] = swings[1] = swings[2] = *start = 0;
     for (int r = 0; r < motion->nsample; r++) {
         const double *v = motion->v + (size_t)r * 3 * (size_t)m->nbody;
         const double speed = fw_verdict_mass_form(m, mode->shape, v);
         const double now = fabs(speed) / (mode->modal_mass_kg_m2 * w);
         if (r == 0) *start = speed / mode->modal_mass_kg_m2;
         swings[0] = fmax(swings[0], now);
+        swings[2] = fmax(swings[2], fmax(now, fabs(way_from(m, mode, motion, r))));
         if (motion->t_s[r] >= late || r + 2 >= motion->nsample) swings[1] = fmax(swings[1], now);
     }
 }
@@ -295,7 +274,7 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
                             bool again, const fw_statics_modes *modes,
                             const fw_dynamics_motion *motion, int most_modes,
                             fw_verdict_shaken *to) {
-    const double hardly = 1e-3, rings = 0.01, least = fw_verdict_least_damped(m, s);
+    const double hardly = 1e-3, rings = 0.01;
     acting by = {0};
     fw_dynamics_motion_rows(motion, 0, motion->nsample); /* they wait for whom reads them */
     FW_TRY(fw_verdict_reach_find(arena, motion, modes->unit_length_m, modes->q, to));
@@ -315,7 +294,7 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
     }
     for (int k = 0; k < modes->count && k < most_modes; k++) {
         const fw_statics_mode *mode = &modes->mode[k];
-        double swings[2], start, share = 0;
+        double swings[3], start, share = 0;
         if (!(mode->stiffness_per_s2 > 0) || !mode->shape) continue;
         see_swings(m, modes, motion, k, swings, &start);
         fw_verdict_shaken_mode *out = &to->mode[to->n];
@@ -326,8 +305,9 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
         if (!(share > hardly)) continue;
         out->number = k;
         out->omega = mode->omega_rad_per_s;
-        out->damping = least * fmin(fmax(mode->damping_ratio, 0), 0.99); /* NaN: 0 */
-        out->late = swings[1] / swings[0];
+        for (int i = 0; i < 3; i++)
+            out->damping[i] = fw_verdict_damping_of(mode);
+        out->late = swings[1] / swings[0], out->goes = swings[2] / swings[0];
         out->start = start / swings[0];
         to->n++;
         if (!again || !(share > rings)) continue;
@@ -346,7 +326,10 @@ fw_status fw_verdict_swings(fw_arena *arena, const fw_mechanism *m, const fw_dev
 
 double fw_verdict_soft_within(fw_verdict_softness softer, const fw_verdict_shaken_mode *mode,
                               double at) {
-    return fw_verdict_soft_by(softer, mode->omega, fmin(fmax(at, mode->soft), mode->stiff));
+    const double is = fmin(fmax(at, mode->soft), mode->stiff),
+                 by = mode->omega / fmax(is, mode->least); /* bands hold all that bodies give */
+    return softer == FW_VERDICT_AS_STIFF ? fmax(1, by * by / mode->held)
+                                         : fw_verdict_soft_by(softer, mode->omega, is);
 }
 
 typedef struct rings { /* of several modes at once */
@@ -355,6 +338,7 @@ typedef struct rings { /* of several modes at once */
     const fw_verdict_shaken_mode *mode[FW_QUANTITY_OSCILLATORS];
     int n, rows;
     fw_verdict_softness softer;
+    fw_verdict_damped damped;
     double *by, *less;
     fw_quantity_law_seen seen;
 } rings;
@@ -397,7 +381,8 @@ static double answers_at(rings *r, const double *times, double *answer) {
     fw_quantity_law_oscillator o[FW_QUANTITY_OSCILLATORS];
     for (int k = 0; k < r->n; k++) {
         const fw_verdict_shaken_mode *mode = r->mode[k];
-        o[k] = (fw_quantity_law_oscillator){mode->damping, mode->start, mode->size, {0}, {0}};
+        o[k] = (fw_quantity_law_oscillator){
+            mode->damping[r->damped], mode->start, mode->size, {0}, {0}};
         for (int l = 0; l < LANES; l++) {
             const double at = fmin(fmax(times[l] * mode->omega, mode->low), mode->high);
             o[k].omega_per_s[l] = at;
@@ -438,6 +423,18 @@ static void take_answer(const rings *r, double times, double now, double as_comp
     to->strained = fmax(to->strained, 1 + strained - as_computed);
 }
 
+/* does what damps most leave another swing than what damps least, by the end? */
+static bool dies_sooner(const rings *r, double end_s) {
+    const double same = 1e-3;
+    double most = 0;
+    for (int k = 0; k < r->n; k++) {
+        const double *of = r->mode[k]->damping;
+        most = fmax(most, (of[FW_VERDICT_MOST_DAMPED] - of[FW_VERDICT_LEAST_DAMPED]) *
+                              r->mode[k]->omega * end_s);
+    }
+    return most > same;
+}
+
 /* to: more or less than as computed, 1 where it does as much */
 static fw_status ring(fw_arena *arena, rings *r, double end_s, fw_verdict_answer *to) {
     enum { LANES = FW_QUANTITY_LANES };
@@ -458,12 +455,15 @@ static fw_status ring(fw_arena *arena, rings *r, double end_s, fw_verdict_answer
     const double n = fmin(2 + ceil(width * end_s / 0.5), fmax(fewest, most_steps / fmax(steps, 1)));
     for (int i = 0; i < r->rows; i++)
         to[i] = (fw_verdict_answer){1, 1, 1}, as_computed[i] = now[i * LANES];
-    for (double k = 0; steps >= 0 && k < n; k += LANES) {
-        for (int l = 0; l < LANES; l++)
-            times[l] = low + (high - low) * fmin((k + l) / (n - 1), 1);
-        steps = answers_at(r, times, now);
-        for (int i = 0; steps >= 0 && i < LANES * r->rows; i++)
-            take_answer(r, times[i % LANES], now[i], as_computed[i / LANES], &to[i / LANES]);
+    for (int end = 0; end < 2 && (end == 0 || dies_sooner(r, end_s)); end++) {
+        r->damped = end ? FW_VERDICT_MOST_DAMPED : FW_VERDICT_LEAST_DAMPED;
+        for (double k = 0; steps >= 0 && k < n; k += LANES) {
+            for (int l = 0; l < LANES; l++)
+                times[l] = low + (high - low) * fmin((k + l) / (n - 1), 1);
+            steps = answers_at(r, times, now);
+            for (int i = 0; steps >= 0 && i < LANES * r->rows; i++)
+                take_answer(r, times[i % LANES], now[i], as_computed[i / LANES], &to[i / LANES]);
+        }
     }
     if (steps < 0) as_allowed(r, end_s, to);
     return FW_OK;
@@ -500,14 +500,6 @@ enum { MODES_AFTER = 8 }; /* of one hinge, those that bend it most */
 static double decrement_of(double damping_ratio) {
     const double z = fmin(fmax(damping_ratio, 0), 0.99); /* NaN: nothing is known, 0 */
     return 2 * FW_PI * z / sqrt(1 - z * z);
-}
-
-/* u . M (x, y) of one body, by what it is given turned back by `turn` */
-static double of_body(const fw_mechanism *m, int b, const double *u, const double *of,
-                      double turn) {
-    const fw_geometry_vec2 at = fw_geometry_vec_rotate((fw_geometry_vec2){of[0], of[1]}, -turn);
-    const fw_mechanism_mass *is = &m->body[b];
-    return is->mass_kg * (u[0] * at.x + u[1] * at.y) + is->inertia_kg_m2 * u[2] * of[2];
 }
 
 /* How far a mode swings about where it rests, in units of its shape. A body that turns by theta about a far pin comes nearer

@@ -20,8 +20,7 @@ fw_verdict_decision fw_verdict_worse(fw_verdict_decision a, fw_verdict_decision 
 
 /* what the band of a utilisation is made of, shares of it downwards and upwards */
 typedef struct fw_verdict_band_parts {
-    double root
-        [2]; /* law of the peak strain; upwards with what it may be more by where the peak is not at a root */
+    double root[2]; /* law of the peak strain; upwards with what it may be more by beside a root */
     double stiffness[2]; /* of the closed form, that is of solids */
     double model[2];     /* step to the next level of the hinges */
     double place[2];  /* where the moment stands at a root, and what blocks give along the strip */
@@ -196,8 +195,10 @@ typedef struct fw_verdict_requirement {
     /* bound / value of a min, value / bound of a max; where a bound is not above 0 both from the value
        as drawn: 1 at the bound; NaN: nothing to measure by */
     double utilisation, utilisation_low, utilisation_high;
-    bool by_max;    /* of its max; else of its min */
-    double swing;   /* how far it goes from where it was drawn; of a gap, how far outlines move */
+    bool by_max;  /* of its max; else of its min */
+    double swing; /* how far it goes from where it was drawn; of a gap, how far outlines move */
+    double
+        swing_most; /* the same of devices of the band whose modes lie where they were computed */
     bool size;      /* it is a gap, which is not below 0 */
     double numeric; /* part of the band on either side that a tighter run would take away */
     double lasting; /* relative part of it that no better model of the hinges would take away */

@@ -187,16 +187,15 @@ fw_verdict_bends fw_verdict_bend_of(const fw_mechanism_hinge *hinge, double turn
 double fw_verdict_bends_most(fw_verdict_bends b);
 /* a mode that swings in a scene whose law goes to and fro, or where something comes again */
 typedef struct fw_verdict_shaken_mode {
-    int number;                       /* from 0 */
-    double omega, damping, low, high; /* rad/s; where it may lie */
-    double soft,
-        stiff; /* likewise, by its stiffness alone: without what the scene passes on its way to its loads and contacts */
+    int number;                          /* from 0 */
+    double omega, low, high, damping[3]; /* rad/s; where it may lie; critical shares (body.h) */
+    double soft, stiff; /* likewise by stiffness, without what the scene passes on its way */
     /* (nhinge + nbody + nreach) what it does as computed of the most that each is bent, or goes; 0: that hardly is */
     fw_verdict_bends *bends;
-    double late;  /* how far it still swings at the end, over how far it ever does */
-    double start; /* modal speed at the start, over how far it swings, 1/s */
-    /* (nload) where something comes again: modal forces over mass and omega^2 and how far it swings; NULL: it hardly does */
-    double *size;
+    /* over how far it swings: how far it still does at the end, and goes from the start; its speed at the start, 1/s */
+    double late, goes, start;
+    double held, least; /* times as far as bands hold; rad/s by flexures' errors alone */
+    double *size; /* (nload) modal forces/(mass omega^2) over its swing; NULL: none come again */
 } fw_verdict_shaken_mode;
 /* a scene that was moved again (near_a_fold.c) */
 typedef struct fw_verdict_other {

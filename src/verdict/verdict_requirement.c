@@ -546,16 +546,15 @@ static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_req
     return r->measure && (!v->motion[r->scene_index] || r->why == fw_verdict_unstable_there);
 }
 
-/* By what a mode that lies elsewhere may do more or less (resonance.c): of how far it goes to and fro. A final value may be at
-   any place of that within which phases run apart. A settling time goes with the logarithm of what swings: it has no bound */
+/* By what modes that lie elsewhere may do more or less (resonance.c), of how far it goes to and fro. A final value may be where
+   phases run apart. A settling time, which goes with the logarithm of what swings, has no bound */
 void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
                                    fw_verdict_requirement *r) {
-    const bool final = measure == FW_MEASURE_FINAL;
-    const double more = r->swing * (final ? late : factor[0] - 1),
-                 less = r->swing * (final ? late : 1 - factor[1]);
-    if (!(fmax(more, less) > 0)) return;
+    const bool end = measure == FW_MEASURE_FINAL;
+    const double more = r->swing_most * (end ? late : factor[0] - 1),
+                 less = end ? more : r->swing * (1 - factor[1]);
+    if (!(fmax(more, less) > 0) || (measure == FW_MEASURE_SETTLING && factor[0] < 1.02)) return;
     if (measure == FW_MEASURE_SETTLING) {
-        if (factor[0] - 1 < 0.02) return;
         r->low = 0, r->high = HUGE_VAL;
         r->open = "it is shaken near a mode whose frequency is known to some per cent";
     } else if (measure == FW_MEASURE_PEAK || measure == FW_MEASURE_PEAK_TO_PEAK ||
@@ -567,12 +566,14 @@ void fw_verdict_requirement_shaken(const double factor[2], double late, fw_devic
     decide(r);
 }
 
-static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v,
-                            fw_verdict_requirement *r) {
+static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v, int k) {
+    fw_verdict_requirement *r = &v->requirement[k];
     const fw_verdict_shaken *s = &v->shaken[r->scene_index];
+    const double has = fmax(r->high - r->value, r->value - r->low);
+    r->swing_most = r->swing + (isfinite(has) ? has : 0);
     FW_TRY(fw_verdict_requirement_others(v, s, r));
-    fw_verdict_requirement_shaken(s->required, s->required_late,
-                                  m->device->requirement[r->asked].measure, r);
+    const fw_device_measure measure = m->device->requirement[r->asked].measure;
+    fw_verdict_requirement_shaken(s->required, s->required_late, measure, r);
     FW_TRY(fw_verdict_requirement_lacking(v, r));
     return decide(r), FW_OK;
 }
@@ -590,8 +591,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
                                                  judge_small, v));
     }
     for (int k = 0; k < v->nrequirement; k++)
-        if (v->requirement[k].measure && !v->requirement[k].why)
-            FW_TRY(put_shaken(m, v, &v->requirement[k]));
+        if (v->requirement[k].measure && !v->requirement[k].why) FW_TRY(put_shaken(m, v, k));
     FW_TRY(fw_verdict_bending_name_rigid(arena, v));
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].decision != FW_ACCEPT && !has_reason(v, &v->requirement[k]))
