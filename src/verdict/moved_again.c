@@ -498,10 +498,10 @@ static bool asks_later(const fw_verdict_variant_verdict *v, int scene, bool shak
     return false;
 }
 
-static fw_status damped_with(fw_arena *arena, int i, double loss,
-                             const fw_dynamics_motion_options *given,
-                             const fw_verdict_required *required, const fw_verdict_hold *h,
-                             fw_verdict_variant_verdict *v) {
+static fw_status damped_in(fw_arena *arena, int i, double loss,
+                           const fw_dynamics_motion_options *given,
+                           const fw_verdict_required *required, const fw_verdict_hold *h,
+                           fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     fw_mechanism lossy;
     fw_device_scene scene;
@@ -520,6 +520,18 @@ static fw_status damped_with(fw_arena *arena, int i, double loss,
     if (!x || x->ended) return FW_OK;
     fw_verdict_hold_run(m, x, &monitor, h);
     return probe[0] ? required->take_in(m, i, x, probe[0], 0, v) : FW_OK;
+}
+
+/* its motion is seen and not kept */
+static fw_status damped_with(fw_arena *arena, int i, double loss,
+                             const fw_dynamics_motion_options *given,
+                             const fw_verdict_required *required, const fw_verdict_hold *h,
+                             fw_verdict_variant_verdict *v) {
+    fw_arena *own = fw_arena_part(arena, 0);
+    FW_NEED(own);
+    const fw_status status = damped_in(own, i, loss, given, required, h, v);
+    fw_arena_free(own);
+    return status;
 }
 
 fw_status fw_verdict_damped_again(fw_arena *arena, int i, bool shaken,

@@ -300,7 +300,10 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
         const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
         to->mode[k].low = to->mode[k].soft = to->mode[k].omega * lowest(off, bodies);
         to->mode[k].high = to->mode[k].stiff = to->mode[k].omega * (1 + off);
-        to->mode[k].held = 1 + fw_verdict_motion_lasting_error(m);
+        /* of pins on an axis that nobody knows no stiffness is known to be off by that much */
+        to->mode[k].held = isnan(fw_statics_mode_error(&modes->mode[to->mode[k].number]))
+                               ? HUGE_VAL
+                               : 1 + fw_verdict_motion_lasting_error(m);
         to->mode[k].least = to->mode[k].omega * (1 - off);
     }
     for (int c = 0; c < to->nreach; c++)

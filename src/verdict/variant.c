@@ -399,8 +399,7 @@ static void widen(const double factor[2], fw_verdict_hinge_verdict *h) {
 
 /* What a formula lacks is a share of all of that: what is seen has it already (fw_verdict_motion_beside) */
 static void lacks_of_that(double up, double share, fw_verdict_hinge_verdict *h) {
-    const double by[2] = {1 + (up - 1) * share, 1};
-    widen(by, h);
+    widen((const double[2]){1 + (up - 1) * share, 1}, h);
 }
 
 /* and by what flexures weigh (flexure_swing.c): strains */

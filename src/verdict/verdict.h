@@ -197,13 +197,12 @@ typedef struct fw_verdict_requirement {
     double utilisation, utilisation_low, utilisation_high;
     bool by_max;  /* of its max; else of its min */
     double swing; /* how far it goes from where it was drawn; of a gap, how far outlines move */
-    double
-        swing_most; /* the same of devices of the band whose modes lie where they were computed */
-    bool size;      /* it is a gap, which is not below 0 */
-    double numeric; /* part of the band on either side that a tighter run would take away */
-    double lasting; /* relative part of it that no better model of the hinges would take away */
-    double t_s;     /* when; NaN: no one time */
-    double rings;   /* of a final value, by how much it still goes to and fro; else 0 */
+    double swing_most; /* the same at the end of a band, with modes where they were computed */
+    bool size;         /* it is a gap, which is not below 0 */
+    double numeric;    /* part of the band on either side that a tighter run would take away */
+    double lasting;    /* relative part of it that no better model of the hinges would take away */
+    double t_s;        /* when; NaN: no one time */
+    double rings;      /* of a final value, by how much it still goes to and fro; else 0 */
     /* of what a flow makes, else NaN: the least of low and the most of high at any corner, run or not */
     double all_low, all_high;
     fw_verdict_decision decision;

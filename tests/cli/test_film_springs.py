@@ -98,7 +98,7 @@ class FilmsThatAreSprings(unittest.TestCase):
                     self.assertAlmostEqual(row["value"] / damped, 1, 1)  # the motion has the damper
                     self.assertTrue(low <= true <= high)
                     if name == "ramp" or number == 0.1 and name == "step":  # what is slow stays known
-                        self.assertLess(high - low, 0.2 * row["value"])
+                        self.assertLess(high - low, 0.25 * row["value"])
                     if (number, name) == (50, "sine 1.6"):
                         self.assertGreater(true, 8 * row["value"])
 
@@ -123,7 +123,7 @@ class FilmsThatAreSprings(unittest.TestCase):
     def test_modes_say_what_the_spring_would_move(self):
         done = run("modes", "-", input=device("step", 0.5, 1))
         low, high = map(float, re.search(r"mode 1 of scene shake .* between ([\d.]+) and ([\d.]+) kHz \[FW-D754\]", " ".join(done.stderr.split())).groups())
-        self.assertAlmostEqual(low, F0 / 1e3, 1)
+        self.assertLess(abs(low / (F0 / 1e3) - 1), 5e-3)
         k = MASS * (2 * math.pi * F0) ** 2
         w = 2 * math.pi * 42e3
         for _ in range(30):
