@@ -818,7 +818,7 @@ class Probe(unittest.TestCase):
         air, sine = '<air kind="slide" on="J" gap="3 um" area="0.3 mm^2"/>', '<force on="J" fx="3 uN" law="sine" frequency="40 Hz"/>'
         late = '<base-motion ax="500 m/s^2" law="half-sine" start="19 ms" rise="0.5 ms"/><material-damping loss-factor="0.05"/>'
         for most, length, damping, verdict in ((180, 30, air, "inconclusive"), (20, 30, air, "reject"), (180, 200, air, "accept"), (180, 330, air, "accept"),
-                                               (165, 200, air, "reject"), (180, 30, "", "inconclusive"), (300, 330, air + sine, "inconclusive"),
+                                               (163, 200, air, "reject"), (180, 30, "", "inconclusive"), (300, 330, air + sine, "inconclusive"),
                                                (25, 20, late, "inconclusive")):
             row = self.answer(self.SETTLES % (most, length, damping), "check", "--corners", "none", "--advice", "none")["requirements"][0]
             self.assertEqual(row["verdict"], verdict, (most, length, row))
