@@ -6,7 +6,7 @@
    Theory: docs/theory/assembly.md. */
 #ifndef FW_ASSEMBLY_ASSEMBLY_H
 #define FW_ASSEMBLY_ASSEMBLY_H
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "multibody/model.h"
 #include "multibody/system.h"
 

@@ -2,7 +2,7 @@
 /* What can still move: degrees of freedom, rows of G that say nothing new, and coordinates that can be given freely. */
 #include "assembly/closure.h"
 #include "assembly/assembly.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "chance/random.h"
 #include "maths/functions.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <stdbool.h>
 

@@ -7,7 +7,7 @@
    and the coefficients are those of L_q^T c = w. Legendre's polynomials keep A^T A near a diagonal where points fill the cube
    evenly, so that squaring its condition costs nothing. */
 #include "chance/joint.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

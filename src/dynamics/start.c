@@ -2,7 +2,7 @@
 /* What must be known before the first step. */
 #include "assembly/assembly.h"
 #include "dynamics/run.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -11,7 +11,7 @@
    other loads bend is in no motion. Cost: 21500 instructions, damped, with two ports. Source: series of elastic parts; Castigliano.
    Theory: docs/theory/effects/body-compliance.md. Test: test_body_compliance.c. */
 #include "effects/effect.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "effects/effect.h"
 #include "effects/envelope.h"
 #include "effects/modal.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "quantity/law_kind.h"
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/modal.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #ifndef FW_EFFECTS_MODAL_H
 #define FW_EFFECTS_MODAL_H
 #include "effects/effect.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 
 /* ---- linear.c: the mechanism at its initial pose as a linear system ---- */
 

@@ -21,7 +21,7 @@
    test_beam_chart.c. */
 #include "flexure/beam.h"
 #include "flexure/finite.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

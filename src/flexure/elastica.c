@@ -2,7 +2,7 @@
 /* The solver of the elastica: a solution on one mesh, a finer one for the error, the result. */
 #include "flexure/beam.h"
 #include "flexure/elastica_core.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

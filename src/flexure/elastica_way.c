@@ -2,7 +2,7 @@
 /* The way to a solution of the elastica: Newton's method, where it begins, and load steps along the
    primary branch. */
 #include "flexure/elastica_core.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

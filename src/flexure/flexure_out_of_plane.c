@@ -4,7 +4,7 @@
 #include "base/constants.h"
 #include "flexure/path.h"
 #include "flexure/section.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Dense linear algebra: small matrices in the caller's memory, LAPACK in loops that must not allocate, and single
    answers that are made of both. */
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>

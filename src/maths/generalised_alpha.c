@@ -14,7 +14,7 @@
    Source: Chung and Hulbert, J. Appl. Mech. 60 (1993); Arnold and Bruels, Multibody System
    Dynamics 18 (2007). Cost: an evaluation and a solution of n x n per iteration, n the number of u.
    Tests: test_ode_*.c, test_ode_stiff.c */
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "maths/ode.h"
 #include <float.h>
 #include <math.h>

@@ -4,8 +4,7 @@
    the gap. A starting vector sees one of several equal eigenvalues: ask again with what is known. Cost:
    one application a step, up to 4 count + 40 of them, and 4 n m^2. Source: B. N. Parlett, The Symmetric
    Eigenvalue Problem, 1980, ch. 13. Test: test_sparse.c */
-#include "maths/dense.h"
-#include "maths/sparse.h"
+#include "maths/matrix.h"
 #include <lapacke.h>
 #include <float.h>
 #include <math.h>

@@ -14,7 +14,7 @@
 
    Source: R. G. Bland, New finite pivoting rules for the simplex method, Math. Oper. Res. 2 (1977)
    103. Test: tests/unit/maths/test_linear_programme.c. */
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 /* What integrators share: memory, norms, first steps, acceptance, dense output; Jacobians and the systems of implicit
    steps; the vector work of explicit ones. */
 #include "maths/ode.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>

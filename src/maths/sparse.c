@@ -12,7 +12,7 @@
    of the largest entry, once refined. Cost: of a chain in proportion to n; of a square grid n^1.5 and,
    memory, n log n. Sources: I. S. Duff and J. K. Reid, ACM Trans. Math. Softw. 9 (1983) 302 (fronts);
    I. S. Duff and J. K. Reid, AERE R-10533 (1982) (pivots with a threshold). Test: test_sparse.c. */
-#include "maths/sparse.h"
+#include "maths/matrix.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
    then as a tree whose branches come one after the other. Cost: of a chain in proportion to its length, of a grid
    some hundred steps a group. Source: A. George and J. W. H. Liu, SIAM Review 31 (1989) 1. Test: test_sparse.c
    (what a chain and a grid fill). */
-#include "maths/sparse.h"
+#include "maths/matrix.h"
 #include <stdbool.h>
 
 typedef struct set {

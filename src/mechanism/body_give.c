@@ -15,7 +15,7 @@
    else some 0.05 s a body. Test: test_effects.py SlenderArms. */
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "mechanism/mechanism.h"
 #include <math.h>
 #include <string.h>

@@ -23,8 +23,7 @@
    cell. Of a motion what else acts on a body does so in its middle (wrenches_of). Test: test_body_solid.c */
 #include "base/sort.h"
 #include "geometry/segment.h"
-#include "maths/dense.h"
-#include "maths/sparse.h"
+#include "maths/matrix.h"
 #include "mechanism/mechanism.h"
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 /* Limbs: what of a body is slender, and bends towards the wall beside it. Theory: docs/theory/stiction.md */
 #include "base/sort.h"
 #include "geometry/segment.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "mechanism/mechanism_plates.h"
 #include <stdlib.h>
 #include <string.h>

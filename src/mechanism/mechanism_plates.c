@@ -6,7 +6,7 @@
 #include "base/sort.h"
 #include "flexure/path.h"
 #include "geometry/segment.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <string.h>
 
 /* ---- what is known ---- */

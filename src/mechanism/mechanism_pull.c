@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Compliances of plates, and liquid between faces across a gap: the tension at which what they hang on gives way. Theory: docs/theory/stiction.md. */
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "mechanism/mechanism_plates.h"
 #include <math.h>
 #include <string.h>

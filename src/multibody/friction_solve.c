@@ -4,7 +4,7 @@
    spectral radius of K is below 1, else refused. Error: round-off times cond(A_stick); of T where
    it is not unique, 1e-9. Cost (entries)^3. Test: test_friction_model.c. */
 #include "multibody/multibody_scratch.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

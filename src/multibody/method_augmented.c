@@ -11,7 +11,7 @@
    quasi-definite matrices, Vanderbei 1995; the proximal sweeps, Carpentier, Budhiraja and Mansard
    2021. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 
 typedef struct augmented {
     double *matrix; /* (size x size), lower part */

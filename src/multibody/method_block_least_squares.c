@@ -23,7 +23,7 @@
    SIAM J. Numer. Anal. 22 (1985) 851-864 (weighting); Bjorck, Numerical Methods for Least Squares
    Problems, 1996, ch. 5. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -25,7 +25,7 @@
    pivoting, rows^2 n, when the partition changes. Source: Wehage and Haug, J. Mech. Des. 104 (1982)
    247-255. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

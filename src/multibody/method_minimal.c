@@ -22,7 +22,7 @@
    rates^3). Source: Kecskemethy, Krupp and Hiller 1997 (kinematic transformers); Garcia de
    Jalon and Bayo 1994, ch. 5 (velocity transformations). Test: test_minimal.c. */
 #include "multibody/multibody_scratch.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

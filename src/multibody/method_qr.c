@@ -12,7 +12,7 @@
    J. Mech. Transm. Autom. Des. 108 (1986) 183-188; Golub and Van Loan, section 5.4. Test:
    test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -14,7 +14,7 @@
    Source: Walton and Steeves, NASA TR R-326 (1969); Kamman and Huston, J. Appl. Mech. 51 (1984)
    899-903. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

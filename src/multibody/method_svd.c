@@ -12,7 +12,7 @@
    about 4 rows^2 n + 20 rows^3 + 4 n^3. Source: Singh and Likins, J. Appl. Mech. 52 (1985) 943-948;
    Mani, Haug and Atkinson, J. Mech. Transm. Autom. Des. 107 (1985) 82-87. Test: test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <string.h>
 
 typedef struct rates {

@@ -10,7 +10,7 @@
    rows^3 by QR iteration. Source: Udwadia and Kalaba, Proc. R. Soc. A 439 (1992) 407-410. Test:
    test_methods.c. */
 #include "multibody/multibody_dense.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <string.h>
 
 typedef struct pseudo {

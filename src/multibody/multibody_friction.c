@@ -23,7 +23,7 @@
    42 (1982) 281-296; Glocker, Set-Valued Force Laws, 2001. Test: test_friction.c,
    test_friction_model.c. */
 #include "multibody/multibody_scratch.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -4,8 +4,7 @@
 #ifndef FW_STATICS_STATICS_EQUILIBRIUM_H
 #define FW_STATICS_STATICS_EQUILIBRIUM_H
 #include "dynamics/dynamics.h"
-#include "maths/dense.h"
-#include "maths/sparse.h"
+#include "maths/matrix.h"
 #include "multibody/system.h"
 #include "statics/statics.h"
 

@@ -2,7 +2,7 @@
 #include "statics/statics.h"
 #include "base/constants.h"
 #include "statics/statics_equilibrium.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

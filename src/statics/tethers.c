@@ -21,7 +21,7 @@
    1955, ch. 5 and 11 (beams, unit loads); docs/theory/release.md. Test: test_tethers.c */
 #include "statics/statics.h"
 #include "base/text.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -12,7 +12,7 @@
    objective falls along it. Nothing is proved. Test: tests/unit/study/test_descent.c */
 #include "base/sort.h"
 #include "chance/random.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <nlopt.h>

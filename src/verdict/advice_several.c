@@ -33,7 +33,7 @@
 
    Test: tests/cli/test_advice.py, test_two_at_once, test_of_opposite_corners, test_of_mixed_reasons. */
 #include "verdict/advice.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <math.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
    small motions, of which no scene need know anything. Theory: docs/theory/verdict.md, 5b. */
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "mechanism/mechanism_plates.h"
 #include "statics/statics.h"
 #include "verdict/body.h"

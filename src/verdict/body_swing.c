@@ -18,7 +18,7 @@
    BodiesThatSwing */
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "verdict/body.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What ways of one body (body_arms.c) bear together where they go together, and bear in the course of a scene. */
 #include "geometry/segment.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>

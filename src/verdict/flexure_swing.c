@@ -19,7 +19,7 @@
    Theory: docs/theory/verdict.md, 5h. Test: test_out_of_plane.py FlexuresWeigh */
 #include "base/constants.h"
 #include "geometry/segment.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "mechanism/mechanism_plates.h"
 #include "verdict/body.h"
 #include "verdict/strain.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "workspace/pose_load.h"
 #include "workspace/reach.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 
 typedef struct open_box {
     fw_workspace_box3 box;

@@ -11,7 +11,7 @@
    the proved bound with pins has over those that were. Cost 40 us a pose and grip. Source:
    docs/theory/workspace.md. Test: test_pose_strain.c. */
 #include "effects/effects.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "workspace/pose_load.h"
 #include "workspace/workspace.h"
 #include <math.h>

@@ -22,7 +22,7 @@ ALLOWED = {  # header prefix -> rooms that may include it
     "zip.h": {"serve"},
     "jansson": {"base", "plan", "study", "serve", "cli"},  # readers: what is written goes through base/json.h
 }
-MOST_LINES, MOST_FILES = 600, 620
+MOST_LINES, MOST_FILES = 600, 619
 BANNED = [(re.compile(r"\b(assert|abort|exit)\s*\("), "ends the process"),
           (re.compile(r"\b(malloc|calloc|realloc)\s*\("), "takes memory outside the arena"),
           (re.compile(r"\b(time|localtime|gmtime|gettimeofday)\s*\("), "reads the clock"),

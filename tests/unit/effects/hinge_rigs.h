@@ -5,7 +5,7 @@
 #define FW_TESTS_HINGE_RIGS_H
 #include "effects/effect.h"
 #include "effects/envelope.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "test.h"
 
 enum { RIG_BODIES = 5, RIG_PINS = 6, RIG_N = 3 * RIG_BODIES };

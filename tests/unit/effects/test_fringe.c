@@ -3,7 +3,7 @@
    goes on for ever aside, two fingers to a period, charges on panels that crowd towards the corners. */
 #include "drive_rig.h"
 #include "effects/effects.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <complex.h>
 
 /* ---- boundary elements ---- */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "test.h"
 
 static uint64_t seed = 3;

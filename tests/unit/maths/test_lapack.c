@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "test.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 
 enum { M = 7, N = 5 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Known programmes, and the best vertex of random ones by looking at all of them. */
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "test.h"
 
 static uint64_t seed = 5;

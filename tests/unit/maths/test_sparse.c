@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sparse elimination against dense one on random saddle points, and against what is known of chains and grids. */
-#include "maths/dense.h"
-#include "maths/sparse.h"
+#include "maths/matrix.h"
 #include "test.h"
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The block elimination against a dense solve of the same S, on random mechanisms. */
 #include "multibody/systems.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include <stdlib.h>
 
 static fw_multibody_system *system_of(fw_arena *arena, const rig *r) {

@@ -3,7 +3,7 @@
 #include "quantity/law_kind.h"
 #include "rest_rigs.h"
 #include "effects/effects.h"
-#include "maths/dense.h"
+#include "maths/matrix.h"
 #include "statics/statics.h"
 
 static const double eps0 = 8.8541878128e-12;
