@@ -14,7 +14,7 @@
    drawn and without loads: it goes to 0 at a fold. Units: scaled. Valid where statics is; a motion between instants is taken as
    straight and moved onto the joints. Cost: 30 n^3 per instant, n = 3 nbody, and 10 to 30 of them
    where something is found. Source: Lagrange and Dirichlet's theorem; Thompson and Hunt, A General
-   Theory of Elastic Stability 1973. Test: test_poise.c. */
+   Theory of Elastic Stability 1973. Test: test_stability.c. */
 #include "statics/statics.h"
 #include "base/sort.h"
 #include "base/constants.h"

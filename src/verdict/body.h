@@ -127,7 +127,7 @@ typedef struct fw_verdict_courses {
     fw_maths_turning (*row)[FW_FACES]; /* (n) */
     double *gate;                      /* (n) turns below it are none */
     double *
-        lasts; /* (n) in units of the row: the amplitude, fully reversed, which once a repetition tires as much; 0: nothing does */
+        lasts; /* (n) in units of the row: the amplitude, fully reversed, which once a repetition fatigues as much; 0: nothing does */
     int n;
 } fw_verdict_courses;
 static inline int fw_verdict_course_of_force(const fw_mechanism *m, int body) {
@@ -148,8 +148,8 @@ fw_status fw_verdict_courses_end(fw_arena *arena, fw_verdict_strain_monitor *mon
 /* how many times as much of its fatigue limit one fully reversed stress a repetition uses as of its static one; 0: nothing is
    repeated, or one of both is not known */
 double fw_verdict_tires(const fw_mechanism *m, int hinge);
-/* body_bears.c: "what is allowed", tires: by the fatigue limit; NULL: FW_NOMEM */
-const char *fw_verdict_allowed_words(fw_arena *arena, const fw_mechanism *m, bool tires);
+/* body_bears.c: "what is allowed", by_fatigue: by the fatigue limit; NULL: FW_NOMEM */
+const char *fw_verdict_allowed_words(fw_arena *arena, const fw_mechanism *m, bool by_fatigue);
 
 /* the largest of n that are at least 0 */
 static inline double fw_verdict_most_of(const double *x, int n) {

@@ -12,7 +12,7 @@
 
 /* ---- what bodies bear: rims of release holes ----
    The stress of the ways of body_arms.c under what hinges and loads bring, once, over what the static limit leaves; and where scenes
-   are repeated and a life is known, what its course tires (body_together.c), over what the fatigue limit leaves. The larger rules.
+   are repeated and a life is known, what fatigue by its course comes to (body_together.c), over what the fatigue limit leaves. The larger rules.
    Theory: docs/theory/verdict.md, docs/theory/release.md. Test: test_body_arms.c, test_limits.py FatigueOfBodies */
 
 /* what the hinge of an end brings: its largest moment and force, and what equilibrium asks of the cut, times thickness */
@@ -50,7 +50,7 @@ static brought in_motion(const fw_mechanism *m, const fw_verdict_bending *b, int
                      {moves ? b->rest_N[body] : 0, moves ? b->rest_Nm[body] : 0}};
 }
 
-/* and what its course tires as much as */
+/* and the steady load that fatigues as much as its course */
 static brought in_course(const fw_mechanism *m, const fw_verdict_bending *b, int i) {
     const double *lasts = b->courses->lasts;
     const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
@@ -61,24 +61,24 @@ static brought in_course(const fw_mechanism *m, const fw_verdict_bending *b, int
                               moves ? lasts[fw_verdict_course_of_moment(m, body)] : 0}};
 }
 
-/* tires: is the high end that of the fatigue limit? */
+/* by_fatigue: is the high end that of the fatigue limit? */
 static fw_verdict_band rims_in(const fw_mechanism *m, const fw_dynamics_motion *motion, int at[2],
-                               bool *tires) {
+                               bool *by_fatigue) {
     const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
     fw_verdict_band worst = {0, 0};
-    *tires = false;
+    *by_fatigue = false;
     if (!saw || !saw->bending.arm || !saw->bending.cut_N_per_m)
         return (fw_verdict_band){(double)NAN, (double)NAN};
     for (int i = 0; i < 2 * m->nhinge; i++) {
         const brought by = in_motion(m, &saw->bending, i);
         const fw_verdict_band here = rims_of(m, &saw->bending.arm[i], i, &by);
         if (here.low > worst.low) worst.low = here.low, at[0] = i;
-        if (here.high > worst.high) worst.high = here.high, at[1] = i, *tires = false;
+        if (here.high > worst.high) worst.high = here.high, at[1] = i, *by_fatigue = false;
         if (!saw->bending.courses) continue;
         const brought again = in_course(m, &saw->bending, i);
         const double lasts =
             fw_verdict_tires(m, i / 2) * rims_of(m, &saw->bending.arm[i], i, &again).high;
-        if (lasts > worst.high) worst.high = lasts, at[1] = i, *tires = true;
+        if (lasts > worst.high) worst.high = lasts, at[1] = i, *by_fatigue = true;
     }
     const double off = fw_verdict_motion_model_error(m, motion);
     return (fw_verdict_band){worst.low * fmax(1 - off, 0), worst.high * (1 + off)};
@@ -86,8 +86,8 @@ static fw_verdict_band rims_in(const fw_mechanism *m, const fw_dynamics_motion *
 
 fw_verdict_band fw_verdict_bending_rims(const fw_mechanism *m, const fw_dynamics_motion *motion,
                                         int at[2]) {
-    bool tires;
-    return rims_in(m, motion, at, &tires);
+    bool by_fatigue;
+    return rims_in(m, motion, at, &by_fatigue);
 }
 
 /* No required pose turns a hinge further, or has a larger joint force, than is proved of all of them; what drift and
@@ -120,12 +120,12 @@ static void add_rest(const fw_verdict_variant_verdict *v, int body, double rest[
     }
 }
 
-/* *tires: every repetition is taken to go to the worst pose and as far to the other side, and that uses more than it does once */
-static double required_at_most(const fw_verdict_variant_verdict *v, int *at, bool *tires) {
+/* *by_fatigue: every repetition is taken to go to the worst pose and as far to the other side, and that uses more than it does once */
+static double required_at_most(const fw_verdict_variant_verdict *v, int *at, bool *by_fatigue) {
     const fw_mechanism *m = v->mechanism;
     const fw_workspace_result *w = &v->workspace;
     double worst = 0;
-    *tires = false;
+    *by_fatigue = false;
     if (!v->arm || !w->required || !w->reachable) return (double)NAN;
     for (int i = 0; i < 2 * m->nhinge; i++) {
         const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
@@ -139,27 +139,28 @@ static double required_at_most(const fw_verdict_variant_verdict *v, int *at, boo
                 : fw_verdict_arm_bears(m, i / 2, &v->arm[i], by.moment_Nm, by.force_N, NULL);
         const double again = fw_verdict_tires(m, i / 2);
         if (high * fmax(again, 1) > worst)
-            worst = high * fmax(again, 1), *at = i, *tires = again > 1;
+            worst = high * fmax(again, 1), *at = i, *by_fatigue = again > 1;
     }
     return worst * (1 + fw_verdict_motion_lasting_error(m));
 }
 
 double fw_verdict_bending_rims_required(const fw_verdict_variant_verdict *v, int *at) {
-    bool tires;
-    return v->mechanism->device->release_pitch_m > 0 ? required_at_most(v, at, &tires)
+    bool by_fatigue;
+    return v->mechanism->device->release_pitch_m > 0 ? required_at_most(v, at, &by_fatigue)
                                                      : (double)NAN;
 }
 
-const char *fw_verdict_allowed_words(fw_arena *arena, const fw_mechanism *m, bool tires) {
+const char *fw_verdict_allowed_words(fw_arena *arena, const fw_mechanism *m, bool by_fatigue) {
     char times[32];
-    return tires ? fw_arena_printf(arena, "what is allowed by the fatigue limit at %s repetitions",
-                                   fw_number_text(times, sizeof times, m->device->limits.cycles, 3))
-                 : "what is allowed";
+    return by_fatigue
+               ? fw_arena_printf(arena, "what is allowed by the fatigue limit at %s repetitions",
+                                 fw_number_text(times, sizeof times, m->device->limits.cycles, 3))
+               : "what is allowed";
 }
 
 /* least, most: over what is allowed, of the rims beside end i; of required poses its low end is not known */
 static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, double least,
-                           double most, bool tires, const char *scene,
+                           double most, bool by_fatigue, const char *scene,
                            fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
@@ -170,7 +171,7 @@ static fw_status give_rims(fw_arena *arena, const fw_verdict_arm *arm, int i, do
                                               fw_number_text(low, sizeof low, 100 * least, 2)),
                *where = posed ? "required poses"
                               : fw_arena_printf(arena, "%s%s", FW_NAMED("scene", scene)),
-               *allowed = fw_verdict_allowed_words(arena, m, tires);
+               *allowed = fw_verdict_allowed_words(arena, m, by_fatigue);
     FW_NEED(use && where && allowed ? use : NULL);
     const char *text = fw_arena_printf(
         arena,
@@ -202,7 +203,7 @@ typedef struct weak { /* what a body is not known to bear */
     const fw_verdict_arm *arm;
     int body;
     const char *what, *id;
-    bool tires; /* of its fatigue limit */
+    bool by_fatigue; /* of its fatigue limit */
 } weak;
 
 static void take_weak(weak *worst, weak one) {
@@ -255,7 +256,7 @@ static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
                                          b->along_N ? b->along_N + 2 * i : NULL);
         take_weak(worst, one);
         if (!b->courses || !(arm->edge_m2 > 0)) continue;
-        one.tires = true;
+        one.by_fatigue = true;
         one.share =
             fw_verdict_tires(m, i / 2) *
             fw_verdict_arm_bears(m, i / 2, arm, b->courses->lasts[i] / arm->edge_m2, 0, NULL);
@@ -272,7 +273,7 @@ static fw_status weakest_of(fw_arena *arena, const fw_mechanism *m, int scene,
             one.share = load_share(m, i, k, end, b, fw_verdict_load_N(end, n, k, b->rest_N), false);
             take_weak(worst, one);
             if (!b->courses) continue;
-            one.tires = true;
+            one.by_fatigue = true;
             one.share = fw_verdict_tires(m, i / 2) *
                         load_share(m, i, k, end, b, load_lasts(m, end, k, b), true);
             take_weak(worst, one);
@@ -285,7 +286,7 @@ static fw_status say_weak(fw_arena *arena, const char *scene, const weak *w,
                           fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     char high[32], wide[32], x[32], y[32];
-    const char *allowed = fw_verdict_allowed_words(arena, m, w->tires);
+    const char *allowed = fw_verdict_allowed_words(arena, m, w->by_fatigue);
     const char *wider = fw_layout_wider_there(arena, m->device, m->layout, w->body, w->arm->edge);
     FW_NEED(allowed && wider);
     const char *text =
@@ -336,27 +337,27 @@ static fw_status judge_bodies(fw_arena *arena, int scene, const fw_dynamics_moti
 fw_status fw_verdict_bending_judge(fw_arena *arena, int scene, const fw_dynamics_motion *motion,
                                    fw_verdict_variant_verdict *v) {
     int at[2] = {0, 0};
-    bool tires;
-    const fw_verdict_band band = rims_in(v->mechanism, motion, at, &tires);
+    bool by_fatigue;
+    const fw_verdict_band band = rims_in(v->mechanism, motion, at, &by_fatigue);
     FW_TRY(judge_bodies(arena, scene, motion, v));
     if (!(band.high > 1)) return FW_OK;
     const fw_verdict_strain_monitor *saw = motion->observed;
     const int i = at[band.low > 1 ? 0 : 1];
-    return give_rims(arena, &saw->bending.arm[i], i, band.low, band.high, tires,
+    return give_rims(arena, &saw->bending.arm[i], i, band.low, band.high, by_fatigue,
                      v->mechanism->device->scene[scene].name, v);
 }
 
 fw_status fw_verdict_bending_judge_required(fw_arena *arena, fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     int at = 0;
-    bool tires;
-    const double high = required_at_most(v, &at, &tires);
+    bool by_fatigue;
+    const double high = required_at_most(v, &at, &by_fatigue);
     if (!(high > 1)) return FW_OK;
     if (m->device->release_pitch_m > 0)
-        return give_rims(arena, &v->arm[at], at, 0, high, tires, NULL, v);
+        return give_rims(arena, &v->arm[at], at, 0, high, by_fatigue, NULL, v);
     const fw_mechanism_pin *pin = &m->pin[m->hinge[at / 2].pin];
     const weak worst = {high,    &v->arm[at], at % 2 ? pin->body_b : pin->body_a,
-                        "hinge", pin->id,     tires};
+                        "hinge", pin->id,     by_fatigue};
     return say_weak(arena, NULL, &worst, v);
 }
 

@@ -425,10 +425,10 @@ double fw_verdict_beams_J(const fw_mechanism *m, const fw_verdict_arm *arm, doub
    are four courses, of which cycles are counted as those at the faces of a hinge, with what rings on behind; where the largest
    stress that the static limit is held against is above all of them (fw_verdict_arm_bears) a course is taken to be so much
    more. Of what hinges put on a body together, and of what is stated at a place, the courses are those along four directions,
-   and the moment. A sum of such is taken to tire by no more than the sum of what each uses: amplitudes are a norm of the
+   and the moment. A sum of such is taken to fatigue by no more than the sum of what each uses: amplitudes are a norm of the
    damage as far as means are not (Smith, Watson, Topper). Of several scenes each is taken to be all of them, and to swing to
    the other side once a repetition, which in turn is the most. Out: the amplitude, fully reversed, that once a repetition
-   tires as much. Error: signs of a strip's own sum, the factor of three of corners (decision 222). Cost: (8 nhinge + 5 nbody + 4 nplace)
+   fatigues as much. Error: signs of a strip's own sum, the factor of three of corners (decision 222). Cost: (8 nhinge + 5 nbody + 4 nplace)
    turning points an instant, where cycles are asked for. Test: test_body_arms.c, test_limits.py FatigueOfBodies */
 
 /* turns by less than this share of a limit are none, as in strain_monitor.c */

@@ -472,7 +472,7 @@ fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v
         m->nhinge > 0 ? fw_flexure_limits_governing(&m->hinge[0].limits) : NULL;
     double worst = 1;
     int body = FW_NONE;
-    bool tires = false;
+    bool by_fatigue = false;
     const bool counts = limit && v->motion[scene] && every;
     for (int i = 0; counts && i < m->nbody; i++) {
         const fw_verdict_hung *hung = &every[i];
@@ -480,11 +480,11 @@ fw_status fw_verdict_shaken_bears(fw_arena *arena, fw_verdict_variant_verdict *v
                               (limit->allowable_Pa / m->device->safety_factor);
         FW_TRY(shaken_lasts(arena, m, s, hung, &again));
         if (share * fmax(again, 1) > worst)
-            worst = share * fmax(again, 1), body = i, tires = again > 1;
+            worst = share * fmax(again, 1), body = i, by_fatigue = again > 1;
     }
     if (body == FW_NONE) return FW_OK;
     char high[32];
-    const char *allowed = fw_verdict_allowed_words(arena, m, tires);
+    const char *allowed = fw_verdict_allowed_words(arena, m, by_fatigue);
     FW_NEED(allowed);
     const char *text = fw_arena_printf(
         arena,

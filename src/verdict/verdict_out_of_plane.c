@@ -370,7 +370,7 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
     const double curvature = fw_mechanism_plates_curvature(m, s),
                  left = fmax(1 - fw_verdict_across_softened(to), 1e-9);
     double lasts = 0;
-    const char *tires = NULL;
+    const char *fatigued = NULL;
     FW_NEED(wrench);
     FW_NEED(weighed = fw_arena_array(arena, double, (size_t)m->nhinge));
     FW_TRY(fw_verdict_flexures_across(arena, v, &is->rigid, to->scene_index, weighed, &far_m));
@@ -388,7 +388,7 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
         FW_TRY(
             lasted(arena, is, v, k, s, (const double(*)[3])wrench, in, strain[1] / left, &share));
         if (share > lasts || isnan(share))
-            lasts = isnan(share) ? (double)INFINITY : share, tires = m->pin[h->pin].id;
+            lasts = isnan(share) ? (double)INFINITY : share, fatigued = m->pin[h->pin].id;
         const double most = in + strain[1] * (1 + is->rigid.error) / (left * limit);
         const double sure = strain[0] / (1 + is->rigid.error) / limit;
         to->strained_sure = fmax(to->strained_sure, sure);
@@ -398,7 +398,7 @@ static fw_status judge_strain(fw_arena *arena, const both *is, fw_verdict_varian
         to->strained_hinge = m->pin[h->pin].id;
     }
     FW_TRY(fw_verdict_across_strained(arena, s, worst_in, v, to));
-    return tell_lasted(arena, s, lasts, tires, v, to);
+    return tell_lasted(arena, s, lasts, fatigued, v, to);
 }
 
 /* ---- required poses ---- */

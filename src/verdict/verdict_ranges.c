@@ -412,8 +412,8 @@ int fw_verdict_most_used(const fw_verdict_variant_verdict *v) {
 }
 
 static const char *limit_of(const fw_verdict_hinge_verdict *h) {
-    bool tires = h->limit && strcmp(h->limit->criterion, "fatigue") == 0;
-    return tires ? "its fatigue limit" : "its elastic limit";
+    bool by_fatigue = h->limit && strcmp(h->limit->criterion, "fatigue") == 0;
+    return by_fatigue ? "its fatigue limit" : "its elastic limit";
 }
 
 static fw_verdict_check hinge_check(const fw_verdict_hinge_verdict *h, const char *flow,
