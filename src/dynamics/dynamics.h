@@ -250,6 +250,8 @@ double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion);
 /* estimated relative error of the largest deflection, what was left out included; where no hinge turns of the largest travel;
    0: nothing moves */
 double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion);
+/* and of how far anything goes, with what no motion has (effects' `beside`); lacking: with what formulas lack, too */
+double fw_dynamics_motion_ways_off(const fw_dynamics_motion *motion, bool lacking);
 /* m: where no hinge turns, the error of any travel. All differ by the largest that any does, since one may agree by chance where
    friction holds and lets go at other times; 0: hinges turn, or nothing was compared. Test: tests/cli/test_friction_range.py */
 double fw_dynamics_motion_travel_off(const fw_dynamics_motion *motion);

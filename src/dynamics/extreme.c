@@ -530,6 +530,14 @@ double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion) {
     return travels_estimated(motion);
 }
 
+/* What no motion has is a share of every way, also where flexures bend without turning, so that errors of angles have next to
+   none of it. What a formula lacks (fw_effect_row.lacking) is put to bands of requirements by itself. */
+double fw_dynamics_motion_ways_off(const fw_dynamics_motion *motion, bool lacking) {
+    const double lacks = lacking ? 0 : motion->ledger.lacking_share,
+                 aside = fmax(motion->ledger.beside - lacks / (1 + lacks), 0);
+    return fmax(fw_dynamics_motion_estimated(motion), aside < 1 ? aside / (1 - aside) : HUGE_VAL);
+}
+
 void fw_dynamics_motion_widen(fw_dynamics_motion *motion) {
     double more = fw_dynamics_motion_left_out(motion);
     for (int i = 0; i < motion->npin; i++)

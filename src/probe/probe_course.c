@@ -205,7 +205,7 @@ static double level_of(const fw_probe *p, const fw_dynamics_motion *motion,
 }
 
 /* Twice what two runs differ by, times the margin of the two, the error of the search, and the
-   relative error of the motion as a whole (fw_dynamics_motion_estimated: numbers, effects left
+   relative error of the motion as a whole (fw_dynamics_motion_ways_off: numbers, effects left
    out). A sequence of equilibria has one run, whose instants are solved for. */
 static double numeric(double apart, double between, double value, double estimated, double margin) {
     return 2 * margin * apart + between + (estimated + 64 * DBL_EPSILON) * fabs(value);
@@ -261,7 +261,8 @@ static double lengths_of(const fw_probe *p) {
 /* course c of the motion, o of the looser run or NULL */
 static void errors(const fw_probe *p, const fw_probe_course *c, const fw_probe_course *o,
                    const fw_dynamics_motion *motion, fw_probe_result *r) {
-    double estimated = fw_dynamics_motion_estimated(motion), margin = motion->stats.estimate_margin;
+    double estimated = fw_dynamics_motion_ways_off(motion, false),
+           margin = motion->stats.estimate_margin;
     bool alone = motion->loads && motion->loads->quasi_static;
     if (!alone && !o) {
         r->numeric = r->final_numeric = r->across_numeric = (double)INFINITY;

@@ -351,7 +351,7 @@ fw_status fw_verdict_clearance_judge(fw_arena *arena, const fw_device_scene *sce
     if (!v->things || !motion || motion->ended || !motion->observed) return FW_OK;
     fw_verdict_clearance_watch *w = ((fw_verdict_strain_monitor *)motion->observed)->clearance;
     double off = fw_verdict_motion_model_error(v->mechanism, motion) +
-                 fw_dynamics_motion_estimated(motion) + fw_verdict_bending_moving(motion);
+                 fw_dynamics_motion_ways_off(motion, true) + fw_verdict_bending_moving(motion);
     if (!isfinite(off)) off = 1;
     FW_TRY(w->status);
     w->wish.off = w->parts ? fmax(off, fw_off_at_most) : off;

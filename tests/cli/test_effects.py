@@ -333,6 +333,23 @@ modulus-change="0 ppm/K" law="expression" factor="(1 - cos(pi*time/(4 ms)))/2"/>
         change = abs(self.ledger(lower, "switch-on")[1] / peak - 1)
         self.assertTrue(0.5 * share < change < rises["bound"], (share, change, rises["bound"]))
 
+    def test_what_no_motion_has_is_in_ways_of_guides(self):
+        """flexures that bend to an S do not turn, and by errors of angles a requirement had next to nothing of what fingers bend: -1.8 % beside twice 0.86"""
+        text = """<device xmlns="urn:flexwright:device:1" name="guide"><material ref="silicon-100" thickness="50 um"/><limits safety-factor="2"/><flow ref="silicon-on-glass" carrier="insulating"/>
+<flexure id="leaf" kind="leaf" length="300 um" width="6 um" fillet="4 um"/><mechanism><body id="s" x="0 mm" y="0.35 mm"><plate x="0 mm" y="0 mm" width="1.6 mm" height="0.3 mm"/></body>
+<revolute id="A" a="ground" a-x="-0.6 mm" b="s" b-x="-0.6 mm" b-y="-0.35 mm" hinge="leaf" axis="0 deg"/><revolute id="B" a="ground" a-x="0.6 mm" b="s" b-x="0.6 mm" b-y="-0.35 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<probe id="x" kind="displacement" on="s" direction="0 deg"/><require probe="x" measure="final" max="100 um"/><scene name="go" duration="40 ms"><comb-drive id="c" kind="comb" on="s" x="0.8 mm" y="0 mm"
+ direction="0 deg" fingers="20" gap="6.5 um" overlap="30 um" length="70 um" voltage="%s V" law="ramp" rise="20 ms"/><material-damping loss-factor="0.05"/></scene></device>"""
+        low = {}
+        for volts in (40, 400):
+            said = json.loads(run("check", "-", "--json", "--corners", "none", "--advice", "none", input=text % volts).stdout)
+            row = said["requirements"][0]
+            low[volts] = 1 - row["band"][0] / row["value"]
+            (bends,) = [e["reason"] for e in said["effects"] if e["id"] == "finger-bending"]
+        share = float(re.search(r"twice what it changes of forces, ([-0-9.e]+) %, is in every band", bends).group(1)) / 100
+        self.assertGreater(share, 0.01)
+        self.assertGreater(low[400] - low[40], 0.99 * share)
+
     def test_electrodes_without_a_voltage(self):
         """0 V moves nothing, and what the electrodes weigh stays; beside one that pulls, pull-in is that of the other"""
         stage = ROOT / "docs/gallery/comb-stage/device.xml"
