@@ -361,9 +361,13 @@ describe("what is told", () => {
     test("a map is told from its first cells on, and judged behind that", async () => {
         await page.selectOption('select[aria-label="Vary"]', "arc");
         await page.selectOption('select[aria-label="and vary"]', "link");
-        await page.waitForFunction(() => globalThis.flexwright.parts.explore.spec?.inputs.length === 2 && globalThis.flexwright.parts.explore.told.length > 500, null, { timeout: LONG });
-        const { judged, told } = await page.evaluate(() => ({ judged: globalThis.flexwright.parts.explore.done.size, told: globalThis.flexwright.parts.explore.told }));
-        assert.ok(judged <= 200, String(judged));
+        // counted in the page at that moment: it goes on judging
+        const found = await page.waitForFunction(() => {
+            const { spec, told, done } = globalThis.flexwright.parts.explore;
+            return spec?.inputs.length === 2 && told.length > 500 ? { judged: done.size, told } : null;
+        }, null, { timeout: LONG });
+        const { judged, told } = await found.jsonValue();
+        assert.ok(judged <= 300, String(judged)); // and more than 500 are told
         for (const p of [told[17], told[Math.floor(told.length / 2)], told.at(-40)]) {
             const is = check(server.file, "--corners", "none", "--hinge-model", "revolute", "--set", `arc=${p.x} deg`, "--set", `link=${p.y} um`);
             assert.ok(p.state === is.verdict && Math.abs(p.value - 100 * is.governing.utilisation) <= p.off.value, JSON.stringify(p));
