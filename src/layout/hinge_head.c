@@ -355,10 +355,14 @@ typedef struct entry {
     double square_m; /* the same; 0: that edge of the plate is not square to the neck */
 } entry;
 
+/* turns a direction of the body into the plate's own */
+static fw_layout_local plate_frame(const fw_device_body *b) {
+    return (fw_layout_local){{0.0, 0.0}, cos(b->plate_angle_rad), -sin(b->plate_angle_rad), false};
+}
+
 /* the lesser half of the plate beside a leaf's line through p; 0: its sides are not along that */
 static double half_beside(const fw_device_body *b, fw_geometry_vec2 p, fw_geometry_vec2 line) {
-    const fw_layout_local plate = {
-        {0.0, 0.0}, cos(b->plate_angle_rad), -sin(b->plate_angle_rad), false};
+    const fw_layout_local plate = plate_frame(b);
     const fw_geometry_vec2 along = fw_layout_local_point(&plate, line),
                            at = fw_layout_local_point(&plate,
                                                       fw_sub(p, fw_v(b->plate_x_m, b->plate_y_m)));
@@ -372,8 +376,7 @@ static double half_beside(const fw_device_body *b, fw_geometry_vec2 p, fw_geomet
 static bool enters_plate(const fw_device_body *b, fw_geometry_vec2 p, fw_geometry_vec2 u,
                          double half, entry *to) {
     const fw_layout_rules *rule = &fw_layout_rule;
-    const fw_layout_local plate = {
-        {0.0, 0.0}, cos(b->plate_angle_rad), -sin(b->plate_angle_rad), false};
+    const fw_layout_local plate = plate_frame(b);
     const double size[2] = {0.5 * b->plate_width_m, 0.5 * b->plate_height_m};
     const double least = rule->block_depth_m + rule->straight_clear_m;
     const fw_geometry_vec2 way = fw_layout_local_point(&plate, u), across = fw_left(u);
