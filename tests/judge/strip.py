@@ -168,6 +168,12 @@ class Strip:
         """of the uniform material that the drawing has its centre from"""
         return self.material.mean * self.h * t ** 3 / 12 * depth(self.h, self.material.nu, piece.radius, t)[1]
 
+    @staticmethod
+    def bracket(piece, t):
+        """Golovin's exact stiffness of an arc over that of the straight strip"""
+        u = t / (2 * piece.radius)
+        return 1 - 2 / 15 * u * u - u ** 4 / 21
+
     def held(self):
         """of a crystal: (what either end takes off 1/E at its face, way over which that fades). The block holds the end straight that
         would bow across; least energy of a bow that comes back as exp(-s/far). Where a force bends the strip its moment has
@@ -201,7 +207,7 @@ class Strip:
             z = self.h * t * t / 6
             faces = ((1 + w) * inner / stiff / z, (1 - w) * outer / stiff / z)
             left, right = faces if piece.curvature >= 0 else faces[::-1]
-            out.append((psi, bent * self.h * t ** 3 / 12 * stiff, e * self.h * t, 5 / 6 * g * self.h * t, self.h * t, left, right))
+            out.append((psi, bent * self.h * t ** 3 / 12 * stiff * self.bracket(piece, t), e * self.h * t, 5 / 6 * g * self.h * t, self.h * t, left, right))
         return n, piece.length / n, out
 
     def root(self, piece, share, psi):
@@ -238,13 +244,11 @@ class Strip:
                 px = x + (s * math.cos(turned) if k == 0 else (math.sin(angle) - math.sin(turned)) / k)
                 py = y + (s * math.sin(turned) if k == 0 else (math.cos(turned) - math.cos(angle)) / k)
                 t = piece.width(share)
-                bracket = 1.0
-                if k:  # neutral line, and Golovin's exact stiffness
+                if k:  # neutral line
                     u = t / (2 * piece.radius)
                     off = piece.radius * (1 - u / math.atanh(u)) * (1 if k > 0 else -1)
                     px, py = px - math.sin(angle) * off, py + math.cos(angle) * off
-                    bracket = 1 - 2 / 15 * u * u - u ** 4 / 21
-                add(piece.length / many / (self.stiffness(piece, t) * bracket), px, py)
+                add(piece.length / many / (self.stiffness(piece, t) * self.bracket(piece, t)), px, py)
             k, s = piece.curvature, piece.length
             x += s * math.cos(turned) if k == 0 else (math.sin(turned + k * s) - math.sin(turned)) / k
             y += s * math.sin(turned) if k == 0 else (math.cos(turned) - math.cos(turned + k * s)) / k
