@@ -522,11 +522,14 @@ double fw_dynamics_motion_left_out(const fw_dynamics_motion *motion) {
     return out < 1 ? out / (1 - out) * largest + motion->ledger.beside_rad : HUGE_VAL;
 }
 
+/* Of a device that heat only presses, since it is its own mirror image, angles are rounding, and nothing is a share of them:
+   what its forces are off by their probes see themselves */
 double fw_dynamics_motion_estimated(const fw_dynamics_motion *motion) {
+    const double rounding_rad = 1e-9;
     double angle = largest_deflection(motion), error = 0;
     for (int i = 0; i < motion->npin; i++)
         error = fmax(error, motion->peak[i].error_rad);
-    if (angle > 0) return error / angle;
+    if (angle > rounding_rad || (angle > 0 && isinf(error))) return error / angle;
     return travels_estimated(motion);
 }
 

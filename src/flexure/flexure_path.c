@@ -390,14 +390,11 @@ void fw_flexure_path_shape(const fw_flexure_input *in, fw_flexure_shape *f) {
 
 /* ---- the closed form ---- */
 
-static double largest_curvature(const fw_flexure_course *p, double *thick, double *slope,
-                                double *aside) {
-    double k = 0;
+static void largest(const fw_flexure_course *p, double *thick, double *slope, double *aside) {
     *thick = *slope = *aside = 0;
     for (int i = 0; i < p->n; i++) {
         const fw_geometry_strip_piece *q = &p->shape[i].piece;
         double h = q->length_m / PLACES, last = q->width_m[0];
-        k = fmax(k, fabs(q->curvature_per_m));
         for (int j = 0; j <= PLACES; j++) {
             double t = fw_geometry_strip_width(&p->shape[i], j * h);
             *thick = fmax(*thick, t * fabs(q->curvature_per_m));
@@ -406,7 +403,6 @@ static double largest_curvature(const fw_flexure_course *p, double *thick, doubl
             last = t;
         }
     }
-    return k;
 }
 
 double fw_flexure_path_root_opens(const fw_flexure_course *p, int end, double s_m) {
@@ -424,42 +420,37 @@ static double opens_of(const fw_flexure_course *p, int end, const fw_flexure_inp
     return in->crystal.known ? more + fmin(more, 0.02) : more / (1 + more);
 }
 
-/* What a path's closed form may be off by: that of arcs (flexure.c), besides
+/* What a path's closed form may be off by besides what its ends and root law are (varying in flexure.c):
      edges that open by 2 s: bending over-estimated by 1 - (atan(3 ...)) ~ s^2 of the section's
        stiffness (Timoshenko's wedge; shear tilts the neutral fibres)
      middle between the edges beside the centre line by d: W by d, forces by 2 d over the size
      peak strain: less at a root by what the strip opens up to where the peak stands (silicon: up to 2 % more); 0.7 % in
        the middle of one that is thin there, 0.3 % of several pieces (silicon: 1 %); between isotropic roots up to
        0.2 t/R more, of solids 50 um deep with bends of R = 3 to 8 t: 0.6 % at 8 t, 2 % at 6 t, 3.5 % at 5 t, 5 % at 3 t
-   and twice all that where not one arc or line of one width is concerned, whose K and peak strain were compared with
-   solids (fw_flexure_errors); kx, ky, W were not, and of silicon nothing. In: rad, m. test_path.c errors_are_stated */
-fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *f, const fw_flexure_input *in) {
+   In: rad, m. test_path.c errors_are_stated, test_forces.c */
+fw_flexure_error fw_flexure_path_errors(fw_flexure_shape *f, const fw_flexure_input *in) {
     fw_flexure_course p;
     double thick, slope, aside;
     fw_flexure_path_of(in, &p);
-    double k = largest_curvature(&p, &thick, &slope, &aside);
+    largest(&p, &thick, &slope, &aside);
     const double open[2] = {opens_of(&p, 0, in), opens_of(&p, 1, in)},
                  most = fmax(open[0], open[1]);
     const bool plain = p.n == 1 && p.shape[0].uniform, crystal = in->crystal.known;
-    double by = plain ? 1 : 2, size = f->radius_m;
-    by *= f->length_m < 20 * f->width_m ? 2 : 1;
-    by *= f->beyond_fit && thick <= 0.3 ? 2 : 1;
-    by = thick > 0.3 ? fmax(2 * by, 10) : thick > 0.15 ? 2 * by : by;
+    f->widening = thick > 0.3 ? 10 : thick > 0.15 ? 2 : 1;
+    const double size = f->radius_m;
     double taper = slope * slope, off = 2 * aside / size, deep = fmin(in->depth_m / f->width_m, 5);
     double pieces = p.n == 1 ? (plain ? 0 : 0.007) : crystal ? 0.010 : 0.003;
     const double bends = crystal || plain ? 0 : 0.04 * deep * fmin(thick, 0.35);
-    double centre = k > 0 ? 0.005 / k : 0.01 * f->width_m, worst = taper + pieces;
-    const double place = p.n == 1 && !crystal ? taper : worst;
-    return (fw_flexure_error){.stiffness = by * 0.012 + taper,
+    const double worst = taper + pieces, place = p.n == 1 && !crystal ? taper : worst;
+    return (fw_flexure_error){.stiffness = taper,
                               .softer = taper, /* of one arc or line all that is not its ends' */
-                              .kx = by * 0.030 + taper + off,
-                              .ky = by * 0.030 + taper + off,
+                              .kx = taper + off,
+                              .ky = taper + off,
                               .strain = worst + (crystal ? most : most / (1 - most)),
                               .above = worst + bends,
                               .place_less = {place + open[0], place + open[1], place},
                               .between_more = crystal && p.n > 1 ? 0 : worst + bends,
-                              .centre_m = by * centre + aside + 0.1 * taper * size,
-                              .outside = by > 1};
+                              .centre_m = aside + 0.1 * taper * size};
 }
 
 static fw_flexure_path_section section_of(const fw_flexure_course *p,

@@ -75,7 +75,7 @@ void fw_flexure_leaf(const fw_flexure_shape *shape, const fw_flexure_input *in,
 void fw_flexure_path_shape(const fw_flexure_input *in, fw_flexure_shape *shape);
 void fw_flexure_path(const fw_flexure_shape *shape, const fw_flexure_input *in,
                      fw_flexure_result *out);
-fw_flexure_error fw_flexure_path_errors(const fw_flexure_shape *shape, const fw_flexure_input *in);
+fw_flexure_error fw_flexure_path_errors(fw_flexure_shape *shape, const fw_flexure_input *in);
 
 /* of all kinds and materials */
 void fw_flexure_shape_marks(fw_flexure_shape *shape);

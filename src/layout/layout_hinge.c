@@ -248,6 +248,16 @@ static fw_status way_to(fw_layout_drawing *d, int body, int joint, const fw_layo
     return blame(d, 317, joint, body);
 }
 
+/* Is a at the end on the left of the axis? Where both lead the same way, as a base does that was not turned yet, what is
+   not the ground is at the end that lies towards it, whichever way the axis points. */
+static bool a_is_up(const fw_device_revolute *j, fw_geometry_vec2 n, fw_geometry_vec2 da,
+                    fw_geometry_vec2 db) {
+    const double same = 1e-9, a = cross(n, da), b = cross(n, db);
+    const bool alike = fabs(a - b) < same;
+    if (alike && j->body_a == FW_GROUND) return b < 0.0;
+    return alike && j->body_b == FW_GROUND ? a >= 0.0 : a >= b;
+}
+
 static fw_status choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_plan *plan,
                               double *axis) {
     const fw_device_revolute *j = &d->device->revolute[joint];
@@ -258,7 +268,7 @@ static fw_status choose_sides(fw_layout_drawing *d, int joint, fw_layout_hinge_p
     fw_geometry_vec2 da = to_a.direction, db = to_b.direction;
     *axis = choose_axis(d, joint, da, db);
     fw_geometry_vec2 n = fw_polar(*axis);
-    bool a_up = cross(n, da) >= cross(n, db);
+    const bool a_up = a_is_up(j, n, da, db);
     for (int i = 0; i < 2; i++) {
         fw_layout_side *side = &plan->side[i];
         bool is_a = (i == 1) == a_up;
@@ -381,11 +391,14 @@ static fw_status plan_hinge(fw_layout_drawing *d, int joint) {
         FW_TRY(status);
     }
     FW_TRY(fw_layout_flexure_draw(d->arena, f, plan));
-    if (fw_device_flexure_varies(f) && fw_layout_path_in_the_way(f, plan))
+    if (fw_device_flexure_varies(f) && fw_layout_path_in_the_way(f, plan)) {
+        /* a base that leaves towards another side may leave the strip free (layout_build.c: find_sides) */
+        d->stuck[joint] = j->body_a == FW_GROUND || j->body_b == FW_GROUND;
         return refuse(d, joint, 264,
                       "the root blocks and rings that belong to its two ends would cross, or come "
                       "within 7 um of the strip; let the ends point away from the bulge, or open "
                       "the path");
+    }
 
     const fw_layout_side *in = &plan->side[plan->convex], *out = &plan->side[!plan->convex];
     layout->drawn = true;

@@ -28,12 +28,11 @@ static double moved(const fw_dynamics_motion *x, int n, int row, int body, int a
     return body == FW_GROUND ? 0 : x->q[row * n + 3 * body + axis] - x->q[3 * body + axis];
 }
 
-/* 0 for what moves less than a thousandth of the farthest: what a symmetric device has of turns is rounding, of which no ratio
-   tells anything. Rotations count by the longest distance of a pin from its body's frame */
-static void drop_rounding(const fw_mechanism *m, double *far) {
-    const double hardly = 1e-3;
+/* 0 for what moves less than a thousandth of the farthest, or of what flexures are stretched by (most, in m): what a symmetric
+   device has of turns, or of ways where heat only presses it, is rounding. Rotations count by the longest arm of a pin */
+static void drop_rounding(const fw_mechanism *m, double most, double *far) {
     const int nb = m->nbody, n = 2 * nb + m->nhinge;
-    double arm = 0, most = 0;
+    double arm = 0, hardly = 1e-3;
     for (int k = 0; k < m->npin; k++) {
         const fw_mechanism_pin *pin = &m->pin[k];
         if (pin->body_a != FW_GROUND) arm = fmax(arm, hypot(pin->ax_m, pin->ay_m));
@@ -47,6 +46,8 @@ static void drop_rounding(const fw_mechanism *m, double *far) {
 
 void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, double *far) {
     const int nb = m->nbody, n = 3 * nb;
+    const fw_verdict_strain_monitor *saw = x->observed;
+    double most_m = 0; /* that strain all along a strip */
     fw_dynamics_motion_rows(x, 0, x->nsample);
     for (int row = 0; row < x->nsample; row++) {
         for (int b = 0; b < nb; b++) {
@@ -60,16 +61,17 @@ void fw_verdict_farthest(const fw_mechanism *m, const fw_dynamics_motion *x, dou
             far[2 * nb + h] = fmax(far[2 * nb + h], fabs(angle));
         }
     }
-    drop_rounding(m, far);
+    for (int h = 0; h < m->nhinge && saw; h++)
+        most_m = fmax(most_m, saw->hinge[h].strain.value * m->hinge[h].law.length_m);
+    drop_rounding(m, most_m, far);
 }
 
 /* ---- what takes hold again and again ----
    What throws back meets what the last blow left by its phase, and behind some blows peaks turn on a per mille of a stiffness. So
    where something takes hold a second time the scene is moved again with flexures stiffer and softer by thirds of what they are
    off by; what it comes to, and a quarter more since the largest may lie between, is a factor on bands. A run that does not get
-   to its end tells nothing: half. In: v->motion. Error: an estimate. Cost: six motions, two where these change
-   nothing; of corners none. Source:
-   docs/theory/verdict.md. Test: test_hinge.py blows_that_come_again */
+   to its end tells nothing: half. In: v->motion. Error: an estimate. Cost: six motions, two where these change nothing; of
+   corners none. Source: docs/theory/verdict.md. Test: test_hinge.py blows_that_come_again */
 
 static void hold_factor(double more, double now, double was, double *f) {
     const double part = was > 0 ? now / was - 1 : 0;

@@ -455,6 +455,27 @@ class Pressed(unittest.TestCase):
         for hinge in said["hinges"]:
             self.assertLess(hinge["as_fabricated"]["most"], 0.2)
 
+    def test_what_is_its_own_mirror_image_is_only_pressed(self):
+        """Between two leaves in line heat turns nothing, and angles and ways are rounding: nothing is a share of them. The force of
+        a leaf had a band of -5.1 to 9.6 mN for its 2.19, and parts 300 um apart might meet, 81 000 times as far as computed (FW-D642);
+        a side force of 1 uN mended both. E A t/L of both leaves in series by hand, and what their ends give"""
+        for change, width in ((5, 12), (-20, 12), (10, 16)):
+            text = f'''<device xmlns="urn:flexwright:device:1" name="pressed">
+<material ref="copper-plated" thickness="12 um"/><limits safety-factor="1.5"/><flow ref="copper-on-porous-silicon"/>
+<flexure id="f" kind="leaf" length="400 um" width="{width} um" width-middle="{width - 2} um" fillet="7 um"/>
+<mechanism><body id="stage" x="0 mm" y="0 mm"><plate width="500 um" height="200 um"/></body>
+<revolute id="A" a="ground" a-x="-0.55 mm" b="stage" b-x="-0.55 mm" hinge="f" axis="90 deg"/>
+<revolute id="B" a="ground" a-x="0.55 mm" b="stage" b-x="0.55 mm" hinge="f" axis="90 deg"/></mechanism>
+<probe id="fa" kind="force" of="A" direction="0 deg"/><require probe="fa" measure="final" min="-1 N" max="1 N" scene="heat"/>
+<scene name="heat" duration="200 ms"><temperature change="{change} K" law="ramp" rise="150 ms"/></scene></device>'''
+            said = json.loads(self.check(text, "--json", "--corners", "none").stdout)
+            self.assertNotIn("FW-D642", json.dumps(said["reasons"]))
+            row = next(r for r in said["requirements"] if r["probe"] == "fa")
+            low, high = sorted(abs(x) for x in row["band"])
+            self.assertGreater(row["band"][0] * row["band"][1], 0)
+            self.assertLess(high / low, 2, row)
+            self.assertEqual(row["value"] > 0, change > 0)
+
     def test_what_heat_moves_passes_over_what_is_fast(self):
         """heat has no force, so that nothing says what it excites: with a contact besides explicit steps followed the leaf's
         stiff axis, 4200 of them where 300 do (29 s as made before its first corner was through)"""

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""paths.py [--seed N] [--count N] [--density N]: random strips of several pieces as solids of full depth in CalculiX (ccx), as
-lines of tests/data/hinge/paths.csv: their stiffness and the peak of their strain per radian under a pure moment.
+"""paths.py [--seed N] [--count N] [--density N] [--forces] [--one] [--silicon]: random strips of several pieces as solids of full depth
+in CalculiX (ccx), as lines of tests/data/hinge/paths.csv: their stiffness and the peak of their strain per radian under a pure moment.
+With --forces as lines of forces.csv: how far the second block's strip end turns and goes under a moment and two forces there, in the
+frame of the first one (tangent +x); --one: of one line or arc whose width varies; --silicon: of a (100) wafer turned by a random angle.
 
 Two or three lines and arcs, of either sense, whose widths go on from one to the next; half the depth (its middle plane stays
 plane) of C3D20R, the plane mesh of mesh.py in layers that grow thinner towards the free face; one block's far face is held, the
@@ -22,6 +24,22 @@ import mesh  # noqa: E402
 import strip  # noqa: E402
 
 MODULUS = 150e3  # MPa
+
+
+def one_piece(seed):
+    """the same of one line or arc, 0.62 to 1.6 times as wide in its middle as at its ends"""
+    source = random.Random(seed)
+    between = lambda low, high: low + (high - low) * source.random()
+    t, curvature = round(between(4, 12), 3), 0.0
+    middle = round(t * between(0.62, 1.6), 3)
+    if source.random() < 0.5:
+        radius, angle = round(between(8, 30) * t, 3), math.radians(round(between(100, 300), 1))
+        curvature, length = 1 / radius, radius * angle
+    else:
+        length = round(between(17, 70) * t, 3)
+    narrow = min(t, middle)
+    return ([strip.Piece(length, curvature, t, middle, t)], round(narrow * between(0.12, 1), 3), round(between(0.8, 14) * narrow, 2),
+            round(between(0.15, 0.35), 3))
 
 
 def shape(seed):
@@ -56,8 +74,18 @@ def group(name, numbers):
     return ["*NSET, NSET=" + name] + [", ".join(map(str, numbers[i:i + 12])) for i in range(0, len(numbers), 12)]
 
 
-def deck(made, end, h, nu):
-    """(input of ccx, number of a plane node at a height, node that turns)"""
+def elastic(nu, first):
+    """(what comes before the material, its stiffness) for ccx; first: [100] of a (100) wafer of silicon from x, or None: isotropic"""
+    if first is None:
+        return [], ["*ELASTIC", "%g, %g" % (MODULUS, nu)]
+    c11, c12, c44 = 165.7e3, 63.9e3, 79.6e3  # as in strip.Silicon
+    c, s = math.cos(first), math.sin(first)
+    return (["*ORIENTATION, NAME=CRYSTAL", "%.12g, %.12g, 0, %.12g, %.12g, 0" % (c, s, -s, c)],
+            ["*ELASTIC, TYPE=ORTHO", "%g, %g, %g, %g, %g, %g, %g, %g," % (c11, c12, c11, c12, c12, c11, c44, c44), "%g" % c44])
+
+
+def deck(made, end, h, nu, first=None, forces=False):
+    """(input of ccx, number of a plane node at a height, node that turns); forces: a step for the moment and one for each force"""
     z = heights(h, made.width)
     corners = {k for e in made.elements for k in e[:4]}
     number, nodes, elements = {}, [], []
@@ -82,25 +110,41 @@ def deck(made, end, h, nu):
         out += ["%d, %s," % (k + 1, ", ".join(map(str, e[:10]))), ", ".join(map(str, e[10:]))]
     out += group("HELD", faces[0]) + group("TURNED", faces[1])
     out += group("MIDDLE", {number[k, 0] for k in range(len(made.nodes))} - faces[0] - faces[1])
-    out += group("SEEN", {number[k, i] for k in made.edges for i in range(0, len(z), 2)} | {turn})
-    out += ["*MATERIAL, NAME=M", "*ELASTIC", "%g, %g" % (MODULUS, nu), "*SOLID SECTION, ELSET=ALL, MATERIAL=M",
+    out += group("SEEN", {number[k, i] for k in made.edges for i in range(0, len(z), 2)} | {place, turn})
+    turned, moduli = elastic(nu, first)
+    out += [*turned, "*MATERIAL, NAME=M", *moduli, "*SOLID SECTION, ELSET=ALL, MATERIAL=M" + (", ORIENTATION=CRYSTAL" if turned else ""),
             "*RIGID BODY, NSET=TURNED, REF NODE=%d, ROT NODE=%d" % (place, turn), "*BOUNDARY", "HELD, 1, 3", "MIDDLE, 3, 3",
-            "%d, 3, 3" % place, "%d, 1, 2" % turn, "*STEP", "*STATIC", "*CLOAD", "%d, 3, 1" % turn, "*NODE PRINT, NSET=SEEN", "U",
-            "*END STEP"]
+            "%d, 3, 3" % place, "%d, 1, 2" % turn]
+    for node, axis in ((turn, 3), (place, 1), (place, 2)) if forces else ((turn, 3),):
+        out += ["*STEP", "*STATIC", "*CLOAD, OP=NEW", "%d, %d, 1" % (node, axis), "*NODE PRINT, NSET=SEEN", "U", "*END STEP"]
     return "\n".join(out) + "\n", number, turn
 
 
-def solve(pieces, fillet, h, nu, density):
-    """(stiffness in uN um/rad, peak strain per radian)"""
-    made = mesh.Mesh(strip.Strip(pieces, strip.Isotropic(MODULUS, nu), h, fillet), density)
-    text, number, turn = deck(made, mesh.Line(made.flexure.pieces).end[:2], h, nu)
+def ran(text):
+    """lines of what ccx prints, as words"""
     with tempfile.TemporaryDirectory() as where:
         (pathlib.Path(where) / "path.inp").write_text(text, encoding="ascii")
         done = subprocess.run(["ccx", "-i", "path"], cwd=where, capture_output=True, text=True, check=False,
                               env=dict(os.environ, OMP_NUM_THREADS="1"))
         if done.returncode or "ERROR" in done.stdout:
             raise RuntimeError("ccx: " + done.stdout[-200:].strip())
-        rows = [line.split() for line in (pathlib.Path(where) / "path.dat").read_text(encoding="ascii").splitlines()]
+        return [line.split() for line in (pathlib.Path(where) / "path.dat").read_text(encoding="ascii").splitlines()]
+
+
+def compliance(pieces, fillet, h, nu, density, first):
+    """turn, x and y of the end under a moment, a force along x and one along y there, um, uN"""
+    made = mesh.Mesh(strip.Strip(pieces, strip.Isotropic(MODULUS, nu), h, fillet), density)
+    text, _, turn = deck(made, mesh.Line(made.flexure.pieces).end[:2], h, nu, first, True)
+    rows = [r for r in ran(text) if len(r) == 4 and r[0] in (str(turn - 1), str(turn))]
+    place, turned = ([r for r in rows if r[0] == str(n)] for n in (turn - 1, turn))
+    return made.flexure.pieces, [[float(t[3]) / 2, float(p[1]) / 2, float(p[2]) / 2] for p, t in zip(place, turned)]
+
+
+def solve(pieces, fillet, h, nu, density):
+    """(stiffness in uN um/rad, peak strain per radian)"""
+    made = mesh.Mesh(strip.Strip(pieces, strip.Isotropic(MODULUS, nu), h, fillet), density)
+    text, number, turn = deck(made, mesh.Line(made.flexure.pieces).end[:2], h, nu)
+    rows = ran(text)
     moved = {int(r[0]): tuple(map(float, r[1:])) for r in rows if len(r) == 4 and r[0].isdigit()}
     angle, peak = moved[turn][2], 0.0
     for e in made.elements:
@@ -120,10 +164,20 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--density", type=float, default=1, help="of the elements; 1: 24 along a fillet")
+    for option in ("forces", "one", "silicon"):
+        parser.add_argument("--" + option, action="store_true")
     options = parser.parse_args()
     for seed in range(options.seed, options.seed + options.count):
-        pieces, fillet, h, nu = shape(seed)
+        pieces, fillet, h, nu = (one_piece if options.one else shape)(seed)
+        degrees = round(random.Random(seed + 77).uniform(-45, 45), 1) if options.silicon else "-"
         try:
+            if options.forces:
+                pieces, c = compliance(pieces, fillet, h, nu, options.density, math.radians(degrees) if options.silicon else None)
+                found = ",".join("%.7g" % v for v in (c[0][0], *((a + b) / 2 for a, b in ((c[0][1], c[1][0]), (c[0][2], c[2][0]))),
+                                                     c[1][1], (c[1][2] + c[2][1]) / 2, c[2][2]))
+                print("%d,%s,%g,%g,%g,%s,%s" % (seed, degrees, fillet, h, 0 if options.silicon else nu, found, ";".join(
+                    "%g:%.9g:%g:%g:%g" % (p.length, p.curvature, *p.widths) for p in pieces)), flush=True)
+                continue
             stiffness, peak = solve(pieces, fillet, h, nu, options.density)
         except RuntimeError as error:
             print("seed %d: %s" % (seed, error), file=sys.stderr, flush=True)
