@@ -253,6 +253,13 @@ static int loads(const work *w, const fw_process_step *s) {
     return planned > 0 ? planned : (w->bill->wafers + load - 1) / load;
 }
 
+/* ... each of them so often: a lot's mixing is done for every filling */
+static int mixings(const work *w, const fw_process_step *s) {
+    const int planned = w->load ? w->load[s - w->flow->step] : 0,
+              least = fw_process_step_times(w->flow, s, w->bill->wafers);
+    return planned > least && fw_process_step_mixes(w->flow, s) ? planned : least;
+}
+
 /* the row of a consumable, made where there is none yet */
 static fw_process_bill_row *row_of(work *w, const fw_process_consumable *c) {
     fw_process_bill *b = w->bill;
@@ -295,15 +302,6 @@ static fw_status fill(work *w, fw_process_bill_bath *row) {
     return FW_OK;
 }
 
-int fw_process_bath_fillings(const fw_process_flow *flow, const fw_process_bath *bath, int wafers) {
-    const double serves = bath->serves ? known(bath->serves) : wafers;
-    int passes = 0;
-    for (int i = 0; i < flow->nstep; i++)
-        for (int k = 0; k < flow->step[i].nuse; k++)
-            passes += flow->step[i].use[k].bath == bath;
-    return serves >= 1.0 ? (int)ceil(passes * (double)wafers / serves) : 0;
-}
-
 const fw_process_bath *fw_process_step_mixes(const fw_process_flow *flow,
                                              const fw_process_step *step) {
     for (int i = 0; i < flow->nbath && fw_process_step_is_of_lot(step); i++)
@@ -314,9 +312,24 @@ const fw_process_bath *fw_process_step_mixes(const fw_process_flow *flow,
     return NULL;
 }
 
+int fw_process_bath_fillings(const fw_process_flow *flow, const fw_process_bath *bath, int wafers,
+                             const int *load) {
+    const double serves = bath->serves ? known(bath->serves) : wafers;
+    int passes = 0;
+    for (int i = 0; i < flow->nstep; i++)
+        for (int k = 0; k < flow->step[i].nuse; k++)
+            passes += flow->step[i].use[k].bath == bath;
+    int most = serves >= 1.0 ? (int)ceil(passes * (double)wafers / serves) : 0;
+    for (int i = 0; load && i < flow->nstep; i++)
+        if (load[i] > 1 && load[i] > most && fw_process_step_mixes(flow, &flow->step[i]) == bath)
+            most = load[i];
+    return most;
+}
+
 int fw_process_step_times(const fw_process_flow *flow, const fw_process_step *step, int wafers) {
     const fw_process_bath *bath = fw_process_step_mixes(flow, step);
-    const int fillings = bath ? fw_process_bath_fillings(flow, bath, wafers < 1 ? 1 : wafers) : 1;
+    const int fillings =
+        bath ? fw_process_bath_fillings(flow, bath, wafers < 1 ? 1 : wafers, NULL) : 1;
     return fillings > 1 ? fillings : 1;
 }
 
@@ -325,7 +338,7 @@ static fw_status close_bath(work *w, fw_process_bill_bath *row) {
     const fw_process_bath *b = row->bath;
     FW_TRY(fill(w, row));
     if (b->serves) FW_TRY(need(w->arena, &row->missing, b->serves));
-    row->fillings = fw_process_bath_fillings(w->flow, b, w->bill->wafers);
+    row->fillings = fw_process_bath_fillings(w->flow, b, w->bill->wafers, w->load);
     for (int i = 0; i < b->npart; i++) {
         fw_process_bill_row *r = row_of(w, b->part[i].of);
         r->amount += row->fillings > 0 ? row->fillings * row->part_amount[i] : (double)NAN;
@@ -409,9 +422,7 @@ static fw_status machines(work *w) {
         if (k == b->nmachine)
             b->machine[b->nmachine++] =
                 (fw_process_bill_machine){.equipment = s->equipment, .steps = ""};
-        m->booked_s += s->time.computable ? s->booked_s * loads(w, s) *
-                                                fw_process_step_times(w->flow, s, b->wafers)
-                                          : (double)NAN;
+        m->booked_s += s->time.computable ? s->booked_s * loads(w, s) * mixings(w, s) : (double)NAN;
         FW_TRY(append(w->arena, &m->steps, s->id));
     }
     for (int k = 0; k < b->nmachine; k++) {

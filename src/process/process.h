@@ -586,11 +586,11 @@ typedef struct fw_process_bill {
    wafer, once for each load, or once. Loads are those of a schedule (load, nstep, 0 where it has none of a step), or full ones,
    ceil(wafers / batch). Cost = amount x price, machine time = booked time x loads.
    flow: computed; wafers >= 1; load: NULL without a schedule. Amounts SI, nominal: uncertainties are not carried, since bottles are
-   bought and not measured; mixing is taken as ideal (volumes add). Cost O(steps x consumables). Source:
-   arithmetic. Test: tests/unit/process/test_bill.c. */
-/* fillings for so many wafers; 0: not known. The bath that a step mixes for the lot, whose volume it sets; NULL: none. How often
+   bought and not measured; mixing is taken as ideal (volumes add). Cost O(steps x consumables). Test: tests/unit/process/test_bill.c. */
+/* fillings for so many wafers, or as many as a schedule mixes, if more (load, as below); 0: not known. The bath that a step mixes for the lot, whose volume it sets; NULL: none. How often
    a lot of so many needs that; 1 of other steps */
-int fw_process_bath_fillings(const fw_process_flow *flow, const fw_process_bath *bath, int wafers);
+int fw_process_bath_fillings(const fw_process_flow *flow, const fw_process_bath *bath, int wafers,
+                             const int *load);
 const fw_process_bath *fw_process_step_mixes(const fw_process_flow *flow,
                                              const fw_process_step *step);
 int fw_process_step_times(const fw_process_flow *flow, const fw_process_step *step, int wafers);

@@ -164,6 +164,13 @@ double fw_process_arde_integral(double width_m, double depth_m, bool cylinder);
    the pairs or when they do not rise; *why then says so */
 bool fw_process_table_between(const double *pairs, int n, double x, double *y, const char **why);
 
+/* variants.c: the time by the step's own law for another amount of one of its arguments, as exact as it is stated. Not computable:
+   the law has no such time. And the amount of so much time, from *amount nearby: times rise with it, not far from in proportion */
+fw_status fw_process_step_time_of(fw_arena *arena, const fw_process_step *step, int argument,
+                                  double amount_m, fw_process_law_answer *answer);
+fw_status fw_process_step_amount_in(fw_arena *arena, const fw_process_step *step, int argument,
+                                    double time_s, double *amount_m);
+
 /* of so long at the machine, pauses between its parts included, how much is the step's own time */
 double fw_process_step_own_s(const fw_process_step *step, double machine_s);
 

@@ -451,3 +451,36 @@ fw_status fw_process_step_as_set(fw_arena *arena, const fw_process_step *s,
         *out = copy;
     return FW_OK;
 }
+
+fw_status fw_process_step_time_of(fw_arena *arena, const fw_process_step *step, int argument,
+                                  double amount_m, fw_process_law_answer *answer) {
+    fw_process_argument list[FW_LAW_ARGUMENTS];
+    *answer = (fw_process_law_answer){0};
+    if (step->nargument > FW_LAW_ARGUMENTS) return FW_OK;
+    for (int i = 0; i < step->nargument; i++)
+        list[i] = step->argument[i];
+    fw_quantity amount = *list[argument].q;
+    amount.value = amount_m;
+    amount.uncertainty = 0.0; /* it is what is asked */
+    amount.unknown = false;
+    list[argument].q = &amount;
+    const fw_process_law_use use = {.law = fw_process_law_find(step->law),
+                                    .shape = step->shape,
+                                    .expression = step->expression,
+                                    .wanted = FW_DIM_TIME,
+                                    .argument = list,
+                                    .nargument = step->nargument};
+    return fw_process_law_evaluate(arena, &use, answer);
+}
+
+fw_status fw_process_step_amount_in(fw_arena *arena, const fw_process_step *step, int argument,
+                                    double time_s, double *amount_m) {
+    enum { ROUNDS = 12 };
+    for (int i = 0; i < ROUNDS; i++) {
+        fw_process_law_answer answer;
+        FW_TRY(fw_process_step_time_of(arena, step, argument, *amount_m, &answer));
+        if (!answer.computable || !(answer.value > 0)) break;
+        *amount_m *= time_s / answer.value;
+    }
+    return FW_OK;
+}

@@ -340,7 +340,7 @@ static void put_bath(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
     fw_text left = fw_text_new(out->arena), brief = fw_text_new(out->arena);
     if (fw_recipe_asrun_put_left_in_it(run, e, &left) && fw_text_end(&left) == FW_OK)
         fw_text_printf(out, "      %s; was the rest in it?\n", left.data);
-    if (fw_recipe_asrun_put_pauses(run, e, &brief) && fw_text_end(&brief) == FW_OK)
+    if (fw_recipe_asrun_put_inside(run, e, &brief) && fw_text_end(&brief) == FW_OK)
         fw_text_printf(out, "      %s; or was that without them?\n", brief.data);
     if (fw_recipe_asrun_bath_life(out->arena, run, e, &is, &allowed) == FW_OK && is)
         fw_text_printf(out, "      bath %s: %s: OUT, since %s\n", e->bath, is, allowed);

@@ -169,17 +169,17 @@ typedef struct fw_recipe_runs { /* that come to one longer run */
 } fw_recipe_runs;
 fw_recipe_runs fw_recipe_asrun_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 
-/* "short", "in window", "long", "no plan", or "unclear" (FW-D680, FW-D684: asked, and not answered): an entry's duration, with
+/* "short", "in window", "long", "no plan", or "unclear" (FW-D680, FW-D684, FW-D732, FW-D759: asked, and not answered): an entry's duration, with
    the runs that it goes on from */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e);
 /* of one that is unclear since it is longer than what is finished at the bench explains: "took 22 min, and is to stop by 12 min,
    with ..."; false: it is not */
 bool fw_recipe_asrun_put_left_in_it(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
                                     fw_text *out);
-/* of one that is unclear since its pauses leave less than the first look: "took 1 h 50 min, of which its pauses leave 80 min, ..." (FW-D732);
-   false: it is not */
-bool fw_recipe_asrun_put_pauses(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                                fw_text *out);
+/* of one that is unclear since its pauses leave less than the first look: "took 1 h 50 min, of which its pauses leave 80 min, ..." -> 732;
+   or what finishes it at the bench -> 759; 0: it is not. Both are numbers of what it is asked by */
+int fw_recipe_asrun_put_inside(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                               fw_text *out);
 /* recipe_words.c, FW-D703: where the plan has no time for a step that goes on for as long as the wafer is in it, did this one take much less or more
    than other wafers of the lot, or more than a working day? *planned: "no planned time (missing ...); other wafers took 15 min" */
 fw_status fw_recipe_asrun_odd_time(fw_arena *arena, const fw_recipe_asrun *run,

@@ -12,72 +12,75 @@ static double handling_s(const fw_process_step *s) {
     return s->finish_s + s->booked_stop_s - s->booked_stop_own_s;
 }
 
+/* What the log has of a run, from its start to its end by the clock, holds pauses between the parts of the step, what finishes it
+   at the bench, and what somebody's presence takes beyond that; or it is the step's own time, where the log has that alone */
+typedef enum part { ALL_OF_IT, LESS_PAUSES, LESS_FINISHES, LESS_HANDLING } part;
+
+/* Was the same run asked after before, and is now in the log with the same start and an earlier end? Then it is without its finishes,
+   as was asked for */
+static bool is_alone(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+    for (const fw_recipe_asrun_entry *o = run->entry; o < e; o++)
+        if (o->step == e->step && fw_text_same(o->wafer, e->wafer) && o->start_s == e->start_s &&
+            o->end_s > e->end_s && strcmp(fw_recipe_asrun_in_time(run, o), "unclear") == 0)
+            return true;
+    return false;
+}
+
+/* what the entry by itself, of one load where there are several, leaves of the step's own time; longer_s: what its clock may be off */
+static double of_run(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, part less,
+                     double longer_s) {
+    int together;
+    double left = (e->end_s - e->start_s) / fw_recipe_asrun_loads(run, e, &together) + longer_s;
+    if (less == LESS_HANDLING) left -= handling_s(e->as_set);
+    if (less == LESS_FINISHES && !is_alone(run, e)) left -= e->as_set->finish_s;
+    return less == ALL_OF_IT ? left : fw_process_step_own_s(e->as_set, fmax(0.0, left));
+}
+
+/* the same of all runs that come to one, each as long as it would have been at what is set in e; clocks: 1 where each is longer by
+   what its clock may be off */
+static double of_runs(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e, part less,
+                      double clocks) {
+    const double last_s = e->as_set->time.nominal_s;
+    double sum_s = 0.0;
+    for (const fw_recipe_asrun_entry *o = e; o; o = fw_recipe_asrun_goes_on_from(run, o)) {
+        const double of_s = o->as_set->time.nominal_s, by = of_s > 0.0 ? last_s / of_s : 1.0;
+        sum_s += by * of_run(run, o, less, clocks * fw_recipe_asrun_clock_s(o));
+    }
+    return sum_s;
+}
+
 /* ---- does what was measured go with the time that it took? ----
    Where the step's own law has the time of a thickness that the step adds or takes away, and what is accepted holds that
    thickness from both sides, time and reading say one thing twice. */
 
-typedef struct timing { /* the law of a step as it was set, for another amount */
-    fw_arena *arena;
-    const fw_process_step *step;
-    fw_process_argument argument[FW_LAW_ARGUMENTS];
-    fw_quantity amount;
-} timing;
-
-static bool as_run(fw_arena *arena, const fw_recipe_asrun_entry *e,
-                   const fw_process_argument *amount, timing *t) {
-    const fw_process_step *s = e->as_set;
-    const ptrdiff_t of = amount - e->step->argument;
-    if (s->nargument > FW_LAW_ARGUMENTS) return false;
-    *t = (timing){.arena = arena, .step = s, .amount = *amount->q};
-    for (int i = 0; i < s->nargument; i++)
-        t->argument[i] = s->argument[i];
-    t->argument[of].q = &t->amount;
-    t->amount.uncertainty = 0.0; /* it is what is asked */
-    t->amount.unknown = false;
-    return true;
+/* by the law of the step as it was set in the entry; amount: an argument of the step as planned */
+static fw_status time_for(fw_arena *arena, const fw_recipe_asrun_entry *e,
+                          const fw_process_argument *amount, double amount_m,
+                          fw_process_law_answer *answer) {
+    return fw_process_step_time_of(arena, e->as_set, (int)(amount - e->step->argument), amount_m,
+                                   answer);
 }
 
-static fw_status time_for(timing *t, double amount_m, fw_process_law_answer *answer) {
-    const fw_process_step *s = t->step;
-    t->amount.value = amount_m;
-    const fw_process_law_use use = {.law = fw_process_law_find(s->law),
-                                    .shape = s->shape,
-                                    .expression = s->expression,
-                                    .wanted = FW_DIM_TIME,
-                                    .argument = t->argument,
-                                    .nargument = s->nargument};
-    return fw_process_law_evaluate(t->arena, &use, answer);
+static fw_status amount_in(fw_arena *arena, const fw_recipe_asrun_entry *e,
+                           const fw_process_argument *amount, double time_s, double *amount_m) {
+    return fw_process_step_amount_in(arena, e->as_set, (int)(amount - e->step->argument), time_s,
+                                     amount_m);
 }
 
-/* the amount of so much time, from one nearby: times rise with it, not far from in proportion */
-static fw_status amount_in(timing *t, double time_s, double *amount_m) {
-    enum { ROUNDS = 12 };
-    for (int i = 0; i < ROUNDS; i++) {
-        fw_process_law_answer answer;
-        FW_TRY(time_for(t, *amount_m, &answer));
-        if (!answer.computable || !(answer.value > 0)) break;
-        *amount_m *= time_s / answer.value;
-    }
-    return FW_OK;
-}
-
-/* The runs that e goes on from, in the time that they would have taken at what is set in e: t_o T_e/T_o, T the time of the
-   law for the amount that was measured; *n how many. NaN: one of them had no such time */
-static fw_status earlier(fw_arena *arena, const fw_recipe_asrun *run,
+/* All runs that come to one with e, in the time that they would have taken at what is set in e: t_o T_e/T_o, T the time of the law
+   for the amount that was measured. all_s of one load; least_s without what may be pauses and handling in each; *n how many.
+   NaN: one of them had no such time */
+static fw_status in_runs(fw_arena *arena, const fw_recipe_asrun *run,
                          const fw_recipe_asrun_entry *e, const fw_process_argument *amount,
-                         double measured, double time_s, int *n, double *earlier_s) {
-    *n = 0, *earlier_s = 0.0;
-    for (const fw_recipe_asrun_entry *o = fw_recipe_asrun_goes_on_from(run, e); o;
-         o = fw_recipe_asrun_goes_on_from(run, o), ++*n) {
-        timing t;
-        fw_process_law_answer answer = {0};
-        int together;
-        const bool known = as_run(arena, o, amount, &t);
-        if (known) FW_TRY(time_for(&t, measured, &answer));
-        *earlier_s += answer.computable && answer.value > 0
-                          ? (o->end_s - o->start_s) / fw_recipe_asrun_loads(run, o, &together) *
-                                time_s / answer.value
-                          : (double)NAN;
+                         double measured, double time_s, int *n, double *all_s, double *least_s) {
+    *n = 0, *all_s = *least_s = 0.0;
+    for (const fw_recipe_asrun_entry *o = e; o; o = fw_recipe_asrun_goes_on_from(run, o), ++*n) {
+        fw_process_law_answer answer;
+        FW_TRY(time_for(arena, o, amount, measured, &answer));
+        const double by =
+            answer.computable && answer.value > 0 ? time_s / answer.value : (double)NAN;
+        *all_s += by * of_run(run, o, ALL_OF_IT, 0.0);
+        *least_s += by * of_run(run, o, LESS_HANDLING, 0.0);
     }
     return FW_OK;
 }
@@ -87,37 +90,32 @@ static fw_status amount_in_time(fw_arena *arena, const fw_recipe_asrun *run,
                                 const fw_recipe_asrun_entry *e, double loads, double read_s,
                                 fw_recipe_amount_in_time *out) {
     const fw_process_step *s = e->step;
-    timing t;
     fw_process_law_answer answer;
     *out = (fw_recipe_amount_in_time){.fits = true};
     const fw_process_argument *amount =
         s && e->fate == FW_FATE_RUN ? fw_recipe_asrun_amount_of_law(s) : NULL;
     if (!amount || amount->q->unknown || !e->as_set->time.computable) return FW_OK;
     const double measured = fw_recipe_asrun_amount_measured(e, amount->q, &out->measured);
-    if (!(measured > 0) || !as_run(arena, e, amount, &t)) return FW_OK;
-    FW_TRY(time_for(&t, measured, &answer));
+    if (!(measured > 0)) return FW_OK;
+    FW_TRY(time_for(arena, e, amount, measured, &answer));
     if (!answer.computable || !(answer.value > 0)) return FW_OK;
     /* handling, pauses and what is finished at the machine may be in it or not */
-    int before;
-    double earlier_s;
-    FW_TRY(earlier(arena, run, e, amount, measured, answer.value, &before, &earlier_s));
-    if (isnan(earlier_s)) return FW_OK;
-    const fw_process_step *set = e->as_set;
-    const double handling = handling_s(set),
-                 more = set->booked_stop_s - set->time.stop_s + before * handling,
-                 off = s->k * answer.uncertainty / answer.value,
-                 actual_s = e->end_s - e->start_s + loads * earlier_s;
-    read_s *= before + 1;
+    int n;
+    double one_s, least_s;
+    FW_TRY(in_runs(arena, run, e, amount, measured, answer.value, &n, &one_s, &least_s));
+    if (isnan(one_s)) return FW_OK;
+    const double off = s->k * answer.uncertainty / answer.value, actual_s = loads * one_s;
+    read_s *= n;
     out->took_s = actual_s;
     const bool brief = actual_s + read_s < answer.value * (1.0 - off);
-    const double longest = answer.value * (1.0 + off) * (1.0 + s->overrun) + more;
-    if (!brief && actual_s - read_s <= loads * longest) return FW_OK;
+    if (!brief && least_s - read_s / loads <= answer.value * (1.0 + off) * (1.0 + s->overrun))
+        return FW_OK;
     out->fits = false;
     out->law_m = measured;
-    out->time_s = brief ? actual_s : actual_s / loads - more;
+    out->time_s = brief ? actual_s : least_s;
     out->off = off;
     out->formula = fw_process_law_find(s->law)->formula;
-    return amount_in(&t, out->time_s, &out->law_m);
+    return amount_in(arena, e, amount, out->time_s, &out->law_m);
 }
 
 /* ---- how long it took ---- */
@@ -179,45 +177,44 @@ static bool adds_up_to_more(const fw_recipe_asrun *run, const fw_recipe_asrun_en
     return runs->n > 1 && e->as_set->time.computable && took > stop && took <= surely;
 }
 
-/* Of a step that is done in parts: what the entry leaves of its own time once the pauses are taken off, where that is below the first
-   look and the whole entry is not; 0: it is neither. The log may have the step's own time alone. */
-static double left_by_pauses(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
+/* Which of what may be in the entry leaves less than the first look, where the entry as a whole reaches it? ALL_OF_IT: none does. The
+   log may have the step's own time alone */
+static part left_too_short(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                           double *left_s) {
     const fw_process_time *last = &e->as_set->time;
-    double own_s = 0.0, all_s = 0.0;
-    if (!last->computable || !e->step->pulse) return 0.0;
-    for (const fw_recipe_asrun_entry *o = e; o; o = fw_recipe_asrun_goes_on_from(run, o)) {
-        int together;
-        const double of_s = o->as_set->time.nominal_s,
-                     by = of_s > 0.0 ? last->nominal_s / of_s : 1.0,
-                     took_s = (o->end_s - o->start_s) / fw_recipe_asrun_loads(run, o, &together) +
-                              fw_recipe_asrun_clock_s(o);
-        own_s += by * fw_process_step_own_s(e->step, took_s);
-        all_s += by * took_s;
+    if (!last->computable || of_runs(run, e, ALL_OF_IT, 1.0) < last->first_look_s) return ALL_OF_IT;
+    for (part less = LESS_PAUSES; less <= LESS_FINISHES; less++) {
+        *left_s = of_runs(run, e, less, 0.0);
+        if (of_runs(run, e, less, 1.0) < last->first_look_s) return less;
     }
-    return own_s < last->first_look_s && all_s >= last->first_look_s ? own_s : 0.0;
+    return ALL_OF_IT;
 }
 
-bool fw_recipe_asrun_put_pauses(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
-                                fw_text *out) {
-    const double own_s = left_by_pauses(run, e);
+int fw_recipe_asrun_put_inside(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e,
+                               fw_text *out) {
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    if (own_s > 0.0) fw_text_add(out, "took "), fw_recipe_asrun_put_took(out, e, &runs);
-    if (!(own_s > 0.0)) return false;
-    fw_text_add(out, ", of which its pauses leave ");
-    fw_schedule_put_duration(out, own_s);
+    double left_s;
+    const part less = left_too_short(run, e, &left_s);
+    if (less == ALL_OF_IT) return 0;
+    fw_text_add(out, "took "), fw_recipe_asrun_put_took(out, e, &runs);
+    fw_text_printf(out, ", of which its %s leave ",
+                   less == LESS_PAUSES ? "pauses"
+                   : e->as_set->pulse  ? "pauses and finishes"
+                                       : "finishes");
+    fw_schedule_put_duration(out, left_s);
     fw_text_add(out, ", and the first look is at ");
     fw_schedule_put_duration(out, e->as_set->time.first_look_s);
-    return true;
+    return less == LESS_PAUSES ? 732 : 759;
 }
 
 /* what was asked, and no later entry has answered, is not in its window */
 const char *fw_recipe_asrun_in_time(const fw_recipe_asrun *run, const fw_recipe_asrun_entry *e) {
     const char *judged = by_the_window(run, e);
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    double by_s;
+    double by_s, left_s;
     if (strcmp(judged, "in window") != 0) return judged;
     return fw_recipe_asrun_is_late_as_set(run, e) || adds_up_to_more(run, e, &runs) ||
-                   is_left_in_it(run, e, &by_s) || left_by_pauses(run, e) > 0.0
+                   is_left_in_it(run, e, &by_s) || left_too_short(run, e, &left_s) != ALL_OF_IT
                ? "unclear"
                : judged;
 }
@@ -280,25 +277,20 @@ static void put_as_set(fw_text *out, const fw_recipe_asrun_entry *e, double plan
     fw_text_add(out, ")");
 }
 
-/* what the law makes of the time, less what may be handling where it was long: "; by its law that makes 49 um (planned 1 um), and as
+/* what the law makes of the time, less what may be pauses and handling where it was long: "; by its law that makes 49 um (planned 1 um), and as
    much sideways from every edge"; nothing where it has no amount */
 static fw_status put_amount(fw_arena *arena, const fw_recipe_asrun *run,
                             const fw_recipe_asrun_entry *e, bool brief, fw_text *out) {
     const fw_process_argument *a = fw_recipe_asrun_amount_of_law(e->step);
-    const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
-    int together;
-    const double loads = runs.n > 1 ? 1.0 : fw_recipe_asrun_loads(run, e, &together),
-                 handling = brief ? 0.0 : e->as_set->booked_stop_s - e->as_set->time.stop_s,
-                 time = took_s(e, &runs) / loads - handling;
+    const double time = of_runs(run, e, brief ? ALL_OF_IT : LESS_HANDLING, 0.0);
     bool sideways = false;
     char value[2][32];
-    timing t;
     fw_quantity_unit unit;
-    if (!a || a->q->unknown || !(a->q->value > 0.0) || !(time > 0.0) || !as_run(arena, e, a, &t) ||
+    if (!a || a->q->unknown || !(a->q->value > 0.0) || !(time > 0.0) ||
         !fw_quantity_unit_parse(a->q->unit, strlen(a->q->unit), &unit, NULL, NULL))
         return FW_OK;
     double amount = a->q->value;
-    FW_TRY(amount_in(&t, time, &amount));
+    FW_TRY(amount_in(arena, e, a, time, &amount));
     for (int k = 0; k < e->step->nchange; k++)
         sideways =
             sideways || (e->step->change[k].isotropic && e->step->change[k].thickness == a->q);
@@ -333,6 +325,15 @@ static fw_status out_of_time(fw_arena *arena, const fw_recipe_asrun *run,
     return FW_OK;
 }
 
+/* "step S14 of wafer 2", what is the matter with it and what to do; why: which is to be written down, unless it is */
+static fw_status ask(const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags, int number,
+                     const char *matter, const char *text, const char *todo, bool why) {
+    fw_diag_warning(diags, number, place, "step %s%s%s%s%s%s%s", e->at->id,
+                    e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", matter, text, todo,
+                    why && !e->deviation ? ", and write down why (deviation=...)" : "");
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
 /* what is beyond its limits and changes no time that the program knows of */
 static void ask_unknown_to_law(const fw_recipe_asrun_entry *e, fw_place place, fw_diags *diags) {
     for (int i = 0; i < e->nset; i++) {
@@ -351,21 +352,23 @@ static fw_status ask_as_set(fw_arena *arena, const fw_recipe_asrun *run,
     const fw_recipe_runs runs = fw_recipe_asrun_runs(run, e);
     fw_text text = fw_text_new(arena), brief = fw_text_new(arena);
     ask_unknown_to_law(e, place, diags);
-    if (fw_recipe_asrun_put_pauses(run, e, &brief) && fw_text_end(&brief) == FW_OK)
-        fw_diag_warning(
-            diags, 732, place,
-            "step %s%s%s %s: too short, unless that is its time without them; then log it "
-            "with the end by the clock, else go on with it",
-            e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", brief.data);
+    const int asked = fw_recipe_asrun_put_inside(run, e, &brief);
+    FW_TRY(fw_text_end(&brief));
+    if (asked)
+        FW_TRY(ask(e, place, diags, asked, " ", brief.data,
+                   asked == 732
+                       ? ": too short, unless that is its time without them; then log it with the "
+                         "end by the clock, else go on with it"
+                       : ": too short, unless that is its time without them; then log it with the "
+                         "end by the clock, else its own time alone with the same start, and go "
+                         "on with it",
+                   false));
     if (fw_recipe_asrun_put_left_in_it(run, e, &text)) {
         FW_TRY(fw_text_end(&text));
-        fw_diag_warning(diags, 684, place,
-                        "step %s%s%s %s: too long, unless the rest was not in it; log the time in "
-                        "it alone with the same start, or look at what that leaves before the next "
-                        "step",
-                        e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "",
-                        text.data);
-        return diags->failed ? FW_NOMEM : FW_OK;
+        return ask(e, place, diags, 684, " ", text.data,
+                   ": too long, unless the rest was not in it; log the time in it alone with the "
+                   "same start, or look at what that leaves before the next step",
+                   false);
     }
     if (!fw_recipe_asrun_is_late_as_set(run, e)) return FW_OK;
     fw_recipe_asrun_put_took(&text, e, &runs);
@@ -373,11 +376,10 @@ static fw_status ask_as_set(fw_arena *arena, const fw_recipe_asrun *run,
     fw_schedule_put_duration(&text, e->as_set->time.stop_s);
     put_as_set(&text, e, e->step->time.stop_s);
     FW_TRY(fw_text_end(&text));
-    fw_diag_warning(diags, 684, place,
-                    "step %s%s%s took %s: too long, unless what is finished at the bench is in "
-                    "it; look at what that leaves before the next step",
-                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", text.data);
-    return diags->failed ? FW_NOMEM : FW_OK;
+    return ask(e, place, diags, 684, " took ", text.data,
+               ": too long, unless what is finished at the bench is in it; look at what that "
+               "leaves before the next step",
+               false);
 }
 
 /* FW-D680, where runs add up to more than one may take unless each has its handling in it, which the log does not tell */
@@ -390,12 +392,10 @@ static fw_status ask_runs(fw_arena *arena, const fw_recipe_asrun *run,
     fw_text_add(&text, ", and one run is to stop by ");
     fw_schedule_put_duration(&text, fw_recipe_asrun_stop_by(run, e, &runs, NULL));
     FW_TRY(fw_text_end(&text));
-    fw_diag_warning(diags, 680, place,
-                    "step %s%s%s: what it does adds up, and comes to %s: too long, unless what is "
-                    "finished at the bench is in each of them; look at what that leaves before the "
-                    "next step",
-                    e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", text.data);
-    return diags->failed ? FW_NOMEM : FW_OK;
+    return ask(e, place, diags, 680, ": what it does adds up, and comes to ", text.data,
+               ": too long, unless what is finished at the bench is in each of them; look at what "
+               "that leaves before the next step",
+               false);
 }
 
 fw_status fw_recipe_asrun_amount_by_law(fw_arena *arena, const fw_recipe_asrun *run,
@@ -550,20 +550,13 @@ fw_status fw_recipe_asrun_ask_time(fw_arena *arena, const fw_recipe_asrun *run,
     FW_TRY(fw_recipe_asrun_ask_overtaken(run, e, place, diags));
     FW_TRY(fw_recipe_asrun_odd_time(arena, run, e, &how));
     if (how)
-        fw_diag_warning(diags, 703, place,
-                        "step %s%s%s took otherwise than others: %s. What that leaves nobody has "
-                        "computed: look at it before the next step%s",
-                        e->step->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", how,
-                        e->deviation ? "" : ", and write down why (deviation=...)");
+        FW_TRY(ask(e, place, diags, 703, " took otherwise than others: ", how,
+                   ". What that leaves nobody has computed: look at it before the next step",
+                   true));
     FW_TRY(out_of_time(arena, run, e, &how));
-    if (!how) return FW_OK;
-    fw_diag_warning(
-        diags, 283, place,
-        "step %s%s%s went otherwise than planned: %s; look at what that leaves before the "
-        "next step%s",
-        e->at->id, e->wafer ? " of wafer " : "", e->wafer ? e->wafer : "", how,
-        e->deviation ? "" : ", and write down why (deviation=...)");
-    return diags->failed ? FW_NOMEM : FW_OK;
+    return how ? ask(e, place, diags, 283, " went otherwise than planned: ", how,
+                     "; look at what that leaves before the next step", true)
+               : FW_OK;
 }
 
 /* ---- what it was planned with, and what it would be planned with here ---- */

@@ -217,16 +217,18 @@ static void planned_count(const fw_process_flow *flow, int index, int wafers, fw
 void fw_recipe_html_fillings(const fw_process_flow *flow, const fw_process_step *s,
                              const fw_recipe_header *header, fw_text *out) {
     const fw_process_bath *mixed = fw_process_step_mixes(flow, s);
-    const int wafers = fw_recipe_wafers(header);
+    const int wafers = fw_recipe_wafers(header), *loads = NULL;
+    if (fw_schedule_loads(out->arena, header->schedule, flow, &loads) != FW_OK) out->failed = 1;
     for (int k = -1; k < s->nuse; k++) {
         const fw_process_bath *b = k < 0 ? mixed : s->use[k].bath;
-        const int n = b ? fw_process_bath_fillings(flow, b, wafers) : 0;
+        const int n = b ? fw_process_bath_fillings(flow, b, wafers, loads) : 0;
         if (n < 2 || !b->serves) continue;
         fw_text_add(out, " <b>Fillings:</b> ");
         fw_text_escaped(out, b->name);
-        fw_text_printf(out, ", %d for the %d wafer%s of this lot, each of which serves ", n, wafers,
+        fw_text_printf(out, ", %d for the %d wafer%s of this lot", n, wafers,
                        wafers > 1 ? "s" : "");
-        fw_text_number(out, b->serves->value, 4);
+        if (!b->serves->unknown) fw_text_add(out, ", each of which serves ");
+        if (!b->serves->unknown) fw_text_number(out, b->serves->value, 4);
         fw_text_add(out, b == mixed ? "; amounts and times here are of one." : ".");
     }
 }

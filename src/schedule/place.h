@@ -38,8 +38,12 @@ typedef struct fw_schedule_group {
 
 typedef struct fw_schedule_placing {
     const fw_schedule_shop *shop;
-    double start_s;    /* of the schedule */
-    double tie_s;      /* windows up to this tie tasks into a block */
+    double start_s; /* of the schedule */
+    double tie_s;   /* windows up to this tie tasks into a block */
+    int on; /* so many tasks behind the last one that is in a filling are done to each of its wafers
+               before one of them goes on; below 0: each goes to the end of their block at once */
+    bool parted;       /* that made a difference in the last schedule */
+    bool hopeless;     /* the last one failed inside of a unit, whatever was placed around it */
     int *load;         /* (ntask) wafers of a run; lowered where windows do not allow so many */
     double *priority;  /* (ntask x wafers), for FW_RULE_LIST */
     double *release_s; /* (ntask x wafers) not before */
@@ -59,6 +63,9 @@ fw_status fw_schedule_placing_new(fw_arena *arena, const fw_schedule_shop *shop,
 /* false: no schedule was found with this order (and no smaller loads) */
 bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule);
 
+/* gives the runs (n) of wafers that might as well be others to the one with the smaller number first */
+fw_status fw_schedule_wafers_in_order(fw_arena *arena, const fw_schedule_shop *shop,
+                                      fw_schedule_run *run, int n);
 /* gives every attended run of these (n) an operator */
 fw_status fw_schedule_name_operators(fw_arena *arena, const fw_schedule_shop *shop,
                                      fw_schedule_run *run, int n);

@@ -46,6 +46,8 @@ typedef struct fw_schedule_task { /* a step of the flow as it is planned */
     bool lot;          /* once for all wafers together */
     bool
         filling; /* it mixes one filling of a bath, for as many wafers as its load: that is not made smaller */
+    int serves; /* most wafers that it may mix one filling for, where it mixes a bath; 0: it does not */
+    int fillings; /* ... and how many are mixed one after the other in duration_s */
     bool alone;   /* a hold: every wafer by itself, up to the machine's places */
     bool by_day;  /* the whole run inside the working day: nobody may be alone with it */
     bool unknown; /* no time is known: counted with attended_s only */
@@ -83,6 +85,7 @@ typedef struct fw_schedule_shop { /* the problem */
     int ntask, nhold, nmachine;
     int wafers, operators;
     fw_schedule_calendar calendar;
+    bool soon; /* orders are tried, too, in which all wafers of a filling are in it before one goes on */
 } fw_schedule_shop;
 
 /* what a run waited for last */
@@ -157,7 +160,10 @@ fw_status fw_schedule_solve(fw_arena *arena, const fw_schedule_shop *shop, int e
    NULL: there is no plan. Test: tests/cli/test_schedule.py */
 fw_status fw_schedule_loads(fw_arena *arena, const fw_schedule *plan, const fw_process_flow *flow,
                             const int **loads);
-/* both; FW-D196 and FW-D197 warn when there is none */
+/* Is an order found at all? What fw_schedule_solve begins with, without anything that improves it */
+fw_status fw_schedule_is_found(fw_arena *arena, const fw_schedule_shop *shop, bool *found);
+/* both; FW-D196 and FW-D197 warn when there is none. Where none is found a step that mixes a bath does so for fewer wafers than
+   a filling serves (FW-D758) */
 fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
                            const fw_schedule_options *options, fw_diags *diags,
                            const fw_schedule **schedule);

@@ -109,8 +109,10 @@ static fw_status new_line(fw_arena *arena, size_t most, int places, fw_schedule_
 fw_status fw_schedule_placing_new(fw_arena *arena, const fw_schedule_shop *shop,
                                   fw_schedule_placing *p) {
     size_t all = (size_t)shop->ntask * (size_t)shop->wafers;
-    *p = (fw_schedule_placing){
-        .shop = shop, .start_s = fw_schedule_calendar_start(&shop->calendar), .tie_s = FW_TIE_S};
+    *p = (fw_schedule_placing){.shop = shop,
+                               .start_s = fw_schedule_calendar_start(&shop->calendar),
+                               .tie_s = FW_TIE_S,
+                               .on = -1};
     FW_NEED(p->load = fw_arena_array(arena, int, (size_t)shop->ntask));
     FW_NEED(p->priority = fw_arena_array(arena, double, all));
     FW_NEED(p->release_s = fw_arena_array(arena, double, all));
@@ -251,24 +253,51 @@ static void place_runs(fw_schedule_placing *p, int from, int to, int first, int 
         }
 }
 
-/* Where a filling is mixed in the unit its wafers go on from there one load after the other: all of them at once would wait for
-   each other at every step */
-static void place_tasks(fw_schedule_placing *p, const fw_schedule_group *u) {
-    int mixes = u->from, together = 1;
-    while (mixes <= u->to && !p->shop->task[mixes].filling)
-        mixes++;
-    if (mixes > u->to) {
-        place_runs(p, u->from, u->to, u->first, u->count);
-        return;
-    }
-    for (int task = mixes + 1; task <= u->to; task++)
+/* Up to which task (at most `to`) the wafers of a filling are done one load after the other before the first of them goes on: so far
+   behind the last one that is in the filling */
+static int parting(fw_schedule_placing *p, int mixes, int to) {
+    const fw_schedule_shop *shop = p->shop;
+    int last = mixes;
+    for (int k = 0; k < shop->nhold; k++)
+        if (shop->hold[k].keeps && shop->hold[k].from == mixes && shop->hold[k].to <= to &&
+            shop->hold[k].to > last)
+            last = shop->hold[k].to;
+    if (p->on < 0 || last == mixes || last + p->on >= to) return to;
+    p->parted = true;
+    return last + p->on;
+}
+
+/* these tasks for some of the unit's wafers, load by load through all of them */
+static void place_chains(fw_schedule_placing *p, int from, int to, int first, int count) {
+    int together = 1;
+    for (int task = from; task <= to; task++)
         together = p->load[task] > together ? p->load[task] : together;
+    for (int k = 0; from <= to && k < count; k += together)
+        place_runs(p, from, to, first + k, count - k < together ? count - k : together);
+}
+
+/* Where a filling is mixed in the unit its wafers go on from there one load after the other: all of them at once would wait for
+   each other at every step. What is done once for the lot is done to all before it, and to all behind it */
+static void place_tasks(fw_schedule_placing *p, const fw_schedule_group *u) {
+    const fw_schedule_task *task = p->shop->task;
+    int mixes = u->from, from = u->from, to = u->from;
+    while (mixes <= u->to && !task[mixes].filling)
+        mixes++;
+    for (int i = u->from; i <= u->to && mixes <= u->to; i++)
+        if (task[i].lot && i < mixes) from = i + 1;
+    for (to = mixes; to < u->to && !task[to + 1].lot;)
+        to++;
+    if (mixes > u->to) from = u->to + 1;
+    place_runs(p, u->from, from - 1, u->first, u->count);
+    if (mixes > u->to) return;
+    const int part = parting(p, mixes, to);
     for (int w = 0; w < u->count; w += p->load[mixes]) {
         const int left = u->count - w, n = left < p->load[mixes] ? left : p->load[mixes];
-        place_runs(p, u->from, mixes, u->first + w, n);
-        for (int k = 0; k < n; k += together)
-            place_runs(p, mixes + 1, u->to, u->first + w + k, n - k < together ? n - k : together);
+        place_runs(p, from, mixes, u->first + w, n);
+        place_chains(p, mixes + 1, part, u->first + w, n);
+        place_chains(p, part + 1, to, u->first + w, n);
     }
+    place_runs(p, to + 1, u->to, u->first, u->count);
 }
 
 static answer place_unit(fw_schedule_placing *p, fw_schedule_group *u) {
@@ -391,6 +420,8 @@ static void measure(fw_schedule_placing *p) {
 bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule) {
     make_units(p);
     forget_releases(p);
+    p->parted = false;
+    p->hopeless = false;
     for (int restart = 0; restart < MOST_RESTARTS;) {
         answer result = PLACED;
         begin(p);
@@ -403,7 +434,8 @@ bool fw_schedule_place_all(fw_schedule_placing *p, fw_schedule_rule rule) {
                 p->failed_to = u->to;
             }
             if (result == FAILED) {
-                if (!smaller_load(p, u)) return false;
+                p->hopeless = !smaller_load(p, u);
+                if (p->hopeless) return false;
                 make_units(p);
                 forget_releases(p);
             }
@@ -428,6 +460,97 @@ const char *fw_schedule_rule_text(fw_schedule_rule rule) {
     return text[rule];
 }
 
+/* ---- wafers in their order ----
+   One wafer is as good as another, so that the order in which a search has found them means nothing. Two wafers exchange
+   all their runs from a step on, until one that is done to several at once, where the one with the larger number is the
+   earlier one and their windows stay kept: nothing of machines, people or ends changes. Test: test_schedule.c */
+
+typedef struct order {
+    const fw_schedule_shop *shop;
+    fw_schedule_run *run;
+    int *at; /* (ntask x wafers) the run of a task that a wafer is in */
+} order;
+
+static fw_schedule_run *run_of(const order *o, int task, int wafer) {
+    return &o->run[o->at[(size_t)task * (size_t)o->shop->wafers + (size_t)wafer]];
+}
+
+static bool keeps_windows(const order *o, int wafer) {
+    const fw_schedule_shop *shop = o->shop;
+    const double slack = 1e-6;
+    for (int i = 0; i + 1 < shop->ntask; i++)
+        if (run_of(o, i, wafer)->end_s > run_of(o, i + 1, wafer)->start_s + slack) return false;
+    for (int i = 0; i < shop->nhold; i++) {
+        const fw_schedule_hold *h = &shop->hold[i];
+        const double wait = run_of(o, h->to, wafer)->start_s - run_of(o, h->from, wafer)->end_s;
+        if (h->first_only && wafer > 0) continue;
+        if (wait < h->min_s - slack || wait > h->max_s + slack) return false;
+    }
+    return true;
+}
+
+static void exchange(order *o, int from, int to, int u, int v) {
+    const size_t n = (size_t)o->shop->wafers;
+    for (int task = from; task < to; task++) {
+        int *a = &o->at[(size_t)task * n + (size_t)u], *b = &o->at[(size_t)task * n + (size_t)v];
+        const int was = *a;
+        *a = *b;
+        *b = was;
+        run_of(o, task, u)->first = u;
+        run_of(o, task, v)->first = v;
+    }
+}
+
+static bool waits(const fw_schedule_run *r) {
+    return r->waits_for == FW_WAIT_FLOW || r->waits_for == FW_WAIT_HOLD;
+}
+
+/* u < v; from: the first task that each is in by itself; -> the first one behind it that it is not */
+static int alone_until(const order *o, int from, int u, int v) {
+    int to = from;
+    while (to < o->shop->ntask && run_of(o, to, u)->count == 1 && run_of(o, to, v)->count == 1 &&
+           !o->shop->task[to].lot)
+        to++;
+    return to;
+}
+
+static bool sort_pair(order *o, int u, int v) {
+    bool any = false;
+    for (int from = 0; from < o->shop->ntask; from++) {
+        const int to = alone_until(o, from, u, v);
+        if (to == from) continue;
+        const bool together = from == 0 || run_of(o, from - 1, u) == run_of(o, from - 1, v) ||
+                              (!waits(run_of(o, from, u)) && !waits(run_of(o, from, v))),
+                   after = to == o->shop->ntask || run_of(o, to, u) == run_of(o, to, v) ||
+                           (!waits(run_of(o, to, u)) && !waits(run_of(o, to, v)));
+        if (!together || !after || run_of(o, from, u)->start_s <= run_of(o, from, v)->start_s)
+            continue;
+        exchange(o, from, to, u, v);
+        if (keeps_windows(o, u) && keeps_windows(o, v))
+            any = true;
+        else
+            exchange(o, from, to, u, v);
+    }
+    return any;
+}
+
+/* each exchange takes away an inversion of the first of its tasks and changes none before it: it ends */
+fw_status fw_schedule_wafers_in_order(fw_arena *arena, const fw_schedule_shop *shop,
+                                      fw_schedule_run *run, int n) {
+    order o = {shop, run, fw_arena_array(arena, int, (size_t)shop->ntask *(size_t)shop->wafers)};
+    FW_NEED(o.at);
+    for (int i = 0; i < n; i++)
+        for (int w = run[i].first; w < run[i].first + run[i].count; w++)
+            o.at[(size_t)run[i].task * (size_t)shop->wafers + (size_t)w] = i;
+    for (bool any = true; any;) {
+        any = false;
+        for (int v = 1; v < shop->wafers; v++)
+            for (int u = 0; u < v; u++)
+                any = sort_pair(&o, u, v) || any;
+    }
+    return FW_OK;
+}
+
 /* ---- who stands there ---- */
 
 typedef struct attended { /* of a run */
@@ -437,8 +560,8 @@ typedef struct attended { /* of a run */
 
 static int by_from(const void *a, const void *b) {
     const attended *p = a, *q = b;
-    const int order = fw_order_doubles(p->from_s, q->from_s);
-    return order ? order : fw_order_wholes(p->run, q->run);
+    const int first = fw_order_doubles(p->from_s, q->from_s);
+    return first ? first : fw_order_wholes(p->run, q->run);
 }
 
 /* spans that overlap at most K times can always be given to K people, first come first served */

@@ -112,6 +112,7 @@ typedef struct best {
     double makespan_s, sum_s;
     fw_schedule_rule rule;
     double tie_s;
+    int on;
     bool any;
 } best;
 
@@ -121,6 +122,7 @@ typedef struct search {
     best best;
     uint64_t state;
     double bound_s;
+    bool any; /* the first order that is found will do */
 } search;
 
 /* splitmix64: Steele, Lea, Flood, OOPSLA 2014 */
@@ -145,7 +147,7 @@ static bool at_bound(double makespan_s, double bound_s) {
 }
 
 static bool done(const search *s) {
-    return s->best.any && at_bound(s->best.makespan_s, s->bound_s);
+    return s->best.any && (s->any || at_bound(s->best.makespan_s, s->bound_s));
 }
 
 /* what was placed is the best now */
@@ -155,6 +157,7 @@ static void take(search *s, fw_schedule_rule rule) {
     b->any = true;
     b->rule = rule;
     b->tie_s = p->tie_s;
+    b->on = p->on;
     b->makespan_s = p->makespan_s;
     b->sum_s = p->sum_s;
     b->nrun = p->nrun;
@@ -171,6 +174,28 @@ static void try_rule(search *s, fw_schedule_rule rule) {
                    (p->makespan_s > b->makespan_s - 1e-6 && p->sum_s > b->sum_s + 1e-6)))
         return;
     take(s, rule);
+}
+
+/* every rule, from the loads that the tasks have; true: it is of no use to try another of them */
+static bool try_rules(search *s, double tie_s, int on) {
+    fw_schedule_placing *p = &s->placing;
+    p->tie_s = tie_s;
+    p->on = on;
+    for (int rule = 0; rule < FW_RULES && !done(s); rule++) {
+        for (int i = 0; i < s->shop->ntask; i++)
+            p->load[i] = s->shop->task[i].load;
+        try_rule(s, (fw_schedule_rule)rule);
+        if (on >= 0 && (p->hopeless || !p->parted)) return !p->parted;
+    }
+    return false;
+}
+
+static void find(search *s) {
+    for (int t = 0; t < TIES; t++)
+        (void)try_rules(s, ties_s[t], -1);
+    for (int t = 0; s->shop->soon && t < TIES; t++)
+        for (int on = 0; on < s->shop->ntask && !s->best.any; on++)
+            if (try_rules(s, ties_s[t], on)) break;
 }
 
 /* a few wafers earlier or later at a step, and perhaps in all that follows; or another load */
@@ -197,6 +222,7 @@ static void improve(search *s, int effort) {
     fw_schedule_placing *p = &s->placing;
     const size_t loads = (size_t)s->shop->ntask * sizeof *p->load;
     const long most = p->work + MOST_WORK;
+    p->on = s->best.on;
     for (int i = 0; i < effort && p->work < most && !done(s); i++) {
         memcpy(p->priority, s->best.priority, cells(s) * sizeof *p->priority);
         memcpy(p->load, s->best.load, loads);
@@ -235,6 +261,7 @@ static void try_in_order(search *s, int from, int to) {
     for (int task = from; task <= to; task++)
         qsort(p->priority + (size_t)task * n, n, sizeof *p->priority, ascending);
     p->tie_s = b->tie_s;
+    p->on = b->on;
     if (!fw_schedule_place_all(p, FW_RULE_LIST) || p->makespan_s > b->makespan_s + 1e-6 ||
         inversions(s, p->begin_s) >= inversions(s, b->priority))
         return;
@@ -266,97 +293,6 @@ static int by_start(const void *a, const void *b) {
     return order ? order : fw_order_wholes(r->first, s->first);
 }
 
-/* ---- wafers in their order ----
-   One wafer is as good as another, so that the order in which a search has found them means nothing. Two wafers exchange
-   all their runs from a step on, until one that is done to several at once, where the one with the larger number is the
-   earlier one and their windows stay kept: nothing of machines, people or ends changes. Test: test_schedule.c */
-
-typedef struct order {
-    const fw_schedule_shop *shop;
-    fw_schedule_run *run;
-    int *at; /* (ntask x wafers) the run of a task that a wafer is in */
-} order;
-
-static fw_schedule_run *run_of(const order *o, int task, int wafer) {
-    return &o->run[o->at[(size_t)task * (size_t)o->shop->wafers + (size_t)wafer]];
-}
-
-static bool keeps_windows(const order *o, int wafer) {
-    const fw_schedule_shop *shop = o->shop;
-    const double slack = 1e-6;
-    for (int i = 0; i + 1 < shop->ntask; i++)
-        if (run_of(o, i, wafer)->end_s > run_of(o, i + 1, wafer)->start_s + slack) return false;
-    for (int i = 0; i < shop->nhold; i++) {
-        const fw_schedule_hold *h = &shop->hold[i];
-        const double wait = run_of(o, h->to, wafer)->start_s - run_of(o, h->from, wafer)->end_s;
-        if (h->first_only && wafer > 0) continue;
-        if (wait < h->min_s - slack || wait > h->max_s + slack) return false;
-    }
-    return true;
-}
-
-static void exchange(order *o, int from, int to, int u, int v) {
-    const size_t n = (size_t)o->shop->wafers;
-    for (int task = from; task < to; task++) {
-        int *a = &o->at[(size_t)task * n + (size_t)u], *b = &o->at[(size_t)task * n + (size_t)v];
-        const int was = *a;
-        *a = *b;
-        *b = was;
-        run_of(o, task, u)->first = u;
-        run_of(o, task, v)->first = v;
-    }
-}
-
-static bool waits(const fw_schedule_run *r) {
-    return r->waits_for == FW_WAIT_FLOW || r->waits_for == FW_WAIT_HOLD;
-}
-
-/* u < v; from: the first task that each is in by itself; -> the first one behind it that it is not */
-static int alone_until(const order *o, int from, int u, int v) {
-    int to = from;
-    while (to < o->shop->ntask && run_of(o, to, u)->count == 1 && run_of(o, to, v)->count == 1 &&
-           !o->shop->task[to].lot)
-        to++;
-    return to;
-}
-
-static bool sort_pair(order *o, int u, int v) {
-    bool any = false;
-    for (int from = 0; from < o->shop->ntask; from++) {
-        const int to = alone_until(o, from, u, v);
-        if (to == from) continue;
-        const bool together = from == 0 || run_of(o, from - 1, u) == run_of(o, from - 1, v) ||
-                              (!waits(run_of(o, from, u)) && !waits(run_of(o, from, v))),
-                   after = to == o->shop->ntask || run_of(o, to, u) == run_of(o, to, v) ||
-                           (!waits(run_of(o, to, u)) && !waits(run_of(o, to, v)));
-        if (!together || !after || run_of(o, from, u)->start_s <= run_of(o, from, v)->start_s)
-            continue;
-        exchange(o, from, to, u, v);
-        if (keeps_windows(o, u) && keeps_windows(o, v))
-            any = true;
-        else
-            exchange(o, from, to, u, v);
-    }
-    return any;
-}
-
-/* each exchange takes away an inversion of the first of its tasks and changes none before it: it ends */
-static fw_status wafers_in_order(fw_arena *arena, const fw_schedule_shop *shop,
-                                 fw_schedule_run *run, int n) {
-    order o = {shop, run, fw_arena_array(arena, int, (size_t)shop->ntask *(size_t)shop->wafers)};
-    FW_NEED(o.at);
-    for (int i = 0; i < n; i++)
-        for (int w = run[i].first; w < run[i].first + run[i].count; w++)
-            o.at[(size_t)run[i].task * (size_t)shop->wafers + (size_t)w] = i;
-    for (bool any = true; any;) {
-        any = false;
-        for (int v = 1; v < shop->wafers; v++)
-            for (int u = 0; u < v; u++)
-                any = sort_pair(&o, u, v) || any;
-    }
-    return FW_OK;
-}
-
 static int usual_effort(const fw_schedule_shop *shop) {
     int runs = shop->ntask * shop->wafers;
     int n = shop->wafers == 1 ? 100 : 250000 / (runs > 0 ? runs : 1);
@@ -370,35 +306,31 @@ static void measure(fw_schedule *out) {
     out->gap = out->optimal || !(bound_s > 0.0) ? 0.0 : out->makespan_s / bound_s - 1.0;
 }
 
+static fw_status none_found(fw_arena *arena, const search *s, const char **why) {
+    const fw_schedule_shop *shop = s->shop;
+    const int first = s->placing.failed_from, last = s->placing.failed_to;
+    const char *keeps = NULL;
+    for (int i = 0; i < shop->nhold; i++)
+        if (shop->hold[i].keeps && shop->hold[i].to <= last && shop->hold[i].to >= first)
+            keeps = shop->hold[i].keeps;
+    FW_NEED(*why = fw_arena_printf(
+                arena,
+                "no order was found that keeps all windows with these people and this working "
+                "day; it failed at %s%s%s%s%s. Fewer wafers, more operators or a longer day may "
+                "help",
+                shop->task[first].id, first == last ? "" : " to ",
+                first == last ? "" : shop->task[last].id, keeps ? ", where " : "",
+                keeps ? keeps : ""));
+    return FW_OK;
+}
+
 static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort,
                        fw_schedule *out) {
     search s = {.shop = shop, .state = 20250106, .bound_s = out->bound.best_s};
     FW_TRY(room(arena, &s));
     s.placing.start_s = out->start_s;
-    for (int r = 0; r < TIES * FW_RULES && !done(&s); r++) {
-        s.placing.tie_s = ties_s[r / FW_RULES];
-        for (int i = 0; i < shop->ntask; i++)
-            s.placing.load[i] = shop->task[i].load;
-        try_rule(&s, (fw_schedule_rule)(r % FW_RULES));
-    }
-    if (!s.best.any) {
-        const fw_schedule_task *from = &shop->task[s.placing.failed_from],
-                               *to = &shop->task[s.placing.failed_to];
-        const char *keeps = NULL;
-        for (int i = 0; i < shop->nhold; i++)
-            if (shop->hold[i].keeps && shop->hold[i].to <= s.placing.failed_to &&
-                shop->hold[i].to >= s.placing.failed_from)
-                keeps = shop->hold[i].keeps;
-        FW_NEED(
-            out->why = fw_arena_printf(
-                arena,
-                "no order was found that keeps all windows with these people and this working "
-                "day; it failed at %s%s%s%s%s. Fewer wafers, more operators or a longer day may "
-                "help",
-                from->id, from == to ? "" : " to ", from == to ? "" : to->id,
-                keeps ? ", where " : "", keeps ? keeps : ""));
-        return FW_OK;
-    }
+    find(&s);
+    if (!s.best.any) return none_found(arena, &s, &out->why);
     improve(&s, effort > 0 ? effort : usual_effort(shop));
     prefer_order(&s);
     out->feasible = true;
@@ -408,8 +340,18 @@ static fw_status solve(fw_arena *arena, const fw_schedule_shop *shop, int effort
     measure(out);
     qsort(s.best.run, (size_t)s.best.nrun, sizeof *s.best.run, by_start);
     out->run = s.best.run;
-    FW_TRY(wafers_in_order(arena, shop, s.best.run, s.best.nrun));
+    FW_TRY(fw_schedule_wafers_in_order(arena, shop, s.best.run, s.best.nrun));
     return fw_schedule_name_operators(arena, shop, s.best.run, s.best.nrun);
+}
+
+fw_status fw_schedule_is_found(fw_arena *arena, const fw_schedule_shop *shop, bool *found) {
+    search s = {.shop = shop, .any = true};
+    *found = false;
+    if (shop->wafers > MOST_WAFERS || shop->ntask > MOST_TASKS) return FW_OK;
+    FW_TRY(room(arena, &s));
+    find(&s);
+    *found = s.best.any;
+    return FW_OK;
 }
 
 /* Least shift, from `shift` on, by which all runs of a schedule lie inside the working day and the hours of the machines;

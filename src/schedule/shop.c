@@ -67,6 +67,16 @@ static const fw_process_bath *mixed_in_time(const fw_process_flow *flow, const f
     return passes == 1 && isfinite(serves(bath)) ? bath : NULL;
 }
 
+/* Most wafers of a lot that the step may mix one filling for, each of them as often in it as the flow says; 0: it mixes none, or
+   one wafer takes several. Where nobody knows how many it serves these are all */
+static int most_served(const fw_process_flow *flow, const fw_process_step *s, int wafers) {
+    const fw_process_bath *bath = fw_process_step_mixes(flow, s);
+    int passes = 0;
+    for (const fw_process_step *k = flow->step; bath && k < flow->step + flow->nstep; k++)
+        passes += uses(k, bath);
+    return passes > 0 ? (int)fmin(wafers, floor(serves(bath) / passes + 1e-9)) : 0;
+}
+
 static void make_task(making *m, int index) {
     const fw_process_step *s = &m->flow->step[index];
     fw_schedule_task *t = &m->task[index];
@@ -92,6 +102,8 @@ static void make_task(making *m, int index) {
     if (t->alone && s->equipment) m->machine[t->machine].places = s->equipment->capacity;
     const int times = /* a filling after another */
         fw_process_step_times(m->flow, s, t->filling ? t->load : m->shop->wafers);
+    t->serves = most_served(m->flow, s, m->shop->wafers);
+    t->fillings = times;
     t->attended_s *= times;
     t->duration_s = t->latest_s = t->attended_s;
     if (t->unknown) return;
@@ -316,6 +328,121 @@ static fw_status ask_baths(const fw_schedule *s, const fw_process_flow *flow, fw
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 
+/* ---- a filling for fewer wafers than it serves: FW-D758 ----
+   Where no order is found each filling is mixed for at most n wafers, n the largest of which those of one filling alone come
+   through the flow, then fewer. Test: test_tools.c, mixed_oftener */
+
+static fw_status mixed_for(fw_arena *arena, const fw_schedule_shop *of, int n, int wafers,
+                           fw_schedule_shop **out) {
+    fw_schedule_task *task = fw_arena_array(arena, fw_schedule_task, (size_t)of->ntask);
+    FW_NEED(task);
+    FW_NEED(*out = fw_arena_one(arena, fw_schedule_shop));
+    **out = *of;
+    (*out)->task = task;
+    (*out)->wafers = wafers;
+    (*out)->soon = true;
+    for (int i = 0; i < of->ntask; i++) {
+        fw_schedule_task *t = &task[i];
+        *t = of->task[i];
+        if (t->serves > 0) {
+            t->filling = true;
+            t->lot = false;
+            t->load = n < t->serves ? n : t->serves;
+            t->duration_s /= t->fillings;
+            t->latest_s /= t->fillings;
+            t->attended_s /= t->fillings;
+            t->fillings = 1;
+        }
+        t->load = t->lot || t->load > wafers ? wafers : t->load;
+    }
+    return FW_OK;
+}
+
+/* do n wafers, of one filling, come through the flow where the lot has no more? or all of the lot, n of them of each filling */
+static fw_status comes_through(fw_arena *arena, const fw_schedule_shop *of, int n, int wafers,
+                               bool *found) {
+    fw_mark mark = fw_arena_mark(arena);
+    fw_schedule_shop *shop;
+    FW_TRY(mixed_for(arena, of, n, wafers, &shop));
+    FW_TRY(fw_schedule_is_found(arena, shop, found));
+    fw_arena_rewind(arena, mark);
+    return FW_OK;
+}
+
+/* the largest n of which one filling's wafers come through, by halves: what n of them do fewer do, too; 1 where none do */
+static fw_status most_at_once(fw_arena *arena, const fw_schedule_shop *of, int most, int *n) {
+    int fails = most + 1;
+    *n = 1;
+    for (int next = 2; fails - *n > 1; next = fails > most ? 2 * *n : (*n + fails) / 2) {
+        bool found;
+        next = next > most ? most : next;
+        FW_TRY(comes_through(arena, of, next, next, &found));
+        if (found)
+            *n = next;
+        else
+            fails = next;
+    }
+    return FW_OK;
+}
+
+static fw_status tell_oftener(const fw_schedule *s, const fw_process_flow *flow, fw_diags *diags) {
+    for (int i = 0; i < s->shop->ntask; i++) {
+        const fw_schedule_task *t = &s->shop->task[i];
+        const fw_process_bath *bath =
+            t->filling ? fw_process_step_mixes(flow, &flow->step[i]) : NULL;
+        if (!bath || t->load >= t->serves) continue;
+        int runs = 0;
+        for (int k = 0; k < s->nrun; k++)
+            runs += s->run[k].task == i;
+        fw_diag_warning(
+            diags, 758, flow->step[i].place,
+            "flow '%s': step %s mixes %d fillings of %s, each for at most %d wafer%s of %d "
+            "that it might serve%s%s%s: with fewer fillings no order was found that keeps "
+            "all windows; the amounts of the sheet count them",
+            flow->id, t->id, runs, bath->name, t->load, t->load == 1 ? "" : "s", t->serves,
+            bath->serves ? " (" : "", bath->serves ? bath->serves->id : "",
+            bath->serves ? ")" : "");
+    }
+    return diags->failed ? FW_NOMEM : FW_OK;
+}
+
+static fw_status say_tried(fw_arena *arena, const fw_schedule_shop *shop, fw_schedule *s) {
+    fw_text text = fw_text_new(arena);
+    fw_text_add(&text, s->why);
+    for (int i = 0, n = 0; i < shop->ntask; i++)
+        if (shop->task[i].serves > 0)
+            fw_text_printf(&text, "%s%s",
+                           n++ > 0 ? " and "
+                                   : "; a filling for every wafer by itself was tried, too, in ",
+                           shop->task[i].id);
+    FW_TRY(fw_text_end(&text));
+    s->why = text.data;
+    return FW_OK;
+}
+
+static fw_status mix_oftener(fw_arena *arena, const fw_schedule_shop *shop, int effort,
+                             fw_schedule *s) {
+    int most = 0, n;
+    for (int i = 0; i < shop->ntask; i++)
+        most = shop->task[i].serves > most ? shop->task[i].serves : most;
+    if (most == 0) return FW_OK;
+    FW_TRY(most_at_once(arena, shop, most, &n));
+    for (; n > 0; n = n > 6 ? n / 2 : n - 1) {
+        bool found = n == 1; /* of which other hours are tried, too */
+        if (!found) FW_TRY(comes_through(arena, shop, n, shop->wafers, &found));
+        if (!found) continue;
+        fw_schedule_shop *oftener;
+        fw_schedule other;
+        FW_TRY(mixed_for(arena, shop, n, shop->wafers, &oftener));
+        FW_TRY(fw_schedule_solve(arena, oftener, effort, &other));
+        if (other.feasible) {
+            *s = other;
+            return FW_OK;
+        }
+    }
+    return s->bound.best_s > 0.0 ? say_tried(arena, shop, s) : FW_OK;
+}
+
 fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
                            const fw_schedule_options *options, fw_diags *diags,
                            const fw_schedule **schedule) {
@@ -325,6 +452,7 @@ fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
     *schedule = s;
     FW_TRY(shop_of(arena, flow, options, diags, &shop));
     FW_TRY(fw_schedule_solve(arena, shop, options->effort, s));
+    if (!s->feasible && s->pause_s) FW_TRY(mix_oftener(arena, shop, options->effort, s));
     if (!s->feasible && !s->pause_s)
         fw_diag_warning(diags, 196, flow->place, "flow '%s' cannot be run as it is written: %s",
                         flow->id, s->why);
@@ -332,6 +460,7 @@ fw_status fw_schedule_make(fw_arena *arena, const fw_process_flow *flow,
         fw_diag_warning(diags, 197, flow->place, "flow '%s' has no schedule: %s", flow->id, s->why);
     else
         FW_TRY(ask_baths(s, flow, diags));
+    if (s->feasible) FW_TRY(tell_oftener(s, flow, diags));
     return diags->failed ? FW_NOMEM : FW_OK;
 }
 

@@ -60,10 +60,10 @@ static inline int find_row(const row *rows, int n, const char *id) {
 }
 
 /* operators 0: as many as anybody can want */
-static inline fw_schedule_shop shop_of(fw_arena *arena, const row *rows, int n, int wafers,
+static inline fw_schedule_shop shop_of(fw_arena *memory, const row *rows, int n, int wafers,
                                        int operators) {
-    fw_schedule_task *task = fw_arena_array(arena, fw_schedule_task, (size_t)n);
-    fw_schedule_machine *machine = fw_arena_array(arena, fw_schedule_machine, (size_t)n);
+    fw_schedule_task *task = fw_arena_array(memory, fw_schedule_task, (size_t)n);
+    fw_schedule_machine *machine = fw_arena_array(memory, fw_schedule_machine, (size_t)n);
     assert_true(task && machine);
     int machines = 0;
     for (int i = 0; i < n; i++) {
@@ -93,6 +93,14 @@ static inline fw_schedule_shop shop_of(fw_arena *arena, const row *rows, int n, 
                               .calendar = round_the_clock};
 }
 
+/* of a run, from when to when somebody stands there */
+static inline double hands_from(const fw_schedule_task *t, const fw_schedule_run *r) {
+    return t->at_end ? r->end_s - t->attended_s : r->start_s;
+}
+static inline double hands_until(const fw_schedule_task *t, const fw_schedule_run *r) {
+    return hands_from(t, r) + t->attended_s;
+}
+
 /* every rule of a schedule, looked at from outside: each wafer does every task once and in order,
    no machine takes more than it has places for or runs outside its hours, nobody stands in two
    places, people work by day, every hold is kept */
@@ -108,10 +116,10 @@ static inline void check_schedule(const fw_schedule *s) {
         assert_true(r->count >= 1 && r->first + r->count <= shop->wafers);
         assert_true(r->count <= t->load && (!t->lot || r->count == shop->wafers));
         assert_near(r->end_s - r->start_s, t->duration_s, 1e-6);
-        double there = fw_schedule_task_there_s(t);
+        const double there = t->by_day || t->in_parts ? t->duration_s : t->attended_s,
+                     from = t->at_end ? r->end_s - there : r->start_s;
         if (there > 0.0)
-            assert_near(fw_schedule_calendar_fit(&shop->calendar, r->start_s, there), r->start_s,
-                        1e-6);
+            assert_near(fw_schedule_calendar_fit(&shop->calendar, from, there), from, 1e-6);
         const fw_schedule_machine *m = &shop->machine[t->machine];
         assert_near(fw_schedule_machine_fit(m, r->start_s, t->duration_s), r->start_s, 1e-6);
         for (int w = r->first; w < r->first + r->count; w++) {
@@ -128,8 +136,8 @@ static inline void check_schedule(const fw_schedule *s) {
                 o->end_s > r->start_s + 2e-6)
                 same++;
             if (k != i && t->attended_s > 0 && u->attended_s > 0 && o->operator_ == r->operator_)
-                assert_true(o->start_s + u->attended_s <= r->start_s + 4e-6 ||
-                            r->start_s + t->attended_s <= o->start_s + 4e-6);
+                assert_true(hands_until(u, o) <= hands_from(t, r) + 4e-6 ||
+                            hands_until(t, r) <= hands_from(u, o) + 4e-6);
         }
         assert_true(same <= shop->machine[t->machine].places);
         assert_true(r->operator_ < shop->operators);
