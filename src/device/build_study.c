@@ -493,8 +493,10 @@ static void check_kind(fw_xml_reader *r, const fw_xml_record *record, const fw_d
             "as=\"die\"; remove it";
     if (!what && yield && s->nvary > 0)
         what = "a yield chooses nothing; remove <vary>, or make it <uncertain>";
-    if (!what && yield && s->nrespond > 0)
-        what = "a yield asks what check asks; state limits of its own as <require> in the device";
+    for (int i = 0; !what && yield && i < s->nrespond; i++)
+        if (isnan(s->respond[i].min) && isnan(s->respond[i].max))
+            what = "a <respond> of a yield is a limit that its dies have to hold beside what check "
+                   "asks; give it min or max, or remove it";
     if (!what && !chance && s->nuncertain > 0)
         what = "<uncertain> belongs to kind=\"yield\", to a size with yield=\"...\" or to a sweep "
                "as=\"die\"; remove it, or make it <vary>";

@@ -78,7 +78,7 @@ const fw_device_study_words fw_device_study_words_of = {kinds, points, judged, s
          RANGE(1, 1e7, "more than ten million devices are several studies"),                       \
          .fallback = "as many as the kind asks for",                                               \
          .sentence = "Devices of a Sobol' sequence or of indices; most of them of a size, or of "  \
-                     "each estimate of a yield (at least 200, and a yield has no <respond>): "     \
+                     "each estimate of a yield (at least 200): "                                   \
                      "there are three at each setting of what is only assumed, as computed and "   \
                      "with the limit moved either way by the model's band, and one that merely "   \
                      "counts takes 16 times a power of two."},                                     \
@@ -183,7 +183,9 @@ static const fw_xml_attribute_row respond_rows[] = {
     {"min", .kind = FW_KIND_ANY, .fallback = "no limit",
      .sentence = "At least this, with its unit; without one in that of the number, by its key: um "
                  "of min_space_um."},
-    {"max", .kind = FW_KIND_ANY, .fallback = "no limit", .sentence = "At most this, likewise."},
+    {"max", .kind = FW_KIND_ANY, .fallback = "no limit",
+     .sentence =
+         "At most this, likewise. Dies of a yield, and of a size at one, are held against both."},
     {"goal", .kind = FW_KIND_WORD, .words = goals, .fallback = "none",
      .sentence = "Of a size: what is wanted of it. Two goals give a Pareto front."},
 };

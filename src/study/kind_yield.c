@@ -507,7 +507,7 @@ static fw_status die_at(const fw_study *dies, const fw_study *of, const fw_study
     FW_NEED(drawn && x ? x : NULL);
     fw_study_scatter_point(&y.scatter, die->u, die->unknowns > 0 ? die->unknown : NULL,
                            fw_study_scatter_at(&y.scatter, die->u), drawn, x);
-    FW_TRY(fw_study_yielding_judge(&y, x, &made, NULL));
+    FW_TRY(fw_study_yielding_judge(&y, x, &made, NULL, NULL));
     *ln = made.high;
     return FW_OK;
 }

@@ -76,8 +76,7 @@ static fw_status open_device(fw_study *study) {
     fw_design *design = fw_study_design(study, study->options.cancel, NULL, &status);
     FW_NEED(design);
     fw_plan *plan = fw_plan_design_plan(design);
-    study->design = design;
-    study->plan = plan;
+    study->design = design, study->plan = plan;
     if (status != FW_STATUS_OK) {
         take_errors(study, &plan->diags);
         return (fw_status)status;
@@ -288,7 +287,7 @@ static fw_status run_as_it_stands(fw_study *study) {
     size_t errors = study->diags.errors;
     int status;
     FW_NEED(now);
-    if (study->asked->kind == FW_STUDY_IS_yield) return FW_OK;
+    if (study->asked->kind == FW_STUDY_IS_yield && study->nresponse == 0) return FW_OK;
     fw_design *design = fw_study_design(study, study->options.cancel, NULL, &status);
     FW_NEED(design);
     if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
@@ -349,8 +348,7 @@ static fw_study *new_study(const fw_study_options *options) {
 static fw_status open_dies_of(const fw_study *of, const fw_study_sample *chosen, fw_study **out) {
     fw_study_options o = of->options;
     o.output = NULL, o.shards = 0, o.resume = false, o.progress = NULL, o.waits = NULL;
-    fw_study *study = new_study(&o);
-    *out = study;
+    fw_study *study = *out = new_study(&o);
     FW_NEED(study);
     const int n = o.nset;
     fw_device_set *set = fw_arena_array(study->arena, fw_device_set, (size_t)(n + of->nvary));
@@ -374,7 +372,8 @@ static fw_status open_dies_of(const fw_study *of, const fw_study_sample *chosen,
     if (study->diags.errors > 0) return FW_INPUT;
     FW_TRY(judge_device(study));
     FW_TRY(fw_study_scatter_check(study));
-    return add_made_inputs(study);
+    FW_TRY(add_made_inputs(study));
+    return fw_study_counted_open(study, of);
 }
 
 static void close_dies_of(fw_study *of, fw_study *dies, fw_status status) {
@@ -434,13 +433,16 @@ static fw_status open_all(fw_study *study) {
         FW_TRY(fw_study_scatter_check(study));
         FW_TRY(add_made_inputs(study));
         const bool die = study->asked->judge == FW_JUDGE_DIE;
-        FW_TRY(die ? fw_study_dies_check(study) : fw_study_yielding_check(study));
+        FW_TRY(die ? fw_study_dies_check(study) : fw_study_counted_open(study, study));
+        if (!die) FW_TRY(fw_study_yielding_check(study));
     }
     if (study->asked->yield > 0) FW_TRY(open_dies(study));
+    fw_study_counted_warn(study);
     FW_TRY(fw_study_find_hash(study));
     FW_TRY(run_as_it_stands(study));
-    const bool yields = study->asked->kind == FW_STUDY_IS_yield; /* timed where it was foreseen */
-    return study->options.timed && !yields ? fw_study_time_samples(study) : FW_OK;
+    /* a yield was timed where it was foreseen */
+    const bool timed = study->options.timed && study->asked->kind != FW_STUDY_IS_yield;
+    return timed ? fw_study_time_samples(study) : FW_OK;
 }
 
 fw_status fw_study_open(const fw_study_options *options, fw_study **study) {
@@ -472,6 +474,7 @@ void fw_study_free(fw_study *study) {
     if (!study) return;
     fw_study_free(study->dies);
     fw_study_store_close(study->store);
+    fw_study_counted_close(study);
     fw_study_engines_close(study);
     fw_design_free(study->design);
     fw_design_free(study->former);
@@ -578,8 +581,7 @@ fw_status fw_study_open_merge(const fw_study_options *options, const char *direc
     if (!file || !name)
         return fw_diag_error(&study->diags, 497, (fw_place){.file = directory},
                              "its store does not say which study it is of");
-    study->options.file = file;
-    study->options.study = name;
+    study->options.file = file, study->options.study = name;
     return open_all(study);
 }
 

@@ -146,7 +146,8 @@ typedef struct fw_study {
     unsigned stages; /* FW_STUDY_STAGE_..., what the responses need */
     /* what a verdict says in words and whole numbers, as one number, for samples that say it; NULL: none does */
     uint64_t (*way)(const struct fw_verdict *verdict, int scenes);
-    bool explored;   /* of points that somebody looks at: a device that no flow can make says why, too */
+    bool
+        explored; /* of points that somebody looks at: a device that no flow can make says why, too */
     /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
     int npart, nhinge;
     int neach; /* of a die: how many of them each hinge has (scenes and workspace); else 0 */
@@ -168,6 +169,8 @@ typedef struct fw_study {
         files; /* hash of those that `design` was read from, where a thread works in it; else NULL */
     /* of a size at a wanted yield: the yield of a device, first of the description as it stands, then of what was found */
     struct fw_study *dies;
+    /* of a yield: (nflow) limits of responses that dies hold (study_limits.c); NULL: none */
+    struct fw_study_counted *held;
     /* how the yield of a chosen device is opened and closed (study.c, which a kind does not call) */
     fw_status (*open_dies)(const struct fw_study *of, const fw_study_sample *chosen,
                            struct fw_study **out);
@@ -232,6 +235,26 @@ typedef struct fw_study_cluster { /* how shards are run as an array job of Slurm
 /* Writes array.sh and merge.sh into options.output and submits them, the second after all tasks of the first. FW-D490,
    FW-D554, FW-D555, FW_IO. */
 fw_status fw_study_slurm(fw_study *study, fw_study_cluster *cluster);
+
+/* ---- limits of responses that dies hold ----
+   A yield counts the limits that its study states beside those of check: dies->held. */
+
+struct fw_study_yielding;
+struct fw_verdict_made;
+/* limits of the responses of `of`, which lives as long: `dies` itself, or the size whose dies these are */
+fw_status fw_study_counted_open(fw_study *dies, const fw_study *of);
+void fw_study_counted_warn(fw_study *study); /* FW-D755: what cannot be counted */
+void fw_study_counted_close(fw_study *dies);
+/* Of the die x of y, which check has judged, the largest share of a limit with those of responses, in all readings. response:
+   (nresponse of the study that states them) their values; may be NULL. made->why is of `arena`. Cost: what the documents of
+   these responses take. Test: tests/cli/test_sizing.py, LimitsOfDies */
+fw_status fw_study_counted_judge(const struct fw_study_yielding *y, fw_arena *arena,
+                                 const double *x, struct fw_verdict_made *made, double *response);
+/* why dies of a yield are not held against the limit of response k; NULL: they are, or there is no limit or no yield */
+const char *fw_study_not_counted(const fw_study *study, int k);
+/* what is behind a response in a list of what is asked: does a yield count it? and the end of its line */
+void fw_study_counted_say(fw_text *out, const fw_study *study, int k);
+void fw_study_counted_json(struct fw_json *json, const fw_study *study, int k);
 
 /* ---- the results as documents ----
    JSON (schema flexwright.study/1), CSV (a row each sample), a text for a terminal, pictures and one page. After

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What limits the answer of a study. Of a device that a study of sizes found: limits that it is at or misses, in sentences;
    each is said once, and at most eight are. Of a response: devices that have no value of it, of which no least and no largest
-   one tells. Test: tests/cli/test_sizing.py, Lever; tests/cli/test_inputs.py, WithoutAValue */
+   one tells. And limits of responses that dies of a yield hold. Test: tests/cli/test_sizing.py, Lever and LimitsOfDies;
+   tests/cli/test_inputs.py, WithoutAValue */
+#include "base/json.h"
 #include "plan/stages.h"
 #include "study/study_parts.h"
 #include <math.h>
@@ -182,7 +184,7 @@ static void say_consequence(fw_text *out, const fw_study *study, int r) {
         fw_text_printf(out, "; what was found is the best of the other %ld at most", others);
         break;
     case FW_STUDY_IS_sweep:
-    case FW_STUDY_IS_yield: /* has no responses */
+    case FW_STUDY_IS_yield: /* they count both ways */
     case FW_STUDY_KINDS:
         break;
     }
@@ -192,7 +194,11 @@ void fw_study_without_say(fw_text *out, const fw_study *study) {
     const fw_study_result *result = study->result;
     for (int r = 0; r < study->nresponse; r++) {
         const fw_study_without *w = &result->extreme[r].without;
-        if (w->at < 0) continue;
+        const char *left_out = fw_study_not_counted(study, r);
+        if (left_out)
+            fw_text_printf(out, "  the yield does not count the limit of %s: %s\n",
+                           study->response[r].asked->name, left_out);
+        if (w->at < 0 || (left_out && study->asked->kind == FW_STUDY_IS_yield)) continue;
         fw_text_printf(out, "  %ld of %ld devices have no value of %s: ", w->n,
                        result->run + result->failed, study->response[r].asked->name);
         say_states(out, w);
@@ -202,4 +208,316 @@ void fw_study_without_say(fw_text *out, const fw_study *study) {
         say_consequence(out, study, r);
         fw_text_add(out, "\n");
     }
+}
+
+/* ---- limits of responses that dies hold ----
+   A die is held against the limits of check as it is made (study_made.c), and against those of responses by its documents: of
+   hinges and requirements as the flow makes them, of any other number where no flow makes anything differ and a die is the
+   description with its own settings. A response is as far off as its document says beside it.
+
+   Of a limit L and a value v, x = v/L: of a max the share is x, of a min 1/x, and ln of it goes on in a straight line where x is
+   below 1/2; where both are below 0 a max is a min turned. Of a limit 0 it is exp(v/now), now as the description stands. In: the
+   unit of the response. Error: that of the document. Test: tests/cli/test_sizing.py, LimitsOfDies */
+
+typedef enum told { /* what a document says of how far off a number is */
+                    TOLD_NOTHING,
+                    TOLD_BAND,  /* both ends */
+                    TOLD_ERROR, /* either way */
+                    TOLD_SHARE  /* either way, of the number */
+} told;
+
+static const struct {
+    const char *document, *begin, *key; /* whose path begins and ends so */
+    const char *low, *high;             /* keys in its place; of an error one */
+    told as;
+} beside[] = {
+    {"verdict", "requirements[", "value", "band[0]", "band[1]", TOLD_BAND},
+    {"verdict", "hinges[", "utilisation", "utilisation_band[0]", "utilisation_band[1]", TOLD_BAND},
+    {"verdict", "governing", "utilisation", "utilisation_band[0]", "utilisation_band[1]",
+     TOLD_BAND},
+    {"verdict", "hinges[", "peak_angle_rad", "angle_error_rad", NULL, TOLD_ERROR},
+    {"verdict", "governing", "peak_angle_rad", "angle_error_rad", NULL, TOLD_ERROR},
+    {"verdict", "clearances[", "clearance_m", "low_m", "high_m", TOLD_BAND},
+    {"verdict", "out_of_plane[", "f_Hz", "band_Hz[0]", "band_Hz[1]", TOLD_BAND},
+    {"modes", "modes[", "f_Hz", "frequency_error", NULL, TOLD_SHARE},
+    {"modes", "modes[", "omega_rad_per_s", "frequency_error", NULL, TOLD_SHARE},
+    {"simulate", "probes[", "peak", "error", NULL, TOLD_ERROR},
+    {"simulate", "probes[", "maximum", "error", NULL, TOLD_ERROR},
+    {"simulate", "probes[", "minimum", "error", NULL, TOLD_ERROR},
+    {"simulate", "probes[", "final", "final_error", NULL, TOLD_ERROR},
+    {"simulate", "reactions[", "force_N", "error_N", NULL, TOLD_ERROR},
+    {"simulate", "reactions[", "torque_Nm", "torque_error_Nm", NULL, TOLD_ERROR},
+};
+
+typedef struct held { /* of `at` */
+    int response;     /* of the study that states the limit */
+    int value, low, high;
+    told as;
+} held;
+
+struct fw_study_counted { /* of one flow */
+    fw_study at;          /* its dies, with the responses that are read of them */
+    const fw_study *of;
+    held *held; /* (n) */
+    int n;
+};
+
+static bool is_limited(const fw_study_response *r) {
+    return !isnan(r->min) || !isnan(r->max);
+}
+
+static const char *left_out(const fw_study *study, const fw_plan *plan, int k) {
+    const fw_study_response *r = &study->response[k];
+    if (!is_limited(r) || fw_study_response_of_hinges(r)) return NULL;
+    if (fw_study_documents[r->document].stages & FW_STUDY_STAGE_FABRICATE)
+        return "masks and recipes are of the drawing, which all dies have in common";
+    for (int i = 0; i < plan->verdict.nvariant; i++)
+        if (plan->verdict.variant[i].ninput > 0)
+            return "the document that it stands in is of the drawing, and not of what a flow makes "
+                   "of it; ask for it by <require>, which check and dies are held against as made";
+    return NULL;
+}
+
+static bool is_of_dies(const fw_study *study) {
+    return study->asked && (study->asked->kind == FW_STUDY_IS_yield || study->asked->yield > 0);
+}
+
+const char *fw_study_not_counted(const fw_study *study, int k) {
+    const fw_study *dies = study->dies ? study->dies : study;
+    return is_of_dies(study) && dies->plan ? left_out(study, dies->plan, k) : NULL;
+}
+
+void fw_study_counted_say(fw_text *out, const fw_study *study, int k) {
+    const char *why = fw_study_not_counted(study, k);
+    if (why)
+        fw_text_printf(out, ", which the yield does not count: %s", why);
+    else if (is_of_dies(study) && is_limited(&study->response[k]))
+        fw_text_add(out, ", of dies, too");
+    fw_text_add(out, "\n");
+}
+
+void fw_study_counted_json(fw_json *json, const fw_study *study, int k) {
+    if (!is_of_dies(study) || !is_limited(&study->response[k])) return;
+    const char *why = fw_study_not_counted(study, k);
+    fw_json_truth(json, "counted", !why);
+    fw_json_text(json, "not_counted", why);
+}
+
+/* the response `asked`, with another last key; NULL: its own */
+static fw_status add_read(struct fw_study_counted *c, const fw_device_respond *asked,
+                          const char *key, int *at) {
+    fw_arena *arena = c->at.arena;
+    fw_device_respond *own = fw_arena_one(arena, fw_device_respond);
+    FW_NEED(own);
+    *own = *asked;
+    const char *last = asked->value;
+    int depth = 0;
+    for (const char *p = last; *p; p++) {
+        depth += (*p == '[') - (*p == ']');
+        if (depth == 0 && *p == '.') last = p + 1;
+    }
+    if (key)
+        FW_NEED(own->value = fw_arena_printf(arena, "%.*s%s", (int)(last - asked->value),
+                                             asked->value, key));
+    *at = c->at.nresponse;
+    return fw_study_response_parse(arena, own, &c->at.diags, &c->at.response[c->at.nresponse++]);
+}
+
+/* does the path end in the key? */
+static bool ends_in(const char *path, const char *key) {
+    const size_t n = strlen(path), m = strlen(key);
+    return n > m && strcmp(path + n - m, key) == 0 && path[n - m - 1] == '.';
+}
+
+static fw_status add_held(struct fw_study_counted *c, int k) {
+    const fw_study_response *r = &c->of->response[k];
+    held *h = &c->held[c->n++];
+    *h = (held){.response = k};
+    FW_TRY(add_read(c, r->asked, NULL, &h->value));
+    c->at.stages |= fw_study_documents[r->document].stages;
+    for (size_t i = 0; i < sizeof beside / sizeof beside[0]; i++) {
+        if (strcmp(fw_study_documents[r->document].name, beside[i].document) != 0 ||
+            strncmp(r->path, beside[i].begin, strlen(beside[i].begin)) != 0 ||
+            !ends_in(r->path, beside[i].key))
+            continue;
+        h->as = beside[i].as;
+        FW_TRY(add_read(c, r->asked, beside[i].low, &h->low));
+        return beside[i].high ? add_read(c, r->asked, beside[i].high, &h->high) : FW_OK;
+    }
+    return FW_OK;
+}
+
+/* columns: what a size has chosen, settings, quantities of the flow */
+static fw_status add_inputs(struct fw_study_counted *c, const fw_study *dies, int flow) {
+    const fw_verdict_variant_verdict *v = &dies->plan->verdict.variant[flow];
+    fw_study *at = &c->at;
+    at->nvary = c->of == dies ? 0 : c->of->nvary;
+    at->ninput = at->nvary + at->nsetting + v->ninput;
+    fw_study_input *in = fw_arena_array(at->arena, fw_study_input, (size_t)at->ninput + 1);
+    FW_NEED(in);
+    for (int k = 0; k < at->nvary; k++)
+        in[k] = c->of->input[k];
+    for (int k = 0; k < at->nsetting; k++)
+        in[at->nvary + k] = dies->input[dies->nvary + k];
+    for (int k = 0; k < v->ninput; k++)
+        in[at->nvary + at->nsetting + k] = (fw_study_input){.what = v->input[k].name};
+    at->input = in;
+    return FW_OK;
+}
+
+static fw_status open_flow(fw_study *dies, const fw_study *of, int flow,
+                           struct fw_study_counted *c) {
+    const size_t n = (size_t)of->nresponse;
+    fw_device_study *asked = fw_arena_one(dies->arena, fw_device_study);
+    bool hinges = true;
+    *c = (struct fw_study_counted){.at = *dies, .of = of};
+    fw_study *at = &c->at;
+    FW_NEED(asked);
+    FW_NEED(c->held = fw_arena_array(dies->arena, held, n));
+    FW_NEED(at->response = fw_arena_array(dies->arena, fw_study_response, 3 * n));
+    at->nresponse = 0, at->stages = 0, at->held = NULL, at->dies = NULL, at->store = NULL;
+    at->diags = fw_diags_new(dies->arena);
+    for (int k = 0; k < of->nresponse; k++) {
+        if (!is_limited(&of->response[k]) || left_out(of, dies->plan, k)) continue;
+        hinges = hinges && fw_study_response_of_hinges(&of->response[k]);
+        FW_TRY(add_held(c, k));
+    }
+    FW_TRY(add_inputs(c, dies, flow));
+    *asked = *dies->asked;
+    asked->judge = hinges ? FW_JUDGE_DIE : FW_JUDGE_MADE; /* else as drawn, which the die is */
+    asked->fitted = 0;
+    at->asked = asked;
+    const char *name = dies->plan->verdict.variant[flow].variant->flow;
+    if (name) at->options.design.flow = name;
+    return fw_study_engines_open(at);
+}
+
+fw_status fw_study_counted_open(fw_study *dies, const fw_study *of) {
+    int n = 0;
+    for (int k = 0; k < of->nresponse; k++)
+        n += is_limited(&of->response[k]) && !left_out(of, dies->plan, k);
+    if (n == 0) return FW_OK;
+    struct fw_study_counted *c =
+        fw_arena_array(dies->arena, struct fw_study_counted, (size_t)dies->plan->nflow);
+    FW_NEED(c);
+    dies->held = c;
+    for (int i = 0; i < dies->plan->nflow; i++)
+        FW_TRY(open_flow(dies, of, i, &c[i]));
+    return FW_OK;
+}
+
+void fw_study_counted_warn(fw_study *study) {
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_device_respond *r = study->response[k].asked;
+        const char *why = fw_study_not_counted(study, k);
+        if (why)
+            fw_diag_warning(&study->diags, 755, r->place,
+                            "study '%s': its yield does not count the limit of response '%s' "
+                            "(%s): %s",
+                            study->asked->name, r->name, r->value, why);
+    }
+}
+
+void fw_study_counted_close(fw_study *dies) {
+    for (int i = 0; dies->held && i < dies->plan->nflow; i++)
+        fw_study_engines_close(&dies->held[i].at);
+    dies->held = NULL;
+}
+
+/* ln of a share of a min that is above 0, of a max x is turned */
+static double ln_of(double x) {
+    return x > 0.5 ? log(x) : log(0.5) + (x - 0.5) / 0.5;
+}
+
+/* ln of the share of a min that a value uses */
+static double of_min(double value, double min, double now) {
+    if (min > 0) return -ln_of(value / min);
+    if (min < 0) return ln_of(value / min);
+    return -value / (now != 0 && isfinite(now) ? fabs(now) : 1);
+}
+
+/* by value, at the best end of its band and at the worst: the largest share of both limits */
+static void read_limits(const fw_study_response *r, double value, double low, double high,
+                        double *ln) {
+    const double far = 6.9; /* an end that nobody knows is a thousand times away */
+    const double end[FW_STUDY_READINGS][2] = {{value, value}, {high, low}, {low, high}};
+    for (int i = 0; i < FW_STUDY_READINGS; i++) {
+        const double off = i == FW_STUDY_AT_BEST ? -far : far;
+        for (int k = 0; k < 2; k++) {
+            const double bound = k ? r->max : r->min, is = end[i][k];
+            if (isnan(bound)) continue;
+            const double turned = k ? -1 : 1;
+            ln[i] = fmax(ln[i], isnan(is) ? of_min(turned * value, turned * bound, r->now) + off
+                                          : of_min(turned * is, turned * bound, r->now));
+        }
+    }
+}
+
+/* of one limit, of a device that has values; false: this one has none */
+static bool hold(const struct fw_study_counted *c, const held *h, const double *read, double *ln) {
+    const double value = read[h->value], by = read[h->low];
+    double low = value, high = value;
+    switch (h->as) {
+    case TOLD_NOTHING:
+        break;
+    case TOLD_BAND:
+        low = fmin(by, value), high = fmax(read[h->high], value);
+        if (isnan(by)) low = by;
+        if (isnan(read[h->high])) high = read[h->high];
+        break;
+    case TOLD_ERROR:
+        low = value - fabs(by), high = value + fabs(by);
+        break;
+    case TOLD_SHARE:
+        low = value - fabs(by * value), high = value + fabs(by * value);
+        break;
+    }
+    if (!isnan(value)) read_limits(&c->of->response[h->response], value, low, high, ln);
+    return !isnan(value);
+}
+
+static fw_status settings_of(const struct fw_study_counted *c, const fw_study_yielding *y,
+                             const double *x, fw_study_sample *sample) {
+    const fw_study *at = &c->at;
+    const int first = at->nvary + at->nsetting;
+    for (int k = 0; k < at->ninput; k++)
+        sample->text[k][0] = '\0', sample->value[k] = (double)NAN;
+    for (int k = 0; k < y->nbase && k < at->nvary; k++)
+        snprintf(sample->text[k], FW_STUDY_TEXT, "%s", y->base[k].value);
+    for (int k = at->nvary; k < first; k++)
+        FW_TRY(fw_study_input_write(&at->input[k], x[y->ninput + k - at->nvary], 12,
+                                    sample->text[k], &sample->value[k]));
+    for (int k = first; k < at->ninput; k++)
+        sample->value[k] = x[k - first];
+    return FW_OK;
+}
+
+fw_status fw_study_counted_judge(const fw_study_yielding *y, fw_arena *arena, const double *x,
+                                 fw_verdict_made *made, double *response) {
+    const struct fw_study_counted *c = &y->study->held[y->flow];
+    double ln[FW_STUDY_READINGS] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    const char *without = NULL;
+    bool changed = false;
+    fw_study_sample sample;
+    if (made->why && isnan(made->ln)) return FW_OK; /* it cannot even be read or run */
+    FW_TRY(fw_study_sample_new(arena, &c->at, &sample));
+    FW_TRY(settings_of(c, y, x, &sample));
+    fw_status status = fw_study_evaluate(&c->at, y->study->options.cancel, &sample, &changed);
+    if (changed || fw_plan_is_final(status)) return status;
+    for (int k = 0; k < c->n; k++) {
+        const held *h = &c->held[k];
+        if (sample.run && response && c->of == y->study)
+            response[h->response] = sample.response[h->value];
+        if (!sample.run || !hold(c, h, sample.response, ln))
+            without = c->of->response[h->response].asked->name;
+    }
+    const bool fails = made->ln > 0 || ln[FW_STUDY_BY_VALUE] > 0;
+    made->ln = fmax(made->ln, ln[FW_STUDY_BY_VALUE]); /* NaN is passed */
+    made->low = fmax(made->low, ln[FW_STUDY_AT_BEST]);
+    made->high = fmax(made->high, ln[FW_STUDY_AT_WORST]);
+    if (!without || fails) return FW_OK;
+    made->ln = made->low = made->high = (double)NAN;
+    FW_NEED(made->why = fw_arena_printf(arena, "it has no value of %s, which has a limit%s%s",
+                                        without, sample.why[0] ? ": " : "", sample.why));
+    return FW_OK;
 }

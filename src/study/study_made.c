@@ -20,6 +20,7 @@ typedef struct batch {
     fw_verdict_made *made;     /* (n) */
     bool *wanted;              /* (n) not known from before */
     char (*why)[FW_STUDY_WHY]; /* (n) what is not known of it; "" */
+    double *response;          /* (n x nresponse) */
 } batch;
 
 static const fw_verdict_made nothing_known = {
@@ -77,7 +78,7 @@ static fw_status judge_restated(const fw_study_yielding *y, fw_arena *arena, con
 }
 
 fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
-                                  fw_verdict_made *made, char *why) {
+                                  fw_verdict_made *made, char *why, double *response) {
     const fw_plan *plan = y->study->plan;
     fw_arena *arena = fw_arena_part(plan->arena, 0);
     FW_NEED(arena);
@@ -88,6 +89,8 @@ fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
     else
         status = fw_verdict_made_at(arena, plan->device, plan->layout, &plan->options.verdict,
                                     &plan->verdict.variant[y->flow], x, made);
+    if (status == FW_OK && y->study->held)
+        status = fw_study_counted_judge(y, arena, x, made, response);
     if (why)
         snprintf(why, FW_STUDY_WHY, "%s",
                  status == FW_OK && isnan(made->ln) && made->why ? made->why : "");
@@ -100,7 +103,8 @@ static fw_status judge_kth(void *context, long k) {
     batch *b = context;
     return b->wanted[k]
                ? fw_study_yielding_judge(b->y, b->x + (size_t)k * (size_t)b->y->scatter.npoint,
-                                         &b->made[k], b->why[k])
+                                         &b->made[k], b->why[k],
+                                         b->response + k * b->y->study->nresponse)
                : FW_OK;
 }
 
@@ -140,7 +144,7 @@ static fw_status make_room(fw_study_yielding *y, size_t more) {
 /* ---- the limit state ---- */
 
 static void fill_sample(const fw_study_yielding *y, const double *x, const fw_study_cached *c,
-                        const char *why, fw_study_sample *sample) {
+                        const char *why, const double *response, fw_study_sample *sample) {
     const fw_study *study = y->study;
     for (int k = 0; k < study->ninput; k++)
         sample->value[k] = (double)NAN, sample->text[k][0] = '\0';
@@ -149,7 +153,7 @@ static void fill_sample(const fw_study_yielding *y, const double *x, const fw_st
     for (int k = 0; k < study->nsetting; k++)
         sample->value[study->nvary + k] = x[y->ninput + k];
     for (int k = 0; k < study->nresponse; k++)
-        sample->response[k] = (double)NAN;
+        sample->response[k] = response[k];
     sample->i = c->i;
     sample->run = !isnan(c->ln[FW_STUDY_BY_VALUE]);
     sample->used = exp(c->ln[FW_STUDY_BY_VALUE]);
@@ -198,7 +202,11 @@ static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b,
     b->made = fw_arena_array(scratch, fw_verdict_made, b->n);
     b->wanted = fw_arena_array(scratch, bool, b->n);
     b->why = fw_arena_alloc(scratch, b->n, sizeof *b->why);
+    const size_t responses = (size_t)y->study->nresponse;
+    FW_NEED(b->response = fw_arena_array(scratch, double, b->n *responses + 1));
     FW_NEED(stored && b->made && b->wanted && b->why ? stored : NULL);
+    for (size_t k = 0; k < b->n * responses; k++)
+        b->response[k] = (double)NAN;
     FW_TRY(fw_study_sample_new(scratch, y->study, &sample));
     for (size_t k = 0; k < b->n; k++)
         b->wanted[k] = true;
@@ -210,7 +218,8 @@ static fw_status judge_batch(fw_study_yielding *y, fw_arena *scratch, batch *b,
         judged[k].i = b->number[k];
         read_back(&b->made[k], judged[k].ln);
         if (stored[k]) continue;
-        fill_sample(y, b->x + k * (size_t)y->scatter.npoint, &judged[k], b->why[k], &sample);
+        fill_sample(y, b->x + k * (size_t)y->scatter.npoint, &judged[k], b->why[k],
+                    b->response + k * responses, &sample);
         FW_TRY(fw_study_keep(y->study, &sample));
     }
     return FW_OK;
@@ -374,7 +383,7 @@ static fw_status time_die(fw_study_yielding *y) {
         u[d] = 0.1; /* what is just as it is drawn is not judged again */
     fw_study_scatter_point(s, u, NULL, fw_study_scatter_at(s, u), drawn, x);
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &begun);
-    FW_TRY(fw_study_yielding_judge(y, x, &made, NULL));
+    FW_TRY(fw_study_yielding_judge(y, x, &made, NULL, NULL));
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ended);
     y->study->seconds_each =
         (double)(ended.tv_sec - begun.tv_sec) + 1e-9 * (double)(ended.tv_nsec - begun.tv_nsec);

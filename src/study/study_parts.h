@@ -402,9 +402,9 @@ typedef struct fw_study_yielding {
 fw_status fw_study_yielding_begin(fw_study *study, int flow, int first_input, fw_study_yielding *y);
 /* before anything is run or written: does anything differ, and can it be looked at? */
 fw_status fw_study_yielding_check(fw_study *yield);
-/* one device; x: a point of the scatter; why (FW_STUDY_WHY): what is not known of it, or NULL */
+/* one device; x: a point of the scatter; why (FW_STUDY_WHY): what is not known of it; response: as they are; or NULL */
 fw_status fw_study_yielding_judge(const fw_study_yielding *y, const double *x,
-                                  fw_verdict_made *made, char *why);
+                                  fw_verdict_made *made, char *why, double *response);
 /* fw_chance_function, context the yielding: minus ln of the largest share of a limit that is used, as it is read */
 fw_status fw_study_yielding_limit(void *context, size_t first, size_t count, const double *u,
                                   double *value);

@@ -87,7 +87,7 @@ fw_status fw_study_asked_text(const fw_study *study, fw_text *out) {
         fw_study_response_text(out, q, q->now);
         limit(out, q, ", at least ", q->min);
         limit(out, q, ", at most ", q->max);
-        fw_text_add(out, "\n");
+        fw_study_counted_say(out, study, r);
     }
     return fw_text_end(out);
 }

@@ -218,6 +218,7 @@ static void responses_json(fw_json *j, const fw_study *study) {
         fw_json_real(j, "min", q->min);
         fw_json_real(j, "max", q->max);
         fw_json_real(j, "now", q->now);
+        fw_study_counted_json(j, study, r);
         if (study->result->fitted) fw_json_real(j, "told_within", study->result->fitted->off[r]);
         extreme(j, &study->result->extreme[r]);
         without(j, study, &study->result->extreme[r].without);

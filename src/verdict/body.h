@@ -266,6 +266,8 @@ typedef struct fw_verdict_swinging {
     double slow_Hz; /* from where on these modes lie */
     bool shaken;    /* a law goes to and fro */
 } fw_verdict_swinging;
+/* do the same contacts, stops and cables hold both where their modes are asked for? else these are not the same modes */
+bool fw_verdict_held_alike(const struct fw_verdict_shaken *a, const struct fw_verdict_shaken *b);
 /* Adds it to factors of hinges, to `each` of v->shaken[scene], whose ways are known, and puts it there (`own`) */
 fw_status fw_verdict_bodies_swing(fw_arena *arena, int scene, bool shaken, fw_verdict_own *own,
                                   struct fw_verdict_variant_verdict *v);

@@ -514,3 +514,72 @@ fw_status fw_verdict_shaken_keep(fw_arena *arena, const fw_verdict_variant_verdi
     *kept = to;
     return FW_OK;
 }
+
+/* ---- which of those that were run lead ----
+   What rings by the same law at the same frequency goes as far as its loads hold it at rest, c, or at one frequency as it is
+   light, c w^2; a hinge is strained likewise. So of each hinge, requirement, body and thing that may be met those two lead of
+   which that is most (of a requirement also least) among those that the same contacts hold, and others add nothing. */
+
+bool fw_verdict_held_alike(const fw_verdict_shaken *a, const fw_verdict_shaken *b) {
+    if (a->nreach != b->nreach) return false;
+    for (int c = 0; c < a->nreach; c++)
+        if (a->reach[c].rests != b->reach[c].rests) return false;
+    return true;
+}
+
+/* by the mode that has most, over how far it goes; 0: not known */
+static double held_by(const fw_verdict_search *s, const fw_verdict_shaken *of, bool light) {
+    const int first = s->v->nhinge, end = first + s->v->mechanism->nbody;
+    double most = 0;
+    for (int k = 0; k < of->n; k++) {
+        const fw_verdict_shaken_mode *mode = &of->mode[k];
+        double share = 0, size = fabs(mode->start) / mode->omega;
+        for (int i = first; i < end; i++)
+            share = fmax(share, fw_verdict_bends_most(mode->bends[i]));
+        for (int j = 0; mode->size && j < of->nload; j++)
+            size = fmax(size, fabs(mode->size[j]));
+        if (mode->size) most = fmax(most, size * share * (light ? pow(mode->omega, 2) : 1));
+    }
+    return most;
+}
+
+/* of what is asked about (hinges, requirements, ways of bodies, gaps) how much there is of number q */
+static double amount_of(const fw_verdict_search *s, int scene, int point, int q) {
+    const fw_verdict_fabricated_corner *c = &s->fabricated->corner[point];
+    const fw_verdict_shaken *of = &c->shaken[scene];
+    const int nh = s->v->nhinge, nr = s->v->nrequirement, nb = s->v->mechanism->nbody;
+    if (q < nh)
+        return exp(s->ln[(size_t)point * (size_t)s->ncheck +
+                         (size_t)q * ((size_t)s->device->nscene + 1) + (size_t)scene]);
+    if (q < nh + nr) {
+        const fw_verdict_requirement *r = c->requirement ? &c->requirement[q - nh] : NULL;
+        return r && !r->why && r->measure && r->scene_index == scene ? fabs(r->swing) : 0;
+    }
+    if (q < nh + nr + nb) return of->most[q - nr];
+    const int reach = q - nh - nr - nb;
+    return reach < of->nreach ? of->most[nh + nb + reach] : 0;
+}
+
+bool fw_verdict_leads(const fw_verdict_search *s, int scene, int point) {
+    const fw_verdict_shaken *own = &s->fabricated->corner[point].shaken[scene];
+    const int asked = s->v->nhinge + s->v->nrequirement,
+              all = asked + s->v->mechanism->nbody + own->nreach;
+    for (int light = 0; light < 2; light++) {
+        const double held = held_by(s, own, light);
+        if (point == 0 || !(held > 0)) return true;
+        for (int q = 0; q < all; q++) {
+            const double is = held * amount_of(s, scene, point, q);
+            bool most = is > 0, least = most && q >= s->v->nhinge && q < asked;
+            for (int p = 0; p < s->fabricated->ncorner && (most || least); p++) {
+                const fw_verdict_shaken *there = s->fabricated->corner[p].shaken;
+                if (p == point || !there || there[scene].n == 0) continue;
+                if (!fw_verdict_held_alike(&there[scene], own)) continue;
+                const double other = held_by(s, &there[scene], light) * amount_of(s, scene, p, q);
+                most = most && !(other > is || (other == is && p < point));
+                least = least && !(other < is || (other == is && p < point));
+            }
+            if (most || least) return true;
+        }
+    }
+    return false;
+}

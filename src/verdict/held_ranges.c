@@ -495,6 +495,19 @@ bool fw_verdict_row_settle(fw_verdict_requirement *made) {
     return true;
 }
 
+const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
+                                                          int k, int *corner) {
+    const fw_verdict_fabricated_verdict *f = v->fabricated;
+    if (!f || !f->requirement || f->requirement_corner[k] == FW_NONE) return NULL;
+    *corner = f->requirement_corner[k];
+    return &f->requirement[k];
+}
+
+void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]) {
+    band[0] = isnan(r->all_low) ? r->low : r->all_low;
+    band[1] = isnan(r->all_high) ? r->high : r->all_high;
+}
+
 /* the first of all that none of its devices, but its band may be beyond its limit; NULL: there is none */
 static const char *settle_rows(fw_verdict_search *s) {
     fw_verdict_fabricated_verdict *f = s->fabricated;
@@ -541,4 +554,32 @@ fw_status fw_verdict_between_corners(fw_verdict_search *s, fw_verdict_variant_ve
     }
     const char *row = settle_rows(s);
     return row && accepted ? tell_row(s, row, v) : FW_OK;
+}
+
+double fw_verdict_band_above(const fw_verdict_search *s, int hinge) {
+    double most = 1.0;
+    for (int c = 0; c < s->fabricated->ncorner; c++) {
+        const fw_verdict_hinge_verdict *h = &s->fabricated->corner[c].hinge[hinge];
+        if (h->scene && h->utilisation > 0)
+            most = fmax(most, h->utilisation_high / h->utilisation); /* NaN is passed */
+    }
+    return most;
+}
+
+/* ---- how many there may be, for who waits ---- */
+
+/* No more points are run than the nominal one, one for the slopes of each input, all corners, each hinge alone and the
+   patterns of hinges that differ. Usually first order leaves a few of them, which nobody knows before. */
+fw_status fw_verdict_search_most(fw_verdict_search *s) {
+    const unsigned fixed = fw_verdict_search_without_range(s->v);
+    int free = 0, apart = 0;
+    for (int i = 0; i < s->v->ninput; i++) {
+        free += !(fixed >> i & 1u);
+        if (s->v->input[i].local != 0.0) apart = s->device->nrevolute + FW_MOST_APART;
+    }
+    FW_NEED(s->told = fw_arena_one(s->arena, fw_progress_whole));
+    *s->told = (fw_progress_whole){.what = "judging what a flow makes of it",
+                                   .of = -(1.0 + free + (1u << free) + s->v->nsuspect + apart),
+                                   .unit = "devices"};
+    return FW_OK;
 }

@@ -5,7 +5,7 @@
    order are run; elsewhere counts first order, widened by the largest error that it was seen to have. Theory:
    docs/theory/as-fabricated.md. Test: test_made.c. */
 #include "base/text.h"
-#include "verdict/strain.h"
+#include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <float.h>
 #include <math.h>
@@ -259,34 +259,13 @@ const char *fw_verdict_ends_why(fw_verdict_search *s, int corner) {
     return c->why ? c->why : "it is not accepted";
 }
 
-const fw_verdict_requirement *fw_verdict_requirement_made(const fw_verdict_variant_verdict *v,
-                                                          int k, int *corner) {
-    const fw_verdict_fabricated_verdict *f = v->fabricated;
-    if (!f || !f->requirement || f->requirement_corner[k] == FW_NONE) return NULL;
-    *corner = f->requirement_corner[k];
-    return &f->requirement[k];
-}
-
-void fw_verdict_requirement_band(const fw_verdict_requirement *r, double band[2]) {
-    band[0] = isnan(r->all_low) ? r->low : r->all_low;
-    band[1] = isnan(r->all_high) ? r->high : r->all_high;
-}
-
 /* ---- how much further edges may lie ----
    Room of one check, r = (z_limit - z_most)/|dz/de| with z_most at the corner that is worst for it (its band and what first
    order was off by included), and de the way of an edge; the least of all hinges in all scenes, requirements at both their
-   bounds, distances, pull-in, and what tips. In: what the search has run. Out: m of every edge, either way. Range: first
-   order, so that who uses it takes half, and goes no further than the corners went again. Test: test_ranges.c, room_of_edges. */
-
-double fw_verdict_band_above(const fw_verdict_search *s, int hinge) {
-    double most = 1.0;
-    for (int c = 0; c < s->fabricated->ncorner; c++) {
-        const fw_verdict_hinge_verdict *h = &s->fabricated->corner[c].hinge[hinge];
-        if (h->scene && h->utilisation > 0)
-            most = fmax(most, h->utilisation_high / h->utilisation); /* NaN is passed */
-    }
-    return most;
-}
+   bounds, distances, pull-in, and what tips. In: what the search has run; where a plate is asked for one device more, and three at
+   most: the corner with the least room with its edges further out, whose |dz/de| counts where it is more. Out: m of every
+   edge, either way. Range: first order, so that who uses it takes half, and goes no further than the corners went again.
+   Test: test_ranges.c, room_of_edges; test_third_flow.py, OrderedPlate. */
 
 bool fw_verdict_search_edges_only(const fw_verdict_fabrication_input *in) {
     return fw_verdict_search_has_range(in) && in->edge_m != 0.0 && in->flare_m == 0.0 &&
@@ -312,12 +291,88 @@ static double most_of(const fw_verdict_search *s, int check) {
     return fmax(most, first + (check < s->nplane ? s->fabricated->error : s->across_error));
 }
 
+/* ln of the upper end of a hinge's band at any corner. Each that was run has a band of its own, as close as its decision
+   asked for: the verdict stands on the upper end of each, and not on the widest band at the most that is used. Of those
+   that were not run, of hinges that differ and of a resonance between corners the bound, with the band of the worst that
+   was. Test: tests/cli/test_third_flow.py, OrderedPlate */
+static double upper_end(const fw_verdict_search *s, int check) {
+    const fw_verdict_fabricated_verdict *f = s->fabricated;
+    const int k = check / (s->device->nscene + 1);
+    const fw_verdict_fabricated_hinge *h = &f->hinge[k];
+    const fw_verdict_hinge_verdict *worst = &f->corner[h->corner].hinge[k];
+    const double bound = log(h->most), band = log(worst->utilisation_high / worst->utilisation);
+    double most = -HUGE_VAL;
+    bool apart = false;
+    for (int p = 0; p < f->ncorner; p++) {
+        const fw_verdict_hinge_verdict *is = &f->corner[p].hinge[k];
+        const double ln = s->ln[(size_t)p * (size_t)s->ncheck + (size_t)check];
+        const double high =
+            fmin(ln + log(is->utilisation_high / is->utilisation), log(is->utilisation_high));
+        most = fmax(most, fmax(ln, high)); /* NaN is passed */
+    }
+    for (int i = 0; i < s->v->ninput; i++)
+        apart = apart || s->v->input[i].local != 0.0;
+    if (!(h->most > (worst->utilisation + worst->numeric) * (1 + 1e-9))) return most;
+    return fmax(most, (apart ? bound : fmin(bound, most_of(s, check))) + fmax(band, 0));
+}
+
+enum { LOOKS = 3 };
+
+typedef struct outwards { /* a corner, and the way that its edges go */
+    int corner, way;
+} outwards;
+
+static bool is_same(outwards a, outwards b) {
+    return a.corner == b.corner && a.way == b.way;
+}
+
 typedef struct edges {
     fw_verdict_search *s;
     int input;   /* whose slopes are those of edges */
     double room; /* the least so far */
     const char *says;
+    outwards worst, now; /* of what has the least room; of what is looked at */
+    struct {             /* (nlook) corners with edges that lie further by moved_m */
+        outwards of;
+        double moved_m, *ln;
+        fw_verdict_fabricated_corner is;
+    } look[LOOKS];
+    int nlook;
 } edges;
+
+/* what a point has of a check, or, below 0, of end -1 - `of` */
+static double z_at_point(const fw_verdict_search *s, int of, int point) {
+    return of < 0 ? z_at(s, point, -1 - of) : s->ln[(size_t)point * (size_t)s->ncheck + (size_t)of];
+}
+
+/* the same of look k */
+static double z_at_look(const edges *e, int of, int k) {
+    const fw_verdict_requirement *r = e->look[k].is.requirement;
+    if (of >= 0) return e->look[k].ln[of];
+    r = r && !r[(-1 - of) / 2].why ? &r[(-1 - of) / 2] : NULL;
+    return r ? z_of(&e->s->end[-1 - of], (-1 - of) % 2 ? r->high : r->low) : (double)NAN;
+}
+
+/* Per m of an edge: first order about the nominal device, and where somebody has looked further out from the corner that is
+   worst (up: has most) what it is from there, if that is more: what is thin there bends by more than what is drawn */
+static double steepest(edges *e, int of, bool up, double slope) {
+    const fw_verdict_search *s = e->s;
+    int worst = FW_NONE;
+    for (int p = 0; p < s->fabricated->ncorner; p++) {
+        const double z = z_at_point(s, of, p);
+        if (s->fabricated->corner[p].sign || isnan(z)) continue;
+        const double most = worst == FW_NONE ? z : z_at_point(s, of, worst);
+        if (worst == FW_NONE || (up ? z > most : z < most)) worst = p;
+    }
+    e->now = (outwards){worst, (slope > 0) == up ? 1 : -1};
+    for (int k = 0; k < e->nlook; k++) {
+        if (!is_same(e->look[k].of, e->now)) continue;
+        const double by =
+            (z_at_look(e, of, k) - z_at_point(s, of, worst)) / (e->now.way * e->look[k].moved_m);
+        if (isnan(by) || (by * slope > 0 && fabs(by) > fabs(slope))) slope = by;
+    }
+    return slope;
+}
 
 /* "lines 0.1 um wider change that by -0.0137 %": a line that is wider by d has each edge moved by d/2;
    unit NULL: a share */
@@ -331,7 +386,7 @@ static fw_status keep(edges *e, double room, const char *what, double per_edge, 
     else
         fw_number_text(change, sizeof change - 2, 100 * by, 3), strcat(change, " %");
     FW_NEED(what);
-    e->room = room;
+    e->room = room, e->worst = e->now;
     FW_NEED(e->says = isnan(per_edge)
                           ? fw_arena_printf(e->s->arena,
                                             "%s: how it changes with a width is not known", what)
@@ -371,15 +426,9 @@ static fw_status room_of_check(edges *e, int check) {
     double least = check >= s->nplane ? FW_FLAT_BELOW
                    : distance         ? fw_verdict_clearance_counts
                                       : 0.0;
-    double slope = s->slope[check * n + e->input] / s->v->input[e->input].edge_m;
-    /* of a hinge as all corners have it, where that is less; and where hinges differ, where that is more */
-    if (check < hinges) {
-        const fw_verdict_fabricated_hinge *h = &s->fabricated->hinge[check / (scenes + 1)];
-        const double bound = log(h->most);
-        most = fmin(most, bound) + log(fw_verdict_band_above(s, check / (scenes + 1)));
-        for (int i = 0; i < n; i++)
-            if (s->v->input[i].local != 0.0) most += fmax(0.0, bound - most_of(s, check));
-    }
+    const double slope =
+        steepest(e, check, true, s->slope[check * n + e->input] / s->v->input[e->input].edge_m);
+    if (check < hinges) most = upper_end(s, check);
     if (most < log(least) || (isnan(slope) && most < log(FW_FAR_BELOW)) || slope == 0.0)
         return FW_OK;
     return keep(e, fmax(0.0, limit - most) / fabs(slope), name_of(s, check, exp(most)),
@@ -393,7 +442,8 @@ static fw_status room_of_end(edges *e, int end) {
     const bool up = end % 2;
     const double bound = up ? made->max : made->min, worst = up ? made->all_high : made->all_low;
     const fw_verdict_end *of = &s->end[end];
-    const double slope = of->slope[e->input] / s->v->input[e->input].edge_m;
+    const double slope =
+        steepest(e, -1 - end, up, of->slope[e->input] / s->v->input[e->input].edge_m);
     const double size = of->sign ? fabs(worst) : 1.0; /* dv/dz */
     double way = z_of(of, bound) - z_of(of, worst), per = slope;
     char is[FW_PROBE_TEXT], asked[FW_PROBE_TEXT];
@@ -407,10 +457,40 @@ static fw_status room_of_end(edges *e, int end) {
     return keep(e, fmax(0.0, up ? way : -way) / fabs(per), what, slope * size, made->unit);
 }
 
-fw_status fw_verdict_edge_room_made(fw_verdict_search *s) {
+static fw_status room_of_all(edges *e) {
+    fw_verdict_search *s = e->s;
     const int requirements = s->v->nhinge * (s->device->nscene + 1) + s->device->nscene;
-    edges e = {
-        .s = s, .input = FW_NONE, .room = HUGE_VAL, .says = "nothing asked changes with edges"};
+    e->room = HUGE_VAL, e->says = "nothing asked changes with edges", e->worst.corner = FW_NONE;
+    for (int r = 0; r < s->ncheck; r++)
+        if ((r < requirements || r >= requirements + s->v->nrequirement) && !isnan(s->ln[r]))
+            FW_TRY(room_of_check(e, r));
+    for (int k = 0; k < 2 * s->v->nrequirement; k++)
+        FW_TRY(room_of_end(e, k));
+    return FW_OK;
+}
+
+/* the corner that leaves least room, with its edges out by as much as there seems to be, and as far as corners have gone at
+   most; *more false: that is known, or there is no room */
+static fw_status look_outwards(edges *e, double looked_m, bool *more) {
+    fw_verdict_search *s = e->s;
+    const double moved_m = fmin(e->room, looked_m);
+    double x[FW_FABRICATION_INPUTS];
+    *more = e->worst.corner != FW_NONE && moved_m > 0 && e->nlook < LOOKS;
+    for (int k = 0; k < e->nlook; k++)
+        *more = *more && !is_same(e->look[k].of, e->worst);
+    if (!*more) return FW_OK;
+    memcpy(x, s->fabricated->corner[e->worst.corner].x, (size_t)s->v->ninput * sizeof *x);
+    x[e->input] += e->worst.way * moved_m / s->v->input[e->input].edge_m;
+    e->look[e->nlook].of = e->worst, e->look[e->nlook].moved_m = moved_m;
+    FW_NEED(e->look[e->nlook].ln = fw_arena_array(s->arena, double, (size_t)s->ncheck));
+    FW_TRY(fw_verdict_search_point(s, x, &e->look[e->nlook].is, e->look[e->nlook].ln));
+    s->judged++, e->nlook++;
+    return FW_OK;
+}
+
+fw_status fw_verdict_edge_room_made(fw_verdict_search *s) {
+    const fw_device_wafer_asked *w = &s->device->wafer;
+    edges e = {.s = s, .input = FW_NONE};
     double looked = 0.0;
     for (int i = s->v->ninput - 1; i >= 0; i--) {
         const fw_verdict_fabrication_input *in = &s->v->input[i];
@@ -420,30 +500,12 @@ fw_status fw_verdict_edge_room_made(fw_verdict_search *s) {
     }
     s->fabricated->room = (fw_verdict_edge_room){.edge_m = (double)NAN};
     if (e.input == FW_NONE || s->first == 0) return FW_OK;
-    for (int r = 0; r < s->ncheck; r++)
-        if ((r < requirements || r >= requirements + s->v->nrequirement) && !isnan(s->ln[r]))
-            FW_TRY(room_of_check(&e, r));
-    for (int k = 0; k < 2 * s->v->nrequirement; k++)
-        FW_TRY(room_of_end(&e, k));
-    s->fabricated->room = (fw_verdict_edge_room){e.says, e.room, looked};
-    return FW_OK;
-}
-
-/* ---- how many there may be, for who waits ---- */
-
-/* No more points are run than the nominal one, one for the slopes of each input, all corners, each hinge alone and the
-   patterns of hinges that differ. Usually first order leaves a few of them, which nobody knows before. */
-fw_status fw_verdict_search_most(fw_verdict_search *s) {
-    const unsigned fixed = fw_verdict_search_without_range(s->v);
-    int free = 0, apart = 0;
-    for (int i = 0; i < s->v->ninput; i++) {
-        free += !(fixed >> i & 1u);
-        if (s->v->input[i].local != 0.0) apart = s->device->nrevolute + FW_MOST_APART;
+    FW_TRY(room_of_all(&e));
+    for (bool more = w->asked || w->written; more;) { /* else nobody orders a plate by it */
+        FW_TRY(look_outwards(&e, looked, &more));
+        if (more) FW_TRY(room_of_all(&e));
     }
-    FW_NEED(s->told = fw_arena_one(s->arena, fw_progress_whole));
-    *s->told = (fw_progress_whole){.what = "judging what a flow makes of it",
-                                   .of = -(1.0 + free + (1u << free) + s->v->nsuspect + apart),
-                                   .unit = "devices"};
+    s->fabricated->room = (fw_verdict_edge_room){e.says, e.room, looked};
     return FW_OK;
 }
 
@@ -460,19 +522,11 @@ fw_status fw_verdict_search_most(fw_verdict_search *s) {
    their lightest die at a corner; it is softer than the nominal one by more than its frequency says. All that is as made has
    it: bands of requirements, what a hinge uses at most (held_ranges.c). Test: test_effects.py Resonance */
 
-/* the same contacts, stops and cables hold both where their modes are asked for: else these are not the same modes */
-static bool held_alike(const fw_verdict_shaken *a, const fw_verdict_shaken *b) {
-    if (a->nreach != b->nreach) return false;
-    for (int c = 0; c < a->nreach; c++)
-        if (a->reach[c].rests != b->reach[c].rests) return false;
-    return true;
-}
-
 /* a mode as it is at a point, of what is held as `like`; NULL: nothing is known of it there */
 static const fw_verdict_shaken_mode *mode_at(const fw_verdict_search *s, int point, int scene,
                                              int number, const fw_verdict_shaken *like) {
     const fw_verdict_shaken *there = s->fabricated->corner[point].shaken;
-    for (int k = 0; there && held_alike(&there[scene], like) && k < there[scene].n; k++)
+    for (int k = 0; there && fw_verdict_held_alike(&there[scene], like) && k < there[scene].n; k++)
         if (there[scene].mode[k].number == number) return &there[scene].mode[k];
     return NULL;
 }
@@ -526,7 +580,8 @@ fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
             double by[2];
             if (wide.number != mode->number) continue;
             spread_mode(s, scene, &wide, by);
-            if (!held_alike(nominal, to)) { /* as far from itself as two dies are from each other */
+            if (!fw_verdict_held_alike(
+                    nominal, to)) { /* as far from itself as two dies are from each other */
                 wide = *mode;
                 wide.low *= exp(by[0] - by[1]), wide.soft *= exp(by[0] - by[1]);
                 wide.high *= exp(by[1] - by[0]), wide.stiff *= exp(by[1] - by[0]);
@@ -535,66 +590,4 @@ fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
         }
     }
     return FW_OK;
-}
-
-/* ---- which of those that were run lead ----
-   What rings by the same law at the same frequency goes as far as its loads hold it at rest, c, or at one frequency as it is
-   light, c w^2; a hinge is strained likewise. So of each hinge, requirement, body and thing that may be met those two lead of
-   which that is most (of a requirement also least) among those that the same contacts hold, and others add nothing. */
-
-/* by the mode that has most, over how far it goes; 0: not known */
-static double held_by(const fw_verdict_search *s, const fw_verdict_shaken *of, bool light) {
-    const int first = s->v->nhinge, end = first + s->v->mechanism->nbody;
-    double most = 0;
-    for (int k = 0; k < of->n; k++) {
-        const fw_verdict_shaken_mode *mode = &of->mode[k];
-        double share = 0, size = fabs(mode->start) / mode->omega;
-        for (int i = first; i < end; i++)
-            share = fmax(share, fw_verdict_bends_most(mode->bends[i]));
-        for (int j = 0; mode->size && j < of->nload; j++)
-            size = fmax(size, fabs(mode->size[j]));
-        if (mode->size) most = fmax(most, size * share * (light ? pow(mode->omega, 2) : 1));
-    }
-    return most;
-}
-
-/* of what is asked about (hinges, requirements, ways of bodies, gaps) how much there is of number q */
-static double amount_of(const fw_verdict_search *s, int scene, int point, int q) {
-    const fw_verdict_fabricated_corner *c = &s->fabricated->corner[point];
-    const fw_verdict_shaken *of = &c->shaken[scene];
-    const int nh = s->v->nhinge, nr = s->v->nrequirement, nb = s->v->mechanism->nbody;
-    if (q < nh)
-        return exp(s->ln[(size_t)point * (size_t)s->ncheck +
-                         (size_t)q * ((size_t)s->device->nscene + 1) + (size_t)scene]);
-    if (q < nh + nr) {
-        const fw_verdict_requirement *r = at_point(s, point, q - nh);
-        return r && r->measure && r->scene_index == scene ? fabs(r->swing) : 0;
-    }
-    if (q < nh + nr + nb) return of->most[q - nr];
-    const int reach = q - nh - nr - nb;
-    return reach < of->nreach ? of->most[nh + nb + reach] : 0;
-}
-
-bool fw_verdict_leads(const fw_verdict_search *s, int scene, int point) {
-    const fw_verdict_shaken *own = &s->fabricated->corner[point].shaken[scene];
-    const int asked = s->v->nhinge + s->v->nrequirement,
-              all = asked + s->v->mechanism->nbody + own->nreach;
-    for (int light = 0; light < 2; light++) {
-        const double held = held_by(s, own, light);
-        if (point == 0 || !(held > 0)) return true;
-        for (int q = 0; q < all; q++) {
-            const double is = held * amount_of(s, scene, point, q);
-            bool most = is > 0, least = most && q >= s->v->nhinge && q < asked;
-            for (int p = 0; p < s->fabricated->ncorner && (most || least); p++) {
-                const fw_verdict_shaken *there = s->fabricated->corner[p].shaken;
-                if (p == point || !there || there[scene].n == 0) continue;
-                if (!held_alike(&there[scene], own)) continue;
-                const double other = held_by(s, &there[scene], light) * amount_of(s, scene, p, q);
-                most = most && !(other > is || (other == is && p < point));
-                least = least && !(other < is || (other == is && p < point));
-            }
-            if (most || least) return true;
-        }
-    }
-    return false;
 }

@@ -583,8 +583,8 @@ fw_status fw_verdict_as_fabricated(fw_arena *arena, const fw_device *device,
     fw_verdict_search_govern(&s);
     v->fabricated = s.fabricated;
     const bool accepted = s.fabricated->decision == FW_ACCEPT;
-    if (accepted && !quick) FW_TRY(fw_verdict_edge_room_made(&s));
     if (accepted || (!quick && !decided)) FW_TRY(fw_verdict_between_corners(&s, v));
+    if (accepted && !quick) FW_TRY(fw_verdict_edge_room_made(&s));
     if (accepted) return FW_OK;
     if (quick) {
         v->decision = FW_INCONCLUSIVE;

@@ -498,7 +498,7 @@ fw_status fw_verdict_ends_made(fw_verdict_search *s);
 fw_status fw_verdict_stators_keep(fw_arena *arena, const fw_verdict_variant_verdict *now,
                                   fw_verdict_fabricated_corner *corner);
 void fw_verdict_stators_made(const fw_verdict_search *s, fw_verdict_variant_verdict *v);
-/* how far the band of a hinge reaches above its utilisation, as a factor, where it was run */
+/* held_ranges.c: how far the band of a hinge reaches above its utilisation, as a factor, where it was run */
 double fw_verdict_band_above(const fw_verdict_search *s, int hinge);
 /* s->fabricated->room, after fw_verdict_ends_made and the bounds of hinges */
 fw_status fw_verdict_edge_room_made(fw_verdict_search *s);
@@ -507,9 +507,10 @@ const char *fw_verdict_ends_why(fw_verdict_search *s, int corner);
 double fw_verdict_search_used_nearest(const fw_verdict_clearance *c);          /* body_farther.c */
 double fw_verdict_search_used(const fw_verdict_clearance *c, bool by_nearest); /* its share */
 /* fabrication.c, corner_search.c and requirement_corners.c, shared */
-/* requirement_corners.c: shaken of a point with its modes anywhere; may that be the most that any device does? */
+/* requirement_corners.c: shaken of a point with its modes anywhere */
 fw_status fw_verdict_anywhere(const fw_verdict_search *s, int scene, int point,
                               fw_verdict_shaken *to);
+/* body_shaken.c: may a point be the most that any device does? */
 bool fw_verdict_leads(const fw_verdict_search *s, int scene, int point);
 /* held_ranges.c: bands as made hold what a device between corners does that meets a resonance; where all corners are accepted
    s->fabricated and v may then be undecided, with a reason (FW-D636, FW-D731) */

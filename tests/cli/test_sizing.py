@@ -503,5 +503,97 @@ class LargestWorkspace(unittest.TestCase):
             self.assertLess(abs(row["strain_per_rad"] * turned / strain - 1), row["error"]["strain"])
 
 
+class LimitsOfDies(unittest.TestCase):
+    """Dies of a yield are held against the limits of responses, too. By hand: f of a leaf under a bar goes with w^(3/2), so that
+    with w normal the share with f >= L is Phi((w - w_L)/sd)."""
+    LEAF = """<device xmlns="urn:flexwright:device:1" name="leaf"><parameter name="w" value="9 um"/>FLOW
+      <material ref="silicon-100" thickness="50 um"/><flexure id="leaf" kind="leaf" length="400 um" width="w"/>
+      <mechanism><body id="bar" x="0 mm" y="0.6 mm" width="200 um"/>
+      <revolute id="A" a="ground" b="bar" b-y="-0.6 mm" hinge="leaf"/></mechanism>
+      <scene name="push" duration="1 ms"><force on="bar" fx="0.05 mN"/></scene>STUDY</device>"""
+    MODE = '<respond name="f" value="modes:modes[0].f_Hz" LIMIT/>'
+    SD = 0.3
+
+    def setUp(self):
+        self.place = pathlib.Path(tempfile.mkdtemp(prefix="fw-limits-"))
+        self.addCleanup(shutil.rmtree, self.place)
+
+    def described(self, study, flow=""):
+        path = self.place / "leaf.xml"
+        path.write_text(self.LEAF.replace("STUDY", study).replace("FLOW", flow))
+        return path
+
+    def result(self, study, flow="", *options):
+        device = self.described(study, flow)
+        self.done = run("study", device, "--effects", "none", "--jobs", "2", *options, "-o", self.place / "o")
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        return json.loads((self.place / "o/study.json").read_text())
+
+    def frequency(self, w):
+        done = run("modes", self.described(""), "--effects", "none", "--set", f"w={w} um", "--json")
+        return json.loads(done.stdout)["modes"][0]["f_Hz"]
+
+    def uncertain(self, w):
+        return f'<uncertain what="w" mean="{w} um" sd="{self.SD} um"/>'
+
+    def test_a_yield_counts_them_by_its_method(self):
+        f = self.frequency(9)
+        self.assertAlmostEqual(math.log(self.frequency(9.9) / f) / math.log(1.1), 1.5, delta=0.03)
+        for away, samples, method in ((0.5, 400, "quasi-Monte Carlo"), (3.2, 3000, "importance")):
+            limit = f * (1 - away * self.SD / 9) ** 1.5
+            study = f'<study name="y" kind="yield" samples="{samples}">{self.uncertain(9)}' + self.MODE.replace(
+                "LIMIT", f'min="{limit} Hz"') + "</study>"
+            y = self.result(study)["yields"][0]
+            fails = 0.5 * math.erfc(away / math.sqrt(2))
+            low, high = (1 - e for e in y["yield_range"])
+            self.assertIn(method, y["method"])
+            self.assertLess(high, 1.02 * fails, (away, y))  # by value and by the error of f, either way
+            self.assertGreater(low, 0.98 * fails, (away, y))
+            self.assertLess(abs(math.log((1 - y["yield"]) / fails)), 0.15, (away, y))
+            with open(self.place / "o/study.csv") as rows:
+                for row in csv.DictReader(rows):
+                    self.assertEqual(row["state"] == "reject", float(row["f"]) < limit, row)
+
+    def test_a_size_holds_them(self):
+        """the leaf that turns most: no narrower than that its dies hold f"""
+        limit = self.frequency(8.5)
+        result = self.result('<study name="s" kind="size" as="drawn" yield="0.9" samples="100"><vary what="w" from="6 um" to="14 um"/>'
+                             f'<uncertain what="w" sd="{self.SD} um"/>' + self.MODE.replace("LIMIT", f'min="{limit} Hz"')
+                             + '<respond name="turned" value="hinges[A].peak_angle_rad" goal="minimise"/></study>')
+        w = float(result["found"][0]["set"][0]["value"].split()[0])
+        self.assertGreater(w, 8.5 + 1.2816 * self.SD)
+        self.assertLess(w, 8.5 + 2.5 * self.SD)
+        self.assertGreaterEqual(result["yields"][0]["yield_range"][0], 0.9)
+        f = next(r for r in result["responses"] if r["name"] == "f")
+        self.assertEqual((f["counted"], f["not_counted"]), (True, None))
+
+    def test_what_a_flow_makes_of_it(self):
+        """hinges count as made; what a document has of the drawing alone is named, in the plan and in the result"""
+        flow = '<flow ref="al-masked-rie"/>'
+        study = ('<study name="y" kind="yield" samples="200"><respond name="u" value="hinges[A].utilisation" max="LIMIT"/>'
+                 + self.MODE.replace("LIMIT", 'min="3 kHz"') + "</study>")
+        loose = self.result(study.replace("LIMIT", "0.99"), flow)
+        self.assertIn("FW-D755", self.done.stderr)
+        self.assertIn("the yield does not count the limit of f: ", self.done.stdout)
+        u, f = loose["responses"]
+        self.assertEqual((u["counted"], f["counted"]), (True, False))
+        self.assertIn("of the drawing", f["not_counted"])
+        plan = run("study", self.described(study.replace("LIMIT", "0.99"), flow), "--effects", "none", "--plan")
+        self.assertIn("which the yield does not count: ", plan.stdout)
+        size = ('<study name="s" kind="size" as="drawn" yield="0.9"><vary what="w" from="6 um" to="14 um"/>' + self.MODE.replace(
+            "LIMIT", 'min="3 kHz"') + '<respond name="turned" value="hinges[A].peak_angle_rad" goal="minimise"/></study>')
+        plan = run("study", self.described(size, flow), "--effects", "none", "--plan")
+        self.assertIn("leaf.xml:", plan.stderr)
+        self.assertIn("FW-D755", plan.stderr)
+        self.assertIn("which the yield does not count: ", plan.stdout)
+        self.assertEqual(loose["yields"][0]["least"]["yield"], 1)
+        with open(self.place / "o/study.csv") as rows:
+            used = sorted(float(row["u"]) for row in csv.DictReader(rows) if row["state"] != "failed")
+        middle = used[len(used) // 2]
+        tight = self.result(study.replace("LIMIT", f"{middle}"), flow)["yields"][0]
+        self.assertLess(tight["least"]["yield"], 0.6)
+        self.assertGreater(tight["most"]["yield"], 0.4)
+
+
 if __name__ == "__main__":
     unittest.main()

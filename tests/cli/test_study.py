@@ -419,7 +419,7 @@ class Study(unittest.TestCase):
              "FW-D491", "same dimension"),
             ("size\" yield=\"0.9", vary + respond.replace("/>", ' goal="minimise"/>')
              + '<uncertain what="ark" mean="1 um" sd="1 um"/>', "FW-D493", "no parameter has this name"),
-            ("yield", respond, "FW-D490", "asks what check asks"),
+            ("yield", respond, "FW-D490", "give it min or max"),
             ("yield\" as=\"drawn", "", "FW-D490", "as they are made; take as"),
             ("sweep", vary + respond + '<uncertain what="link" mean="120 um" sd="1 um"/>', "FW-D490", "belongs to kind"),
             ("yield", '<uncertain what="arc" spread="normal" mean="240 deg" sd="0 deg"/>', "FW-D491", "above 0"),

@@ -202,7 +202,7 @@ class OrderedPlate(unittest.TestCase):
       <parameter name="w" value="10 um"/><material ref="silicon-100" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/>
       <die tethers="no"/><order/><flexure id="leaf" kind="leaf" length="400 um" width="w"/>
       <mechanism><body id="bar" x="0 mm" y="0.75 mm" width="120 um"/><revolute id="A" a="ground" b="bar" b-y="-0.75 mm" hinge="leaf"/></mechanism>
-      <require frequency="1" plane="in" min="4 kHz"/>
+      <require frequency="1" plane="in" min="3.7 kHz"/>
       <scene name="nudge" duration="1 ms"><torque on="bar" value="1e-4 mN mm"/></scene>
     </device>"""
 
@@ -226,6 +226,47 @@ class OrderedPlate(unittest.TestCase):
               <source id="plate" kind="measured">CD of the plate</source>
               <q id="litho.edge" value="0" lo="-{edge}" hi="{edge}" unit="um" status="assumed" src="plate"/></process>""")
             self.assertEqual(check("--lab", here / "lab.xml"), status, share)
+
+    ARM = """<device xmlns="urn:flexwright:device:1" name="arm">
+      <parameter name="push" value="0.2 mN"/><material ref="silicon-100" thickness="50 um"/><limits safety-factor="2"/><flow ref="al-masked-rie"/>
+      <order/><die clearance="300 um"/><flexure id="leaf" kind="leaf" length="350 um" width="9 um"/>
+      <mechanism><body id="bar" x="0 mm" y="0.6 mm" width="200 um"/><revolute id="A" a="ground" b="bar" b-y="-0.6 mm" hinge="leaf"/></mechanism>
+      <scene name="push" duration="1.5 ms"><force on="bar" fx="push" fy="0 mN" law="ramp" rise="1 ms"/><air kind="slide" gap="10 um"/></scene>
+    </device>"""
+
+    def lab(self, here, edge):
+        path = here / f"lab-{edge}.xml"
+        path.write_text(f"""<process xmlns="urn:flexwright:process:1" flow="al-masked-rie"><source id="mine" kind="measured">Our laboratory</source>
+          <q id="pan.T" value="22" u="0.5" unit="Cel" status="measured" src="mine"/>
+          <q id="litho.edge" value="0" lo="-{edge}" hi="{edge}" unit="um" status="assumed" src="mine"/></process>""")
+        return path
+
+    def test_sheet_and_verdict_say_one_figure(self):
+        """Corners are judged as closely as their decisions ask for, and have bands of their own. The order stands on the upper end of
+        the worst one, as the verdict does, and not on the widest band of any at the most that is used: that asked for a plate of
+        +-0 um of what is accepted."""
+        here = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, here)
+        lab = self.lab(here, 0.15)
+        for push in ("0.185 mN", "0.195 mN", "0.203 mN"):
+            options = ("-", "--set", f"push={push}", "--lab", lab)
+            done = run("check", *options, "--advice", "none", "--json", input=self.ARM)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            top = json.loads(done.stdout)["governing"]["utilisation_band"][1]
+            out = here / push.split()[0]
+            done = run("mask", *options, "-o", out, input=self.ARM)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            order = json.loads((out / "masks/al-masked-rie-plate.order.json").read_text())
+            says, by = re.fullmatch(r"hinge A: at most ([\d.]+) % of its limit; lines 0.1 um wider change that by (-[\d.]+) %",
+                                    order["cd_tolerance_decided_by"]).groups()
+            self.assertAlmostEqual(float(says), 100 * top, delta=0.051)
+            # half of the way to the limit, of which the logarithm goes straight with a width
+            left = -math.log(top) / (-float(by) / 100 / top / 0.1)
+            self.assertGreater(order["cd_tolerance_um"], 0.5 * left - 0.011)
+            self.assertLessEqual(order["cd_tolerance_um"], 0.5 * left + 0.001)
+            wider = self.lab(here, 0.15 + 0.5 * order["cd_tolerance_um"])
+            done = run("check", "-", "--set", f"push={push}", "--lab", wider, "--advice", "none", input=self.ARM)
+            self.assertEqual(done.returncode, 0, done.stdout)
 
 
 class BothFaces(unittest.TestCase):
