@@ -88,6 +88,8 @@ typedef struct fw_dynamics_motion_options {
     long most_steps; /* over all tries; FW-D108 beyond; 0: 10 million */
     double most_angle_rad; /* ends the run when a joint has turned further: the verdict needs no
                               more; 0: never */
+    /* a row of equilibria that ends, as at a fold, is FW_SOLVER: inertia does not carry it on */
+    bool ends_with_row;
     /* a run of more evaluations ends, too, when a hinge has turned by half beyond its limit: a verdict needs no more;
        0: never. hopeless_rad: (npin) those angles, set by statics/ */
     long hopeless_rhs;

@@ -275,7 +275,7 @@ static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_d
             whole.reactions |= options->alone; /* its steps are as fine as its forces need */
             fw_status status = fw_statics_quasi_static_motion(arena, mechanism, scene, &whole,
                                                               &ledger, &loads, &own, motion, &why);
-            if (status != FW_SOLVER) {
+            if (status != FW_SOLVER || options->ends_with_row) {
                 fw_diags_take(diags, &own);
                 if (status == FW_OK && options->effects.mode != FW_EFFECTS_AUTO)
                     report_cost(scene, &ledger, accuracy, diags);
@@ -571,6 +571,18 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
     }
 }
 
+/* a row of equilibria has no integrator to be found again by, and where it ends the device has snapped */
+void fw_statics_move_like(const fw_dynamics_motion *like, fw_dynamics_motion_options *o) {
+    const bool row = like->loads->quasi_static;
+    o->glance = NULL, o->unsettled = NULL, o->other = NULL, o->like = NULL;
+    o->tapes = NULL, o->late_rows = false, o->trace_both = false;
+    if (!row) o->rtol = like->stats.rtol, o->alone = o->rtol > 0;
+    if (!row && o->alone) o->integrator = like->integrator; /* found by trying */
+    o->ends_with_row = row;
+    o->samples = like->nsample, o->hinge_accuracy = 1;
+    o->effects.hinge = like->ledger.hinge.used, o->effects.untold = true;
+}
+
 fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *m,
                                   const fw_device_scene *scene, double by,
                                   const fw_dynamics_motion *like,
@@ -578,13 +590,7 @@ fw_status fw_statics_move_stiffer(fw_arena *arena, const fw_mechanism *m,
                                   const fw_dynamics_motion **motion) {
     fw_dynamics_motion_options o = *given;
     fw_diags own = fw_diags_new(arena);
-    o.glance = NULL, o.unsettled = NULL, o.other = NULL, o.like = NULL;
-    o.tapes = NULL, o.late_rows = false, o.trace_both = false;
-    o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
-    if (o.alone)
-        o.integrator = like->integrator; /* found by trying: what gives along itself is stiff */
-    o.samples = like->nsample, o.hinge_accuracy = 1;
-    o.effects.hinge = like->ledger.hinge.used, o.effects.untold = true;
+    fw_statics_move_like(like, &o);
     o.effects.like = o.effects.along != 0 ? &like->ledger : NULL; /* hardly another device */
     o.effects.stiffer = by;
     const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, motion);

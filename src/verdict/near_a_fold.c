@@ -265,14 +265,10 @@ static fw_status move_it(fw_arena *arena, const fw_mechanism *m, const fw_device
     fw_diags own = fw_diags_new(arena);
     const fw_dynamics_motion *x;
     const bool probes = to->saw.probe != NULL;
+    fw_statics_move_like(like, &o);
     o.observe = fw_verdict_strain_monitor_record, o.context = &to->saw;
-    o.trace = probes ? fw_verdict_clearance_trace : NULL, o.whole = probes, o.trace_both = false;
-    o.glance = NULL, o.unsettled = NULL, o.other = NULL;
-    o.like = NULL, o.tapes = NULL, o.late_rows = false, o.most_angle_rad = FW_TURN;
-    o.rtol = like->stats.rtol, o.alone = o.rtol > 0;
-    if (o.alone) o.integrator = like->integrator; /* found by trying */
-    o.samples = like->nsample, o.hinge_accuracy = 1;
-    o.effects.hinge = like->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
+    o.trace = probes ? fw_verdict_clearance_trace : NULL, o.whole = probes;
+    o.most_angle_rad = FW_TURN, o.effects.like = NULL;
     const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, &x);
     if (status == FW_NOMEM || status == FW_CANCELLED || to->saw.no_memory)
         return status == FW_CANCELLED ? status : FW_NOMEM;
