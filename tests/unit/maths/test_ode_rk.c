@@ -199,8 +199,51 @@ static void test_kernels_stop_nothing(void **state) {
     }
 }
 
+/* u0 is stated, as by a driver, and stands on u1, which nothing excites: a step that its error allows is hundreds of radians of u1
+   long, and what rounding leaves of that grows from stage to stage */
+static const double fast = 1e3;
+
+static void stated_and_fast(void *context, double t, const double *at, double *f) {
+    (void)context;
+    f[0] = at[2], f[1] = at[3];
+    f[3] = -fast * fast * at[1];
+    f[2] = cos(t) - f[3];
+}
+
+static bool as_stated(void *context, double t, double *at, double *f) {
+    at[0] = 1 - cos(t), at[2] = sin(t);
+    stated_and_fast(context, t, at, f);
+    return true;
+}
+
+/* between the ends of a step it is no other than at them, whatever the three stages of the dense output do */
+static void test_dense_beyond_stability(void **state) {
+    (void)state;
+    for (double rounding = 1e-60; rounding < 1e-9; rounding *= 10) {
+        const fw_maths_ode ode = {
+            .rhs = stated_and_fast, .project = as_stated, .n = 4, .controlled = 4, .positions = 2};
+        const double start[4] = {0, rounding, 0, 0}, atol[4] = {1e-9, 1e-9, 1e-9, 1e-9};
+        fw_arena *arena = fw_arena_new(0);
+        fw_maths_stepper *s;
+        assert_int_equal(
+            fw_maths_stepper_new(arena, fw_maths_stepper_find("dop853"), &ode, 1e-8, atol, &s),
+            FW_OK);
+        fw_maths_stepper_start(s, 0, start, 1);
+        for (int steps = 0; s->t < 1 && steps < 40; steps++) {
+            assert_int_equal(fw_maths_stepper_step(s), FW_ODE_STEP);
+            for (double theta = 0.125; theta < 1; theta += 0.125) {
+                double at[8];
+                fw_maths_stepper_dense(s, theta, at);
+                assert_near(at[0], 1 - cos(s->t_old + theta * s->h), 1e-5);
+            }
+        }
+        fw_arena_free(arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_dense_beyond_stability),
         cmocka_unit_test(test_dop853),
         cmocka_unit_test(test_dopri5),
         cmocka_unit_test(test_radau5),
