@@ -85,7 +85,8 @@ typedef struct fw_schedule_shop { /* the problem */
     int ntask, nhold, nmachine;
     int wafers, operators;
     fw_schedule_calendar calendar;
-    bool soon; /* orders are tried, too, in which all wafers of a filling are in it before one goes on */
+    bool
+        soon; /* orders are tried, too, in which all wafers of a filling are in it before one goes on */
 } fw_schedule_shop;
 
 /* what a run waited for last */

@@ -124,7 +124,7 @@ static plain form_of(const fw_flexure_input *in) {
     const long double missing = larger(0, 16 - (long double)in->length_m / t);
     p.less = fminl(0.004L * deep, 0.04L) + fminl(missing, 1) * 0.004L +
              fminl(larger(deep, missing) / 2, 1) * 0.05L *
-                 larger(0, (long double)in->depth_m / in->length_m - 0.4L);
+                 larger(0, (long double)in->depth_m / (long double)in->length_m - 0.4L);
     p.centre_error = off * X + place / L + 2e-4L * r;
     return p;
 }
