@@ -154,8 +154,8 @@ static root_lever root_lever_of(const fw_flexure_shape *f) {
    CalculiX the peak is up to 1 % higher than what their own forces and moments make of it (README of
    tests/judge: meshes there, and a material that is softer where it is pressed). Fillets sharper
    than what was fitted (t/10, silicon 0.15 t) and those beyond the laws of the root: guesses.
-   Strips deeper than 10 t, to 20 t, and shorter than 16 t, to 8 t, are strained less than the bound, which none of 120
-   solids is above, by so much more as `beyond` says (root_strain_deep.csv, root_strain_short.csv).
+   Strips deeper than 10 t, to 20 t, and shorter than 16 t, to 8 t, are strained less than the bound, which none of 137
+   solids is above, by so much more as `beyond` says (root_strain_beyond.csv and root_strain_beyond_after.csv).
    Test: test_root_strain.c, test_error.c */
 static double beyond(const fw_flexure_shape *f, const fw_flexure_input *in, double *far) {
     const double t = f->width_m, deep = fmax(in->depth_m / t - 10, 0),
@@ -346,9 +346,8 @@ static void add_crystal_errors(const fw_flexure_shape *f, const fw_flexure_input
     e->softer += wide * (0.001 + (arc ? 0 : spread));
     e->root_less += wide * (arc ? 0 : spread), e->root_more += wide * (arc ? 0 : spread);
     e->kx += wide * (0.010 + (arc ? 0.1 * spread : spread));
-    if (f->kind ==
-        FW_FLEXURE_LEAF) /* both ends reach each other: 5.6 % of a solid with h = 0.8 L, forces.csv */
-        e->kx += 0.08 * fmax(in->depth_m / f->length_m - 0.3, 0);
+    /* both ends of a leaf reach each other: 5.6 % of a solid with h = 0.8 L, forces.csv */
+    if (in->kind == FW_FLEXURE_LEAF) e->kx += 0.08 * fmax(in->depth_m / f->length_m - 0.3, 0);
     e->ky += wide * (0.016 + spread);
     e->centre_m += e->centre_m;
     if (arc) e->centre_m += wide * ((0.001 + 0.2 * spread) * f->radius_m);

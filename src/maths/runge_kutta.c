@@ -379,14 +379,13 @@ static bool dop853_grown_up(const dop853 *s) {
    x^2 (1 - x)^2 (r4 + x r5) beside the cubic has the second derivatives 2 r4 and 2 (r4 + r5) at the ends */
 static void dop853_by_ends(const fw_maths_stepper *b, size_t width, double *r) {
     const size_t n = (size_t)b->ode.positions;
-    const double h = b->h,
-                 wild =
-                     100; /* accelerations of what is stiff are its rounding times its stiffness */
+    const double h = b->h, wild = 100;
     memset(r + 4 * width, 0, 4 * width * sizeof *r);
     for (size_t c = 0; c < n; c++) {
         const double way = b->y[c] - b->y_old[c], v0 = h * b->f_old[c], v1 = h * b->f[c],
                      first = h * h * b->f_old[c + n] - (6 * way - 4 * v0 - 2 * v1),
                      last = h * h * b->f[c + n] - (4 * v1 + 2 * v0 - 6 * way);
+        /* accelerations of what is stiff are its rounding times its stiffness */
         if (fmax(fabs(first), fabs(last)) > wild * (fabs(way) + fabs(v0) + fabs(v1))) continue;
         r[4 * width + c] = 0.5 * first;
         r[5 * width + c] = 0.5 * (last - first);
