@@ -196,63 +196,6 @@ double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int 
     return fw_probe_value(p, &s);
 }
 
-/* The last three turns of values, the last first, each of which is followed by one of the other kind more than h away; how
-   many there are. The end is none. */
-static int last_turns(const double *value, int n, double h, int turn[3]) {
-    int found = 0, low = n - 1, high = n - 1, seeks = 0; /* 1: a most, -1: a least, 0: either */
-    for (int i = n - 2; i >= 0 && found < 3; i--) {
-        if (value[i] < value[low]) low = i;
-        if (value[i] > value[high]) high = i;
-        if (seeks >= 0 && value[i] < value[high] - h) {
-            if (high < n - 1) turn[found++] = high;
-            seeks = -1, low = i;
-        } else if (seeks <= 0 && value[i] > value[low] + h) {
-            if (low < n - 1) turn[found++] = low;
-            seeks = 1, high = i;
-        }
-    }
-    return found;
-}
-
-fw_status fw_probe_rings(fw_arena *arena, const fw_probe *p, const fw_dynamics_motion *motion,
-                         double slowest_s, fw_probe_ring *ring) {
-    const int n = motion->nsample;
-    *ring = (fw_probe_ring){0};
-    if (n < 2 || !(slowest_s > 0)) return FW_OK;
-    const double end_s = motion->t_s[n - 1], row_s = end_s / (n - 1);
-    const double from_s = end_s - fmax(3 * slowest_s, 24 * row_s);
-    const double most_half_s = fmax(0.75 * slowest_s, 3 * row_s);
-    const fw_mark mark = fw_arena_mark(arena);
-    double *value, low, high;
-    int first = n - 1, turn[3];
-    while (first > 0 && motion->t_s[first - 1] >= from_s)
-        first--;
-    const int count = n - first;
-    FW_NEED(value = fw_arena_array(arena, double, (size_t)count));
-    for (int i = 0; i < count; i++)
-        value[i] = fw_probe_at_row(p, motion, first + i);
-    low = high = value[count - 1];
-    for (int i = 0; i < count; i++)
-        low = fmin(low, value[i]), high = fmax(high, value[i]);
-    *ring = (fw_probe_ring){0, value[count - 1], value[count - 1]};
-    for (double h = 0; h<high - low; h = h> 0 ? 2 * h : 1e-4 * (high - low)) {
-        if (last_turns(value, count, h, turn) < 3) break;
-        const double *t_s = motion->t_s + first, half_s = t_s[turn[0]] - t_s[turn[1]];
-        if (half_s > most_half_s || end_s - t_s[turn[0]] > 1.5 * half_s) continue;
-        for (int i = 0; i < 3; i++)
-            ring->low = fmin(ring->low, value[turn[i]]),
-            ring->high = fmax(ring->high, value[turn[i]]);
-        ring->amplitude = fmax(ring->amplitude, 0.5 * fmax(fabs(value[turn[0]] - value[turn[1]]),
-                                                           fabs(value[turn[1]] - value[turn[2]])));
-    }
-    if (ring->amplitude > 0 && 8 * row_s > slowest_s) { /* rows meet it at any phase */
-        ring->low = fmin(ring->low, low), ring->high = fmax(ring->high, high);
-        ring->amplitude = fmax(ring->amplitude, 0.5 * (high - low));
-    }
-    fw_arena_rewind(arena, mark);
-    return FW_OK;
-}
-
 bool fw_probe_has_rate(const fw_probe *p) {
     const fw_quantity_dimension is = p->kind->dimension;
     return p->row->value && (fw_quantity_dimension_equal(is, (fw_quantity_dimension){.m = 1}) ||

@@ -112,15 +112,24 @@ typedef struct fw_probe_course { /* of one probe */
     double below, above;     /* proved: no value is beyond these */
     double moved;            /* the largest */
     int count;               /* in all; 0: it has no value in this scene */
-    double *time, *value;    /* (kept) every instant and extreme, where asked for */
+    double *time, *value;    /* (kept) every instant and extreme, where and from when asked for */
     size_t kept, room;
 } fw_probe_course;
+
+enum {
+    FW_PROBE_KEPT_LATE = 1 << 17
+}; /* instants of the end of a course, before they are thinned out */
 
 typedef struct fw_probe_monitor { /* of one run */
     fw_arena *arena;
     const fw_mechanism *mechanism;
     const fw_device_scene *scene;
-    const bool *history;           /* (nprobe) whose whole course is kept; NULL: none */
+    const bool *history; /* (nprobe) whose whole course is kept; NULL: none */
+    const bool *late;    /* (nprobe) whose course is kept from late_s on; NULL: none */
+    double late_s;       /* known with the loads */
+    /* finds it for a motion under monitor->loads, which may be a row of equilibria; NULL: from the start on */
+    fw_status (*late_from)(const void *of, const struct fw_probe_monitor *monitor, double *late_s);
+    const void *of;
     const bool *judged;            /* (nprobe) by which a run is near enough; NULL: none */
     const double *asked;           /* (nprobe) SI, the largest size that is required of it */
     const bool *only;              /* (nprobe) that are looked at; NULL: all */
@@ -174,16 +183,18 @@ typedef struct fw_probe_result { /* what a motion did, and by how much that may 
 void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor *looser,
                         const fw_dynamics_motion *motion, int probe, fw_probe_result *result);
 
-/* What still goes to and fro where a motion ends: the last three turns of its samples and its end, where no more than one and
-   a half half-periods are behind the last of them. A fast mode of a little hides the turns of a slow one of much: turns are
-   looked for with ever larger ways between them, of half-periods up to 1.5 times that of the slowest mode, slowest_s its period.
-   Where a scene has fewer than eight rows in that period they meet it at any phase, and the ring is what 24 rows go over.
-   Amplitude 0: it is at rest, or goes one way. Cost: the rows of three periods. Test: test_probe.c, test_probe.py */
+/* What still goes to and fro where a motion ends: the last three turns of a course that was kept over the last three periods
+   of its slowest mode (slowest_s), and its end, where no more than one and a half half-periods are behind the last of them. A fast
+   mode of a little hides the turns of a slow one of much: turns are looked for with ever larger ways between them, of half-periods
+   up to 1.5 times that of the slowest mode. What goes one way besides, behind a ramp that has just ended, is between no turns.
+   Amplitude 0: it is at rest, or goes one way. Error: that of the parabolas between instants. Cost: what was kept of three periods,
+   some fifteen times. Test: test_probe.c rings_as_it_ends, test_probe.py */
 typedef struct fw_probe_ring {
     double amplitude, low, high;
 } fw_probe_ring;
-fw_status fw_probe_rings(fw_arena *arena, const fw_probe *p, const fw_dynamics_motion *motion,
-                         double slowest_s, fw_probe_ring *ring);
+void fw_probe_rings(const fw_probe_course *course, double slowest_s, fw_probe_ring *ring);
+/* from when on a scene that ends there is kept for that; nothing swings: its end */
+double fw_probe_rings_from(double end_s, double slowest_s);
 
 /* least and largest of a course that was kept, from an instant on, its last two instants at the least */
 void fw_probe_range(const fw_probe_course *course, double from_s, double *low, double *high);

@@ -46,7 +46,28 @@ static void raise(fw_probe_extreme *e, double sign, double value, double t_s, do
     *e = (fw_probe_extreme){value, t_s, between};
 }
 
-static fw_status keep(fw_arena *arena, fw_probe_course *c, double t_s, double value) {
+/* Of every four neighbours the least and the most stay, in the order of time: all that a slow swing goes over, at places that are
+   off by as much as these are apart, and how far a fast one goes, though not how often. The last ones stay as they are */
+static void thin(fw_probe_course *c) {
+    size_t n = 0, i = 0;
+    for (; i + 4 < c->kept; i += 4) {
+        size_t least = i, most = i;
+        for (size_t k = i + 1; k < i + 4; k++) {
+            if (c->value[k] < c->value[least]) least = k;
+            if (c->value[k] > c->value[most]) most = k;
+        }
+        const size_t first = least < most ? least : most, last = least < most ? most : least;
+        c->time[n] = c->time[first], c->value[n++] = c->value[first];
+        if (last > first) c->time[n] = c->time[last], c->value[n++] = c->value[last];
+    }
+    for (; i < c->kept; i++, n++)
+        c->time[n] = c->time[i], c->value[n] = c->value[i];
+    c->kept = n;
+}
+
+/* late: the end of a course, of which as much is kept as three swings show in */
+static fw_status keep(fw_arena *arena, fw_probe_course *c, bool late, double t_s, double value) {
+    if (late && c->kept == FW_PROBE_KEPT_LATE) thin(c);
     if (c->kept == c->room) {
         size_t room = c->room ? 2 * c->room : 1024;
         FW_NEED(c->time = fw_arena_grow(arena, c->time, c->kept, room, sizeof *c->time));
@@ -68,25 +89,34 @@ static void add_across(fw_probe_course *c, const double t[3], double across) {
     c->a[0] = c->a[1], c->a[1] = across;
 }
 
+/* of a course at an instant: nothing is kept; all of it is; its end is */
+typedef enum kept_part { KEPT_NOT, KEPT_WHOLE, KEPT_LATE } kept_part;
+
+static kept_part part_kept(const fw_probe_monitor *w, int probe, double t_s) {
+    if (w->history && w->history[probe]) return KEPT_WHOLE;
+    return w->late && w->late[probe] && t_s >= w->late_s ? KEPT_LATE : KEPT_NOT;
+}
+
 /* smooth: a parabola finds its extremes */
-static fw_status add(fw_arena *arena, fw_probe_course *c, bool smooth, bool history, double t_s,
+static fw_status add(fw_arena *arena, fw_probe_course *c, bool smooth, kept_part part, double t_s,
                      double value, double across) {
     const double t[3] = {c->t[0], c->t[1], t_s}, s[3] = {c->s[0], c->s[1], value};
+    const bool late = part == KEPT_LATE;
     double at, top;
     if (smooth && c->samples >= 2 && turns(t, s, &at, &top)) {
         raise(&c->maximum, 1, top, at, fabs(top - s[1]), false);
         raise(&c->minimum, -1, top, at, fabs(top - s[1]), false);
-        if (history && at < t[1]) { /* in the order of time */
+        if (part && c->kept > 0 && at < t[1]) { /* in the order of time */
             c->kept--;
-            FW_TRY(keep(arena, c, at, top));
-            FW_TRY(keep(arena, c, t[1], s[1]));
-        } else if (history && at > t[1])
-            FW_TRY(keep(arena, c, at, top));
+            FW_TRY(keep(arena, c, late, at, top));
+            FW_TRY(keep(arena, c, late, t[1], s[1]));
+        } else if (part && at > t[1])
+            FW_TRY(keep(arena, c, late, at, top));
     }
     raise(&c->maximum, 1, value, t_s, 0, c->count == 0);
     raise(&c->minimum, -1, value, t_s, 0, c->count == 0);
     if (!isnan(across)) add_across(c, t, across);
-    if (history) FW_TRY(keep(arena, c, t_s, value));
+    if (part) FW_TRY(keep(arena, c, late, t_s, value));
     c->final = value;
     c->t[0] = c->t[1], c->t[1] = t_s;
     c->s[0] = c->s[1], c->s[1] = value;
@@ -99,6 +129,7 @@ static fw_status take(fw_probe_monitor *w, const fw_dynamics_instant *now) {
     if (w->loads != now->loads) {
         FW_TRY(fw_probe_bind(w->arena, w->mechanism, w->scene, now->loads, &w->probe));
         w->loads = now->loads;
+        if (w->late && w->late_from) FW_TRY(w->late_from(w->of, w, &w->late_s));
     }
     const fw_probe_state state = fw_probe_state_of(now);
     for (int i = 0; i < n; i++) {
@@ -108,7 +139,7 @@ static fw_status take(fw_probe_monitor *w, const fw_dynamics_instant *now) {
         double value = fw_probe_value(p, &state);
         if (isnan(value)) continue;
         if (now->begins) c->samples = 0; /* no parabola across a jump */
-        FW_TRY(add(w->arena, c, !p->row->within, w->history && w->history[i], now->t_s, value,
+        FW_TRY(add(w->arena, c, !p->row->within, part_kept(w, i, now->t_s), now->t_s, value,
                    fw_probe_across(p, &state)));
     }
     return FW_OK;
@@ -150,7 +181,7 @@ bool fw_probe_monitor_glance(const fw_probe_monitor *w, const fw_dynamics_instan
             across[k + 1] = fw_probe_across(&w->probe[i], &state);
         }
         if (isnan(s[1]) && c->count == 0) continue;
-        if (c->samples < 2 || (w->history && w->history[i]) ||
+        if (c->samples < 2 || part_kept(w, i, third[FW_THIRDS - 1].t_s) ||
             !stays_within(s, c->minimum.value, c->maximum.value))
             return false;
         if (!isnan(across[1]) && !stays_within(across, -c->across.value, c->across.value))
@@ -330,6 +361,55 @@ double fw_probe_monitor_unsettled(const fw_probe_monitor *tighter, const fw_prob
         if (apart > 0) worst = fmax(worst, 2 * margin * apart / (fmin(30 * accuracy, 0.03) * far));
     }
     return worst;
+}
+
+/* ---- what rings where a motion ends ---- */
+
+/* The last three turns of values, the last first, each of which is followed by one of the other kind more than h away; how
+   many there are. The end is none. */
+static int last_turns(const double *value, size_t n, double h, size_t turn[3]) {
+    size_t low = n - 1, high = n - 1;
+    int found = 0, seeks = 0; /* 1: a most, -1: a least, 0: either */
+    for (size_t i = n - 1; i-- > 0 && found < 3;) {
+        if (value[i] < value[low]) low = i;
+        if (value[i] > value[high]) high = i;
+        if (seeks >= 0 && value[i] < value[high] - h) {
+            if (high < n - 1) turn[found++] = high;
+            seeks = -1, low = i;
+        } else if (seeks <= 0 && value[i] > value[low] + h) {
+            if (low < n - 1) turn[found++] = low;
+            seeks = 1, high = i;
+        }
+    }
+    return found;
+}
+
+double fw_probe_rings_from(double end_s, double slowest_s) {
+    return slowest_s > 0 ? end_s - 3 * slowest_s : end_s;
+}
+
+void fw_probe_rings(const fw_probe_course *c, double slowest_s, fw_probe_ring *ring) {
+    *ring = (fw_probe_ring){0, c->final, c->final};
+    if (c->kept < 2 || !(slowest_s > 0)) return;
+    const double end_s = c->time[c->kept - 1], from_s = fw_probe_rings_from(end_s, slowest_s);
+    size_t first = c->kept - 1, turn[3];
+    while (first > 0 && c->time[first - 1] >= from_s)
+        first--;
+    const double *t_s = c->time + first, *value = c->value + first;
+    const size_t count = c->kept - first;
+    double low = c->final, high = c->final;
+    for (size_t i = 0; i < count; i++)
+        low = fmin(low, value[i]), high = fmax(high, value[i]);
+    for (double h = 0; h<high - low; h = h> 0 ? 2 * h : 1e-4 * (high - low)) {
+        if (last_turns(value, count, h, turn) < 3) break;
+        const double half_s = t_s[turn[0]] - t_s[turn[1]];
+        if (half_s > 0.75 * slowest_s || end_s - t_s[turn[0]] > 1.5 * half_s) continue;
+        for (int i = 0; i < 3; i++)
+            ring->low = fmin(ring->low, value[turn[i]]),
+            ring->high = fmax(ring->high, value[turn[i]]);
+        ring->amplitude = fmax(ring->amplitude, 0.5 * fmax(fabs(value[turn[0]] - value[turn[1]]),
+                                                           fabs(value[turn[1]] - value[turn[2]])));
+    }
 }
 
 /* ---- settling ---- */

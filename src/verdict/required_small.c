@@ -408,6 +408,15 @@ fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_verdict_variant_verdict
     return FW_OK;
 }
 
+/* equilibria do not ring */
+fw_status fw_verdict_rings_from(const void *v, const fw_probe_monitor *w, double *late_s) {
+    const int scene = (int)(w->scene - w->mechanism->device->scene);
+    double slowest_s = 0;
+    if (!w->loads->quasi_static) FW_TRY(fw_verdict_slowest_s(w->arena, v, scene, &slowest_s));
+    *late_s = fw_probe_rings_from(w->scene->duration_s, slowest_s);
+    return FW_OK;
+}
+
 /* ---- where a motion comes to rest ----
    In: the course of a probe that was kept, the loads as they are at the scene's end. Out: the equilibrium under these, where
    the course ends about it; where loads go on, friction holds it anywhere within a range, or none is found, the middle of what the
@@ -524,9 +533,8 @@ static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_verdict_o
     } else if (q->measure == FW_MEASURE_FINAL &&
                !(o->motion->loads && o->motion->loads->quasi_static)) {
         fw_probe_ring ring;
-        fw_arena *arena = o->probe->arena;
-        FW_TRY(fw_verdict_slowest_s(arena, v, r->scene_index, &slowest_s));
-        FW_TRY(fw_probe_rings(arena, &o->probe->probe[q->probe], o->motion, slowest_s, &ring));
+        FW_TRY(fw_verdict_slowest_s(o->probe->arena, v, r->scene_index, &slowest_s));
+        fw_probe_rings(&o->probe->course[q->probe], slowest_s, &ring);
         if (ring.amplitude > 0)
             low = fmin(now, ring.low) - r->numeric, high = fmax(now, ring.high) + r->numeric;
     }

@@ -153,18 +153,18 @@ fw_status fw_verdict_stiction_judge(fw_arena *arena, const fw_mechanism *mechani
                                     fw_verdict_variant_verdict *v);
 
 /* ---- decision.c: what speaks against a scene; resonance.c: where a mode may lie elsewhere ---- */
-
 /* required_small.c: where what a requirement's probe is of comes to rest under the loads that a scene ends with */
 typedef struct fw_verdict_rest {
     double at, off;  /* SI of the probe; it may be off by that */
     double period_s; /* of the slowest mode; 0: a sequence of equilibria, which does not ring */
     const char *why; /* it is not known: why; NULL: it is */
 } fw_verdict_rest;
-/* required_small.c: s; 0: nothing swings */
+/* required_small.c: s; 0: nothing swings. rings_from: an fw_probe_monitor's late_from */
 fw_status fw_verdict_longest_period(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                     bool at_equilibrium, double *period_s);
 fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
                                double *period_s); /* at rest or as loaded; 0: nothing swings */
+fw_status fw_verdict_rings_from(const void *v, const fw_probe_monitor *monitor, double *late_s);
 fw_status fw_verdict_rests_at(const fw_verdict_variant_verdict *v, int scene,
                               const fw_dynamics_motion *motion, const fw_probe_monitor *monitor,
                               const fw_device_requirement *requirement, fw_verdict_rest *rest);

@@ -92,12 +92,13 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, 
                                         const fw_verdict_variant_verdict *v, bool required,
                                         fw_probe_monitor *monitor[2]) {
     const fw_device *d = m->device;
-    bool *history, *judged, any = !required;
+    bool *history, *judged, *ends, any = !required;
     double *asked;
     monitor[0] = monitor[1] = NULL;
     if (!v->probed || !moves_in(d, scene)) return FW_OK;
     FW_NEED(history = fw_arena_array(arena, bool, (size_t)d->nprobe));
     FW_NEED(judged = fw_arena_array(arena, bool, (size_t)d->nprobe));
+    FW_NEED(ends = fw_arena_array(arena, bool, (size_t)d->nprobe));
     FW_NEED(asked = fw_arena_array(arena, double, (size_t)d->nprobe));
     for (int k = 0; k < v->nrequirement; k++) {
         const fw_device_requirement *q = &d->requirement[v->requirement[k].asked];
@@ -105,6 +106,7 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, 
         judged[q->probe] = any = true;
         const bool settles = q->measure == FW_MEASURE_SETTLING; /* its bounds are times */
         history[q->probe] = history[q->probe] || settles;
+        ends[q->probe] = ends[q->probe] || q->measure == FW_MEASURE_FINAL;
         asked[q->probe] =
             fmax(asked[q->probe], settles ? q->band : fmax(fabs(q->min), fabs(q->max)));
     }
@@ -113,6 +115,7 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, 
         FW_TRY(fw_probe_monitor_new(arena, m, &d->scene[scene], history, required ? judged : NULL,
                                     monitor[i]));
         monitor[i]->judged = judged, monitor[i]->asked = asked;
+        monitor[i]->late = ends, monitor[i]->late_from = fw_verdict_rings_from, monitor[i]->of = v;
     }
     return FW_OK;
 }
@@ -214,8 +217,7 @@ static fw_status put_settling(const fw_verdict_variant_verdict *v, const fw_dyna
         r->open = "it has not settled where the scene ends: give the scene a longer duration";
     if (r->open) r->high = HUGE_VAL;
     if (rest.why) r->low = 0;
-    decide(r);
-    return FW_OK;
+    return decide(r), FW_OK;
 }
 
 /* of what the errors of a model are shares: what the value is beyond the drawn one; of a gap, whose
@@ -231,14 +233,13 @@ static fw_status put_ring(const fw_verdict_variant_verdict *v, const fw_dynamics
                           const fw_probe_monitor *monitor, const fw_probe_result *p,
                           fw_verdict_requirement *r) {
     const fw_mechanism *m = v->mechanism;
-    const fw_probe *of = &monitor->probe[m->device->requirement[r->asked].probe];
     const double off = 0.5 * (r->high - r->low);
     fw_probe_ring ring;
     double slowest_s;
     bool shaken;
     if (motion->loads && motion->loads->quasi_static) return FW_OK; /* equilibria do not ring */
     FW_TRY(fw_verdict_slowest_s(monitor->arena, v, r->scene_index, &slowest_s));
-    FW_TRY(fw_probe_rings(monitor->arena, of, motion, slowest_s, &ring));
+    fw_probe_rings(&monitor->course[m->device->requirement[r->asked].probe], slowest_s, &ring);
     FW_TRY(fw_verdict_is_shaken(monitor->arena, m, r->scene_index, &shaken));
     shaken = shaken && fw_verdict_laws_go_on_s(m, &m->device->scene[r->scene_index]) > 0;
     if (ring.amplitude > 0.02 * fabs(p->final - p->origin)) r->rings = ring.amplitude;
@@ -246,8 +247,7 @@ static fw_status put_ring(const fw_verdict_variant_verdict *v, const fw_dynamics
     const double low = fmin(r->low, ring.low - off), high = fmax(r->high, ring.high + off);
     if (r->value != 0) r->lasting += fmax(r->low - low, high - r->high) / fabs(r->value);
     r->low = r->size ? fmax(0, low) : low, r->high = high;
-    decide(r);
-    return FW_OK;
+    return decide(r), FW_OK;
 }
 
 /* still: nothing moves, and shares of that are round-off over round-off */

@@ -57,6 +57,40 @@ static void finds_extremes_between_instants(void **state) {
     fw_arena_free(f.arena);
 }
 
+static fw_status late_from(const void *of, const fw_probe_monitor *monitor, double *late_s) {
+    (void)monitor;
+    return *late_s = *(const double *)of, FW_OK;
+}
+
+/* A ramp that ends three periods before the end, and a ring of 0.01 of it behind: what is kept are three periods, and the ring is
+   0.01, however few rows a motion has; ten thousand instants a period are thinned out, and the ring is the same */
+static void rings_as_it_ends(void **state) {
+    (void)state;
+    const double turn = 2 * acos(-1.0), from = 37, end = 40;
+    const bool late = true;
+    for (int many = 0; many < 2; many++) {
+        fixture f;
+        fw_probe_ring ring;
+        begin(&f);
+        f.monitor.history = NULL, f.monitor.late = &late;
+        f.monitor.late_from = late_from, f.monitor.of = &from;
+        const int n = many ? 100000 : 13;
+        for (int i = 0; i <= 40 * n; i++) {
+            const double t = (double)i / n;
+            if (many && t < 36.9) continue;
+            show(&f, t, fmin(t / from, 1) + (t > from ? 0.01 * sin(turn * t) : 0), i == 0);
+        }
+        const fw_probe_course *c = f.monitor.course;
+        assert_true(c->kept <= FW_PROBE_KEPT_LATE && c->time[0] >= fw_probe_rings_from(end, 1));
+        fw_probe_rings(c, 1, &ring);
+        assert_true(fabs(ring.amplitude - 0.01) < 2e-4);
+        assert_true(fabs(ring.low - 0.99) < 2e-4 && fabs(ring.high - 1.01) < 2e-4);
+        fw_probe_rings(c, 0, &ring); /* nothing swings */
+        assert_true(ring.amplitude == 0 && ring.low == c->final && ring.high == c->final);
+        fw_arena_free(f.arena);
+    }
+}
+
 /* the top lies at a jump: no parabola goes through both sides of it */
 static void a_jump_is_no_peak(void **state) {
     (void)state;
@@ -214,12 +248,14 @@ static void what_is_across_has_its_extreme_between_instants(void **state) {
     const double turn = acos(-1.0) / 3, c = cos(turn), s = sin(turn);
     fixture f;
     begin(&f);
-    f.probe = (fw_device_probe){.id = "tip", .row = FW_PROBE_IS_displacement, .body_b = FW_GROUND, .direction_rad = turn};
+    f.probe = (fw_device_probe){
+        .id = "tip", .row = FW_PROBE_IS_displacement, .body_b = FW_GROUND, .direction_rad = turn};
     double last = 0;
     for (int i = 0; i <= 30; i++) {
         const double t = 0.1 * (i + 0.2 * sin(3.0 * i)), across = 1e-3 * sin(t), along = 2e-4 * t;
         const double q[3] = {along * c - across * s, along * s + across * c, 0};
-        const fw_dynamics_instant now = {.t_s = t, .piece_s = t, .q = q, .loads = &f.loads, .begins = i == 0};
+        const fw_dynamics_instant now = {
+            .t_s = t, .piece_s = t, .q = q, .loads = &f.loads, .begins = i == 0};
         fw_probe_monitor_record(&f.monitor, &now);
         last = along;
     }
@@ -235,22 +271,30 @@ static void rates_are_of_the_motion(void **state) {
     (void)state;
     fixture f;
     begin(&f);
-    double t = 1, q[6] = {1e-3, 2e-3, 0.3, 4e-3, 5e-3, -0.2}, v[6] = {3e-3, -4e-3, 5, 0, 0, 7}, angle = -0.5, room[7];
+    double t = 1, q[6] = {1e-3, 2e-3, 0.3, 4e-3, 5e-3, -0.2}, v[6] = {3e-3, -4e-3, 5, 0, 0, 7},
+           angle = -0.5, room[7];
     fw_mechanism_mass mass[2] = {{0}, {0}};
     fw_mechanism_pin pin = {.body_a = 0, .body_b = 1, .ax_m = 1e-3};
     fw_mechanism m = {.device = &f.device, .body = mass, .nbody = 2, .pin = &pin, .npin = 1};
-    const fw_dynamics_motion motion = {.nbody = 2, .npin = 1, .nsample = 1, .t_s = &t, .q = q, .v = v, .angle_rad = &angle};
+    const fw_dynamics_motion motion = {
+        .nbody = 2, .npin = 1, .nsample = 1, .t_s = &t, .q = q, .v = v, .angle_rad = &angle};
     const fw_effects_loads loads = {.nbody = 2};
     static const struct {
         fw_device_probe_row row;
         double direction_rad, rate;
-    } row[] = {{FW_PROBE_IS_angle, (double)NAN, 5}, {FW_PROBE_IS_displacement, 0, 3e-3}, {FW_PROBE_IS_displacement, 1.5707963267948966, -4e-3}};
+    } row[] = {{FW_PROBE_IS_angle, (double)NAN, 5},
+               {FW_PROBE_IS_displacement, 0, 3e-3},
+               {FW_PROBE_IS_displacement, 1.5707963267948966, -4e-3}};
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
         fw_probe *p;
-        f.probe = (fw_device_probe){.id = "p", .row = row[k].row, .body_b = FW_GROUND, .direction_rad = row[k].direction_rad};
+        f.probe = (fw_device_probe){.id = "p",
+                                    .row = row[k].row,
+                                    .body_b = FW_GROUND,
+                                    .direction_rad = row[k].direction_rad};
         assert_int_equal(fw_probe_bind(f.arena, &m, &f.scene, &loads, &p), FW_OK);
         assert_relative(fw_probe_rate_at_row(p, &motion, 0, room), row[k].rate, 1e-6);
-        assert_relative(room[6] - angle, (room[2] - q[2]) / v[2] * (v[5] - v[2]), 1e-9); /* the pin turns with both */
+        assert_relative(room[6] - angle, (room[2] - q[2]) / v[2] * (v[5] - v[2]),
+                        1e-9); /* the pin turns with both */
     }
     fw_arena_free(f.arena);
 }
@@ -267,6 +311,7 @@ static void values_have_a_prefix(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_extremes_between_instants),
+        cmocka_unit_test(rings_as_it_ends),
         cmocka_unit_test(a_jump_is_no_peak),
         cmocka_unit_test(thirds_of_a_sine),
         cmocka_unit_test(settles_at_the_last_crossing),
