@@ -108,6 +108,18 @@ double fw_effects_envelope_tension(const fw_effect_case *c, const fw_device_tend
 /* the eyelet's way in mode l, world */
 fw_geometry_vec2 fw_effects_envelope_moves(const fw_effect_case *c, const fw_device_eyelet *eyelet,
                                            int mode);
+/* eyelet_friction.c: a cable over eyelets that it sticks on or slips over, at a pose */
+typedef struct fw_effects_segments {
+    int n;       /* that stretch by themselves where it sticks; 0: it does not rub */
+    double *row; /* (n x 3 nbody) d length/d pose of each: m per m and per rad */
+    double *
+        alone_N_per_m; /* (n) of each; infinite: of a pulled cable, which states none; 0: the actuator gives */
+    double whole_N_per_m; /* of the cable that slides, along the sum of rows; 0: it is pulled */
+    double less;          /* of that slipping takes at most, relative */
+} fw_effects_segments;
+fw_status fw_effects_eyelet_friction_segments(fw_arena *arena, const fw_device_scene *scene,
+                                              int tendon, const fw_effects_force_element *cable,
+                                              const double *q, int nbody, fw_effects_segments *to);
 /* how far an eyelet goes at most */
 double fw_effects_envelope_goes(const fw_effect_case *c, const fw_device_eyelet *eyelet);
 

@@ -205,6 +205,53 @@ static fw_status alone(const fw_effect_case *c, double *rad, double *share) {
     return FW_OK;
 }
 
+/* ---- what a cable is stiff by ----
+   While it slides a drawn cable of stiffness k is stretched as a whole, by the sum of what its segments are, g_i along their
+   gradients; while it sticks on its eyelets each is by itself, with what a piece of its length has:
+
+     k g g^T, g = sum g_i          sum k (L/l_i) g_i g_i^T, L = sum l_i           difference >= 0 (Cauchy)
+
+   Some that stick and some that slide lie between. While it slips one way its tensions keep (1) of the theory, so that what one
+   segment alone is pulled by is k e^(-mu B) at least, B all bends. A pulled cable states no stiffness: where it sticks no segment but
+   the last one, which the actuator holds, changes its length. In: a pose, SI. Range: small motions. An eyelet that holds less
+   than a ten-thousandth of the tension is none. Cost: a few operations a segment and body. Test: tests/cli/test_friction_range.py,
+   test_a_stiffness_with_a_cable_that_rubs */
+fw_status fw_effects_eyelet_friction_segments(fw_arena *arena, const fw_device_scene *s, int tendon,
+                                              const fw_effects_force_element *e, const double *q,
+                                              int nbody, fw_effects_segments *to) {
+    const double hardly = 1e-4, coefficient = fw_effects_eyelet_friction_of(s);
+    const fw_device_tendon *t = &s->tendon[tendon];
+    const size_t ports = (size_t)e->ports, width = 3 * (size_t)nbody;
+    double *p, whole = 0;
+    *to = (fw_effects_segments){0};
+    if (!(coefficient > 0) || ports < 3) return FW_OK;
+    FW_NEED(p = fw_arena_array(arena, double, 7 * ports));
+    double *f = p + 3 * ports, *share = f + 3 * ports;
+    FW_NEED(to->row = fw_arena_array(arena, double, ports *width));
+    FW_NEED(to->alone_N_per_m = fw_arena_array(arena, double, ports));
+    fw_effects_element_place_ports(e, q, NULL, p, f);
+    for (int i = 0; i + 1 < e->ports; i++) {
+        const double *a = p + 3 * i, x = a[3] - a[0], y = a[4] - a[1], far = hypot(x, y);
+        if (i == 0 || coefficient * bend_of(p, i) > hardly) to->n++;
+        to->alone_N_per_m[to->n - 1] += far, whole += far; /* lengths first */
+        memset(f, 0, 3 * ports * sizeof *f);
+        if (!(far > 0)) continue;
+        f[3 * i + 3] = x / far, f[3 * i + 4] = y / far, f[3 * i] = -x / far,
+                  f[3 * i + 1] = -y / far;
+        fw_effects_element_add_forces(e, q, f, to->row + (size_t)(to->n - 1) * width);
+    }
+    const bool drawn = isnan(t->pull_N);
+    for (int i = 0; i < to->n; i++)
+        to->alone_N_per_m[i] = drawn           ? t->stiffness_N_per_m * whole / to->alone_N_per_m[i]
+                               : i + 1 < to->n ? (double)INFINITY
+                                               : 0;
+    fw_effects_eyelet_friction_shares(p, e->ports, coefficient, !drawn, share);
+    to->whole_N_per_m = drawn ? t->stiffness_N_per_m : 0;
+    to->less = 1 - 1 / (1 + share[0]);
+    if (to->n == 1) *to = (fw_effects_segments){0};
+    return FW_OK;
+}
+
 static fw_status beside(const fw_effect_case *c, double *share) {
     fw_mark mark = fw_arena_mark(c->arena);
     const fw_status status = largest(&(rubbing){.c = c}, share);

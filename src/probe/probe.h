@@ -214,6 +214,9 @@ const char *fw_probe_when(char buffer[FW_PROBE_TEXT], double t_s);
 
 /* SI; NaN: there is no such mode, or nothing holds it */
 double fw_probe_small(const fw_probe *p, const fw_statics_modes *modes);
+/* By what it may be less and more where joints and cables rub, which may all slide and all stick: ratios to it. mode: of a
+   frequency, from 1 on; else 0. 1, 1: nothing rubs */
+void fw_probe_small_rubs(const fw_probe *p, const fw_statics_modes *modes, int mode, double by[2]);
 /* relative: stiffness and compliance go with the square of frequencies; infinite: not known */
 double fw_probe_small_error(const fw_probe *p, const fw_statics_modes *modes);
 

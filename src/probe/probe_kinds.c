@@ -540,6 +540,31 @@ static double next_changes(const fw_probe *p, const fw_statics_modes *modes) {
     return p->row == &fw_probe_compliance ? fabs(next / now - 1) : fabs(now / next - 1);
 }
 
+/* g . give g with g_i = u_i . d / sqrt(M_i); NULL: without end */
+static double gives(const fw_probe *p, const fw_statics_modes *modes, const double *give) {
+    const int n = modes->count;
+    double sum = give ? 0 : (double)INFINITY;
+    for (int i = 0; give && i < n * n; i++)
+        sum += mode_along(p, modes, i / n) * mode_along(p, modes, i % n) * give[i] /
+               sqrt(modes->mode[i / n].modal_mass_kg_m2 * modes->mode[i % n].modal_mass_kg_m2);
+    return sum;
+}
+
+void fw_probe_small_rubs(const fw_probe *p, const fw_statics_modes *modes, int mode, double by[2]) {
+    const fw_statics_mode *m = mode > 0 ? &modes->mode[mode - 1] : NULL;
+    by[0] = by[1] = 1;
+    if (m && !isnan(m->stuck_Hz) && m->f_Hz > 0)
+        by[0] = m->slid_Hz / m->f_Hz, by[1] = m->stuck_Hz / m->f_Hz;
+    if (m || modes->count == 0 || isnan(modes->mode[0].stuck_Hz)) return;
+    const double now = compliance(p, modes), most = gives(p, modes, modes->slides);
+    double least = gives(p, modes, modes->held);
+    const bool yields = p->row == &fw_probe_compliance;
+    if (!(now > 0)) return;
+    if (least < 1e-9 * now) least = 0; /* round-off: it is held */
+    by[0] = fmin(1, yields ? least / now : now / most);
+    by[1] = fmax(1, yields ? most / now : now / least);
+}
+
 double fw_probe_small_error(const fw_probe *p, const fw_statics_modes *modes) {
     int n = p->asked->mode;
     bool one = p->kind->takes == FW_PROBE_MODE && n >= 1 && n <= modes->count;

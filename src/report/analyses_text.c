@@ -83,7 +83,7 @@ static void frequencies_off(const fw_statics_modes *modes, fw_text *out) {
                    modes->stiffness_error > 0 ? "" : " (stated ones are taken as they are)");
 }
 
-/* where joints rub, a line for each mode */
+/* where joints or cables rub, a line for each mode */
 static void modes_that_stick(const fw_statics_modes *modes, fw_text *out) {
     bool said = false;
     for (int i = 0; i < modes->count; i++) {
@@ -94,7 +94,7 @@ static void modes_that_stick(const fw_statics_modes *modes, fw_text *out) {
                              "  mode       from Hz         to Hz\n");
         said = true;
         fw_text_printf(out, "  %4d ", i + 1);
-        fw_text_real(out, "%13.6g ", m->f_Hz);
+        fw_text_real(out, "%13.6g ", m->slid_Hz);
         if (isfinite(m->stuck_Hz))
             fw_text_real(out, "%13.6g\n", m->stuck_Hz);
         else

@@ -301,7 +301,7 @@ static void one_mode(fw_json *json, const fw_mechanism *mechanism, const fw_stat
     if (isnan(m->stuck_Hz))
         fw_json_null(json, "between_Hz");
     else
-        fw_report_json_pair(json, "between_Hz", m->f_Hz, m->stuck_Hz);
+        fw_report_json_pair(json, "between_Hz", m->slid_Hz, m->stuck_Hz);
     fw_json_real(json, "omega_rad_per_s", m->omega_rad_per_s);
     fw_report_json_pair(json, "eigenvalue_per_s", e[0][0], e[0][1]);
     fw_report_json_pair(json, "second_eigenvalue_per_s", e[1][0], e[1][1]);

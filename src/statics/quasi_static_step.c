@@ -2,6 +2,7 @@
 /* A step along a sequence of equilibria, and what is read off it. */
 #include "maths/functions.h"
 #include "multibody/system.h"
+#include "quantity/law_kind.h"
 #include "statics/statics_equilibrium.h"
 #include <float.h>
 #include <math.h>
@@ -487,4 +488,84 @@ void fw_statics_quasi_static_finish(fw_statics_quasi_static *r) {
     m->accuracy = r->options->accuracy > 0 ? r->options->accuracy : 1e-3;
     m->tolerance =
         "as many equilibria as keep what is read off between them to a fiftieth of the accuracy";
+}
+
+/* ---- how far drivers and heat hold a device ----
+   For one unit of one of them, all others as they begin: the equilibrium with it at its farthest less that without, over
+   how far it goes, (3 nbody) in m and rad; 0 where there is no equilibrium. Error: that of a straight way. Cost: one or two
+   equilibria. Test: test_effects.py, test_what_comes_again_whatever_drives_it */
+
+/* where it rests in a scene, as drivers stand at its end; false: nowhere */
+static fw_status rests_at(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
+                          const double **from, const double **to, bool *known) {
+    const fw_statics_static_options o = {.accuracy = 0.03};
+    const fw_statics *found = NULL;
+    fw_diags own = fw_diags_new(arena);
+    const fw_status status = fw_statics_solve(arena, m, scene, &o, &own, &found);
+    *known = status == FW_OK && found;
+    if (*known) *from = found->rest_q, *to = found->q;
+    if (status == FW_CANCELLED) return status;
+    return status == FW_NOMEM || own.failed ? FW_NOMEM : FW_OK;
+}
+
+fw_status fw_statics_driven_way(fw_arena *arena, const fw_mechanism *m, int driver, double end_s,
+                                double *way, bool *known) {
+    enum { HALVINGS = 6 };
+    static const double ends[2] = {0, 1};
+    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
+    const size_t n = (size_t)m->ndriver;
+    fw_mechanism held = *m;
+    double *value, turned = 1;
+    const double *from, *to;
+    FW_NEED(held.driver = fw_arena_grow(arena, m->driver, n, n, sizeof *held.driver));
+    FW_NEED(value = fw_arena_array(arena, double, 2 * n));
+    for (int i = 0; i < m->ndriver; i++) {
+        double *at = value + 2 * i;
+        fw_quantity_law_goes(&m->driver[i].law, end_s, &at[0], &at[1]);
+        if (i == driver)
+            turned = at[1] - at[0];
+        else
+            at[1] = at[0];
+        held.driver[i].law = (fw_quantity_law){
+            .kind = &fw_quantity_law_table, .table_t_s = ends, .table_value = at, .ntable = 2};
+    }
+    FW_TRY(rests_at(arena, &held, &still, &from, &to, known));
+    for (int k = 0; !*known && k < HALVINGS; k++) { /* it comes so far in motion alone */
+        double *at = value + 2 * driver;
+        at[1] = 0.5 * (at[0] + at[1]), turned *= 0.5;
+        FW_TRY(rests_at(arena, &held, &still, &from, &to, known));
+    }
+    for (int i = 0; *known && i < 3 * m->nbody; i++)
+        way[i] = (to[i] - from[i]) / turned;
+    return FW_OK;
+}
+
+/* of a still scene that has something more, against one that has not */
+static fw_status way_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *held,
+                        double *way, bool *known) {
+    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
+    const double *rest, *from, *to;
+    bool there[2];
+    FW_TRY(rests_at(arena, m, &still, &rest, &from, &there[0]));
+    FW_TRY(rests_at(arena, m, held, &rest, &to, &there[1]));
+    *known = there[0] && there[1];
+    for (int i = 0; *known && i < 3 * m->nbody; i++)
+        way[i] = to[i] - from[i];
+    return FW_OK;
+}
+
+fw_status fw_statics_heated_way(fw_arena *arena, const fw_mechanism *m,
+                                const fw_device_temperature *heat, double *way, bool *known) {
+    fw_device_temperature steady = *heat;
+    const fw_device_scene heated = {
+        .name = "(none)", .duration_s = 1, .temperature = &steady, .ntemperature = 1};
+    steady.law = NULL;
+    return way_of(arena, m, &heated, way, known);
+}
+
+fw_status fw_statics_stressed_way(fw_arena *arena, const fw_mechanism *m,
+                                  const fw_device_scene *scene, double *way, bool *known) {
+    const fw_device_scene stressed = {
+        .name = "(none)", .duration_s = 1, .stress = scene->stress, .nstress = scene->nstress};
+    return way_of(arena, m, &stressed, way, known);
 }

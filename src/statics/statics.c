@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "effects/envelope.h"
-#include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "statics/statics_equilibrium.h"
 #include <float.h>
@@ -398,142 +397,178 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
     }
 }
 
-/* ---- modes where joints rub ---- */
+/* ---- small motions where joints and cables rub ---- */
 
-/* Between which frequencies the modes lie where joints rub: each sticks or slides, and any that sticks is one condition
-   h_j u = 0 more. Of the pencil diag(value) in the modes, on the null space Z of the rows h_j . shape_k,
+/* Between which frequencies and compliances a device lies where joints and cables rub: each sticks or slides. Of the pencil
+   diag(value) in the modes, all that slides: any joint that sticks is one condition h_j u = 0 more, and so on the null space
+   Z of the rows h_j . shape_k; any cable that does adds S, and one that slips takes s (fw_effects_eyelet_friction_segments):
 
-     omega_k (all slide) <= omega_k (some stick) <= stuck_k = eigenvalue k of Z^T diag(value) Z
+     diag(value) - s   <=   omega_k (all slide)   <=   stuck_k = eigenvalue k of Z^T (diag(value) + S) Z
 
-   Inputs: an evaluated state, scaled. Output: stuck_Hz of the first modes, infinite of those that no freedom is left for.
-   Valid for small motions about the pose; cables that rub on eyelets are as they slide. Error: round-off. Cost: dof^3.
-   Source: Courant, Fischer (R. Horn, C. Johnson, Matrix Analysis, 4.3). Test: tests/cli/test_friction_range.py */
-fw_status fw_statics_equilibrium_stick(fw_statics_equilibrium *w, fw_statics_modes *out) {
-    const fw_statics_reduced *r = &w->reduced;
-    const size_t n = (size_t)r->n, dof = (size_t)r->dof;
-    double *row, *part, *small, *value, *vector;
+   Inputs: an evaluated state, scaled. Output: stuck_Hz and slid_Hz of the modes, infinite of those that no freedom is left
+   for; held and slides, the inverses of both. Valid for small motions about the pose. Error: round-off; s of a cable of which
+   more than one segment moves is a guess. Cost: dof^3. Source: Courant, Fischer (R. Horn, C. Johnson, Matrix Analysis, 4.3).
+   Test: tests/cli/test_friction_range.py */
+
+typedef struct sticking {
+    fw_statics_equilibrium *w;
+    size_t dof;
+    double *row, *held, *slides; /* (count x n) of what does not move; (dof x dof) */
+    double *side;                /* (dof) 1; -1: as it is shown a mode is turned round */
+    int count, cables;
+} sticking;
+
+/* along (dof): of a row (3 nbody) in SI, scaled, in every mode; to: the row itself */
+static void row_along(const sticking *s, const double *row, double *to, double *along) {
+    const fw_statics_reduced *r = &s->w->reduced;
+    const double unit = s->w->model->scale.length_m;
+    for (int i = 0; i < r->n; i++)
+        to[i] = row[i] / (i % 3 == 2 ? unit : 1);
+    for (size_t k = 0; k < s->dof; k++)
+        for (size_t i = 0; i < (size_t)r->n; i++)
+            along[k] += to[i] * r->shape[k * (size_t)r->n + i];
+}
+
+static void add_square(size_t n, double times, const double *x, double *a) {
+    for (size_t i = 0; i < n * n; i++)
+        a[i] += times * x[i / n] * x[i % n];
+}
+
+static fw_status add_cable(sticking *s, const fw_effects_segments *c) {
+    const fw_multibody_model *m = s->w->model;
+    const size_t n = (size_t)m->nq;
+    const double unit = m->scale.length_m / fw_multibody_newton(m);
+    double *along, *all;
+    FW_NEED(along = fw_arena_array(s->w->arena, double, s->dof *((size_t)c->n + 1)));
+    all = along + s->dof * (size_t)c->n;
+    for (int i = 0; i < c->n; i++) {
+        double *to = along + s->dof * (size_t)i, *row = s->row + n * (size_t)s->count;
+        row_along(s, c->row + n * (size_t)i, row, to);
+        for (size_t k = 0; k < s->dof; k++)
+            all[k] += to[k];
+        if (isinf(c->alone_N_per_m[i]))
+            s->count++;
+        else
+            add_square(s->dof, c->alone_N_per_m[i] * unit, to, s->held);
+    }
+    add_square(s->dof, -c->whole_N_per_m * unit, all, s->held);
+    add_square(s->dof, -c->less * c->whole_N_per_m * unit, all, s->slides);
+    s->cables++;
+    return FW_OK;
+}
+
+/* taut ones */
+static fw_status add_cables(sticking *s, const double *q) {
+    const fw_statics_equilibrium *w = s->w;
+    const fw_multibody_model *m = w->model;
+    for (int i = 0, tendon = 0; i < m->nelement; i++) {
+        const fw_effects_force_element *e = m->element[i].own;
+        fw_effects_segments c;
+        if (strcmp(e->class_->effect, "tendon") != 0) continue;
+        const int at = tendon++, on = m->nstop + m->ncable + m->element[i].first_switch;
+        if (e->switches > 0 && !fw_multibody_switch_on(w->system, on)) continue;
+        FW_TRY(fw_effects_eyelet_friction_segments(w->arena, w->scene, at, e, q,
+                                                   w->mechanism->nbody, &c));
+        if (c.n > 0) FW_TRY(add_cable(s, &c));
+    }
+    return FW_OK;
+}
+
+/* eigenvalues (left) of a on the span of free (left x dof), and there its inverse, SI, by modes as they are shown; NULL: nothing
+   holds it */
+static fw_status give_within(const sticking *s, const double *a, const double *free, size_t left,
+                             double *value, const double **give) {
+    const size_t dof = s->dof;
+    double *small, *vector, *x, *to, *half;
+    FW_NEED(small = fw_arena_array(s->w->arena, double, 2 * left * left + 1));
+    FW_NEED(half = fw_arena_array(s->w->arena, double, left *dof + 1));
+    FW_NEED(to = fw_arena_array(s->w->arena, double, dof *(dof + 1)));
+    vector = small + left * left, x = to + dof * dof, *give = NULL;
+    for (size_t i = 0; i < left * dof; i++)
+        for (size_t k = 0; k < dof; k++)
+            half[i] += free[i / dof * dof + k] * a[k * dof + i % dof];
+    for (size_t i = 0; i < left * left; i++)
+        for (size_t k = 0; k < dof; k++)
+            small[i] += half[i / left * dof + k] * free[i % left * dof + k];
+    if (left > 0 && !fw_maths_jacobi((int)left, small, value, vector)) return FW_SOLVER;
+    for (size_t v = 0; v < left; v++) {
+        memset(x, 0, dof * sizeof *x);
+        for (size_t i = 0; i < left; i++)
+            for (size_t k = 0; k < dof; k++)
+                x[k] += vector[v * left + i] * free[i * dof + k] * s->side[k];
+        add_square(dof, 1 / (value[v] * fw_statics_equilibrium_per_s2(s->w)), x, to);
+    }
+    if (left == 0 || value[0] > s->w->reduced.zero[0]) *give = to;
+    return FW_OK;
+}
+
+/* modes may have been turned round to be shown */
+static fw_status sides_of(sticking *s, const fw_statics_modes *out) {
+    const fw_statics_reduced *r = &s->w->reduced;
+    FW_NEED(s->side = fw_arena_array(s->w->arena, double, s->dof));
+    for (size_t k = 0; k < s->dof; k++) {
+        double same = 0;
+        for (size_t i = 0; i < (size_t)r->n; i++)
+            same += r->shape[k * (size_t)r->n + i] * out->mode[k].shape[i];
+        s->side[k] = same < 0 ? -1 : 1;
+    }
+    return FW_OK;
+}
+
+/* what may move where the rows do not */
+static fw_status free_of(const sticking *s, const double **free, size_t *left) {
+    const size_t n = (size_t)s->w->reduced.n, dof = s->dof;
+    double *part;
     fw_maths_singular z;
-    int count, rank = 0;
-    for (int k = 0; k < out->count; k++)
-        out->mode[k].stuck_Hz = (double)NAN;
-    if (w->sparse) return FW_OK;
-    FW_TRY(fw_statics_equilibrium_rubbing(w, &count, &row));
-    if (count == 0 || dof == 0) return FW_OK;
-    FW_NEED(part = fw_arena_array(w->arena, double, (size_t)count *dof));
-    for (size_t j = 0; j < (size_t)count; j++)
+    int rank = 0;
+    FW_NEED(part = fw_arena_array(s->w->arena, double, dof *(size_t)(s->count > 0 ? s->count : 1)));
+    for (size_t j = 0; j < (size_t)s->count; j++)
         for (size_t k = 0; k < dof; k++)
             for (size_t i = 0; i < n; i++)
-                part[j * dof + k] += row[j * n + i] * r->shape[k * n + i];
-    FW_TRY(fw_maths_singular_new(w->arena, count, r->dof, part, &z));
-    while (rank < count && rank < r->dof && z.sigma[rank] > 1e-10 * z.sigma[0])
+                part[j * dof + k] += s->row[j * n + i] * s->w->reduced.shape[k * n + i];
+    FW_TRY(fw_maths_singular_new(s->w->arena, s->count > 0 ? s->count : 1, (int)dof, part, &z));
+    while (rank < s->count && rank < (int)dof && z.sigma[rank] > 1e-10 * z.sigma[0])
         rank++;
-    const size_t left = dof - (size_t)rank;
-    const double *free = z.v + (size_t)rank * dof;
-    FW_NEED(small = fw_arena_array(w->arena, double, left *left));
-    FW_NEED(value = fw_arena_array(w->arena, double, left));
-    FW_NEED(vector = fw_arena_array(w->arena, double, left *left));
-    for (size_t a = 0; a < left; a++)
-        for (size_t b = 0; b < left; b++)
-            for (size_t k = 0; k < dof; k++)
-                small[a * left + b] += free[a * dof + k] * r->value[k] * free[b * dof + k];
-    if (left > 0 && !fw_maths_jacobi((int)left, small, value, vector)) return FW_SOLVER;
+    *left = dof - (size_t)rank, *free = z.v + (size_t)rank * dof;
+    return FW_OK;
+}
+
+static double hertz(const sticking *s, double value) {
+    return sqrt(fmax(value, 0) * fw_statics_equilibrium_per_s2(s->w)) / (2 * FW_PI);
+}
+
+fw_status fw_statics_equilibrium_stick(fw_statics_equilibrium *w, fw_statics_modes *out) {
+    const size_t dof = (size_t)w->reduced.dof, n = (size_t)w->reduced.n;
+    sticking s = {.w = w, .dof = dof};
+    const double *free;
+    double *joints, *value, *every;
+    size_t left, most = 1;
+    for (int k = 0; k < out->count; k++)
+        out->mode[k].stuck_Hz = out->mode[k].slid_Hz = (double)NAN;
+    const bool cables = w->scene && fw_effects_eyelet_friction_of(w->scene) > 0;
+    if (w->sparse || dof == 0) return FW_OK;
+    FW_TRY(fw_statics_equilibrium_rubbing(w, &s.count, &joints));
+    if (s.count == 0 && !cables) return FW_OK;
+    for (int i = 0; cables && i < w->scene->ntendon; i++)
+        most += (size_t)w->scene->tendon[i].neyelet;
+    FW_NEED(s.row = fw_arena_array(w->arena, double, ((size_t)s.count + most) * n));
+    memcpy(s.row, joints, (size_t)s.count * n * sizeof *joints);
+    FW_NEED(s.held = fw_arena_array(w->arena, double, 4 * dof * dof));
+    s.slides = s.held + dof * dof, every = s.slides + dof * dof, value = every + dof * dof;
     for (size_t k = 0; k < dof; k++)
-        out->mode[k].stuck_Hz =
-            k < left ? sqrt(fmax(value[k], 0) * fw_statics_equilibrium_per_s2(w)) / (2 * FW_PI)
-                     : (double)INFINITY;
+        s.held[k * dof + k] = s.slides[k * dof + k] = w->reduced.value[k], every[k * dof + k] = 1;
+    if (cables) FW_TRY(add_cables(&s, out->q));
+    if (s.count == 0 && s.cables == 0) return FW_OK;
+    FW_TRY(sides_of(&s, out));
+    FW_TRY(give_within(&s, s.slides, every, dof, value, &out->slides));
+    for (size_t k = 0; k < dof; k++)
+        out->mode[k].slid_Hz =
+            s.cables > 0 ? fmin(hertz(&s, value[k]), out->mode[k].f_Hz) : out->mode[k].f_Hz;
+    FW_TRY(free_of(&s, &free, &left));
+    FW_TRY(give_within(&s, s.held, free, left, value, &out->held));
+    for (size_t k = 0; k < dof; k++)
+        out->mode[k].stuck_Hz = k < left ? hertz(&s, value[k]) : (double)INFINITY;
     return FW_OK;
-}
-
-/* ---- how far drivers and heat hold a device ----
-   For one unit of one of them, all others as they begin: the equilibrium with it at its farthest less that without, over
-   how far it goes, (3 nbody) in m and rad; 0 where there is no equilibrium. Error: that of a straight way. Cost: one or two
-   equilibria. Test: test_effects.py, test_what_comes_again_whatever_drives_it */
-
-/* where it rests in a scene, as drivers stand at its end; false: nowhere */
-static fw_status rests_at(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *scene,
-                          const double **from, const double **to, bool *known) {
-    const fw_statics_static_options o = {.accuracy = 0.03};
-    const fw_statics *found = NULL;
-    fw_diags own = fw_diags_new(arena);
-    const fw_status status = fw_statics_solve(arena, m, scene, &o, &own, &found);
-    *known = status == FW_OK && found;
-    if (*known) *from = found->rest_q, *to = found->q;
-    if (status == FW_CANCELLED) return status;
-    return status == FW_NOMEM || own.failed ? FW_NOMEM : FW_OK;
-}
-
-fw_status fw_statics_driven_way(fw_arena *arena, const fw_mechanism *m, int driver, double end_s,
-                                double *way, bool *known) {
-    enum { HALVINGS = 6 };
-    static const double ends[2] = {0, 1};
-    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
-    const size_t n = (size_t)m->ndriver;
-    fw_mechanism held = *m;
-    double *value, turned = 1;
-    const double *from, *to;
-    FW_NEED(held.driver = fw_arena_grow(arena, m->driver, n, n, sizeof *held.driver));
-    FW_NEED(value = fw_arena_array(arena, double, 2 * n));
-    for (int i = 0; i < m->ndriver; i++) {
-        double *at = value + 2 * i;
-        fw_quantity_law_goes(&m->driver[i].law, end_s, &at[0], &at[1]);
-        if (i == driver)
-            turned = at[1] - at[0];
-        else
-            at[1] = at[0];
-        held.driver[i].law = (fw_quantity_law){
-            .kind = &fw_quantity_law_table, .table_t_s = ends, .table_value = at, .ntable = 2};
-    }
-    FW_TRY(rests_at(arena, &held, &still, &from, &to, known));
-    for (int k = 0; !*known && k < HALVINGS; k++) { /* it comes so far in motion alone */
-        double *at = value + 2 * driver;
-        at[1] = 0.5 * (at[0] + at[1]), turned *= 0.5;
-        FW_TRY(rests_at(arena, &held, &still, &from, &to, known));
-    }
-    for (int i = 0; *known && i < 3 * m->nbody; i++)
-        way[i] = (to[i] - from[i]) / turned;
-    return FW_OK;
-}
-
-/* of a still scene that has something more, against one that has not */
-static fw_status way_of(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *held,
-                        double *way, bool *known) {
-    const fw_device_scene still = {.name = "(none)", .duration_s = 1};
-    const double *rest, *from, *to;
-    bool there[2];
-    FW_TRY(rests_at(arena, m, &still, &rest, &from, &there[0]));
-    FW_TRY(rests_at(arena, m, held, &rest, &to, &there[1]));
-    *known = there[0] && there[1];
-    for (int i = 0; *known && i < 3 * m->nbody; i++)
-        way[i] = to[i] - from[i];
-    return FW_OK;
-}
-
-fw_status fw_statics_heated_way(fw_arena *arena, const fw_mechanism *m,
-                                const fw_device_temperature *heat, double *way, bool *known) {
-    fw_device_temperature steady = *heat;
-    const fw_device_scene heated = {
-        .name = "(none)", .duration_s = 1, .temperature = &steady, .ntemperature = 1};
-    steady.law = NULL;
-    return way_of(arena, m, &heated, way, known);
-}
-
-fw_status fw_statics_stressed_way(fw_arena *arena, const fw_mechanism *m,
-                                  const fw_device_scene *scene, double *way, bool *known) {
-    const fw_device_scene stressed = {
-        .name = "(none)", .duration_s = 1, .stress = scene->stress, .nstress = scene->nstress};
-    return way_of(arena, m, &stressed, way, known);
-}
-
-/* ---- what frequencies are off by ---- */
-
-/* Of a frequency, by the error e of its stiffness: half of it, and above a tenth 1 - sqrt(1 - e), which is the larger of
-   both sides (5 % of half of it more there), and all of it from e = 1 on: nothing may be left. */
-double fw_statics_root_error(double error) {
-    return error > 0.1 ? 1 - sqrt(1 - fmin(error, 1)) : 0.5 * error;
-}
-
-double fw_statics_mode_error(const fw_statics_mode *mode) {
-    return mode->model_error + fw_statics_root_error(mode->stiffness_error);
 }
 
 /* ---- films of gas that are springs as well (effects/squeeze_film.c) ---- */

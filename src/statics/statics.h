@@ -215,9 +215,9 @@ enum { FW_MODE_FRAMES = 25 }; /* one period, first and last the same */
 typedef struct fw_statics_mode {
     fw_statics_mode_kind kind;
     double omega_rad_per_s, f_Hz; /* undamped; 0 where there is none */
-    /* with all joints that rub stuck, which f_Hz is without: between the two for any that do. Infinite: nothing is left to
-       move; NaN: nothing rubs, or only the lowest modes are known */
-    double stuck_Hz;
+    /* with all joints and cables that rub stuck, and with cables that slip, at least (of joints f_Hz): between the two for any
+       that do. Infinite: nothing is left to move; NaN: nothing rubs, or only the lowest modes are known */
+    double stuck_Hz, slid_Hz;
     double stiffness_per_s2;       /* omega^2, below 0 when unstable */
     double eigenvalue_per_s[2][2]; /* damped, re and im: a conjugate pair (im > 0 first), or two
                                       real ones, the larger first */
@@ -258,6 +258,9 @@ typedef struct fw_statics_modes {
     double frequency_error, stiffness_error;
     /* (count x count) what the next model of the hinges makes of compliances, as fw_statics_level_small has it; NULL: not known */
     const double *softer;
+    /* (count x count) compliances, 1/s^-2 along shapes over the root of their modal mass, where all that rubs is stuck, and where
+       it slips; NULL: nothing rubs, or nothing holds it */
+    const double *held, *slides;
     fw_statics_row_rank rank;
     fw_effect_ledger ledger;
 } fw_statics_modes;

@@ -559,3 +559,15 @@ void fw_statics_equilibrium_rate(const fw_statics_equilibrium *w, double *rate) 
         for (size_t i = 0; i < n; i++)
             rate[i] += r->shape[k * n + i] * (w->push[k] / r->value[k]);
 }
+
+/* ---- what frequencies are off by ---- */
+
+/* Of a frequency, by the error e of its stiffness: half of it, and above a tenth 1 - sqrt(1 - e), which is the larger of
+   both sides (5 % of half of it more there), and all of it from e = 1 on: nothing may be left. */
+double fw_statics_root_error(double error) {
+    return error > 0.1 ? 1 - sqrt(1 - fmin(error, 1)) : 0.5 * error;
+}
+
+double fw_statics_mode_error(const fw_statics_mode *mode) {
+    return mode->model_error + fw_statics_root_error(mode->stiffness_error);
+}

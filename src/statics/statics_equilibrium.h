@@ -342,7 +342,7 @@ fw_status fw_statics_quasi_static_begin(fw_statics_quasi_static *r);
 fw_status fw_statics_quasi_static_record(fw_statics_quasi_static *r);
 void fw_statics_quasi_static_finish(fw_statics_quasi_static *r);
 
-/* statics.c: of a frequency, by the error of its stiffness */
+/* statics_equilibrium.c: of a frequency, by the error of its stiffness */
 double fw_statics_root_error(double error);
 /* statics.c: mode->raised of each, and a warning (FW-D754) where that is more than a frequency is off by; diags NULL: none */
 fw_status fw_statics_films_raise(fw_arena *arena, const fw_mechanism *mechanism,

@@ -583,18 +583,17 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
         if (!all) return NULL;
     }
     char rings[FW_PROBE_TEXT], when[FW_PROBE_TEXT];
-    const char *still =
-        r->rings > 0
-            ? fw_arena_printf(
-                  arena,
-                  " of a motion that has not come to rest (where it ends it still goes to and fro "
-                  "by %s to either side: a longer scene or damping, <air> or <material-damping>, "
-                  "lets it settle)",
-                  fw_probe_text(rings, r->rings, r->unit))
-            : "";
+    const char *still = "",
+               *rubs = r->rubs ? ", from all that rubs sliding to all of it stuck" : "";
+    if (r->rings > 0)
+        still = fw_arena_printf(arena,
+                                " of a motion that has not come to rest (where it ends it still "
+                                "goes to and fro by %s to either side: a longer scene or damping, "
+                                "<air> or <material-damping>, lets it settle)",
+                                fw_probe_text(rings, r->rings, r->unit));
     if (!still) return NULL;
-    return fw_arena_printf(arena, "%s (%s) is %s%s (%s to %s%s), and at %s %s is required%s",
+    return fw_arena_printf(arena, "%s (%s) is %s%s (%s to %s%s%s), and at %s %s is required%s",
                            r->probe, of, fw_probe_text(value, r->value, r->unit),
-                           fw_probe_when(when, r->measure ? (double)NAN : r->t_s), low, high, all,
-                           below ? "least" : "most", bound, still);
+                           fw_probe_when(when, r->measure ? (double)NAN : r->t_s), low, high, rubs,
+                           all, below ? "least" : "most", bound, still);
 }

@@ -168,17 +168,20 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
 }
 
 void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
-                            double times, double *low, double *high) {
+                            double times, fw_verdict_requirement *r) {
+    double by[2] = {1, 1};
     for (int i = 0; i < others->count; i++) {
         const fw_statics_modes *now = others->modes[i];
         const double x = mode == 0            ? fw_probe_small(probe, now)
                          : mode <= now->count ? now->mode[mode - 1].f_Hz
                                               : (double)NAN;
         if (!isfinite(x)) continue;
-        *low = fmin(*low, x * fmin(1, times)), *high = fmax(*high, x * fmax(1, times));
+        r->low = fmin(r->low, x * fmin(1, times)), r->high = fmax(r->high, x * fmax(1, times));
     }
-    if (others->at && mode > 0) *high *= others->at->mode[mode - 1].raised;
-    if (others->lost) *low = 0, *high = HUGE_VAL;
+    if (others->at && mode > 0) r->high *= others->at->mode[mode - 1].raised;
+    if (others->at) fw_probe_small_rubs(probe, others->at, mode, by);
+    r->low *= by[0], r->high *= by[1], r->rubs = by[0] < 1 || by[1] > 1;
+    if (others->lost) r->low = 0, r->high = HUGE_VAL;
 }
 
 const char *fw_verdict_small_open(fw_arena *arena, const fw_mechanism *m,

@@ -198,7 +198,7 @@ typedef struct fw_verdict_requirement {
     bool by_max;  /* of its max; else of its min */
     double swing; /* how far it goes from where it was drawn; of a gap, how far outlines move */
     double swing_most; /* the same at the end of a band, with modes where they were computed */
-    bool size;         /* it is a gap, which is not below 0 */
+    bool size, rubs;   /* a gap, which is not below 0; its band has what rubs sliding and stuck */
     double numeric;    /* part of the band on either side that a tighter run would take away */
     double lasting;    /* relative part of it that no better model of the hinges would take away */
     double t_s;        /* when; NaN: no one time */

@@ -284,7 +284,7 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
                                  fw_verdict_small_others *others);
 /* a band takes in what a probe (mode 0), or a mode's frequency (from 1 on), is in these. times: of the softer side, by its place */
 void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
-                            double times, double *low, double *high);
+                            double times, fw_verdict_requirement *r);
 /* required_small.c: relative, by the energies that flexures have of what the probe's unit load displaces; why a band has no
    ends, and what would give it some */
 fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,

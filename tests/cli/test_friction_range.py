@@ -339,6 +339,48 @@ class ModesBetween(unittest.TestCase):
 
 
 
+class Cables(unittest.TestCase):
+    """a leaf beside a cable of k over an eyelet that bends it by 90 deg: k while it slides, k L/l of the segment before it while it
+    sticks, k e^(-mu beta) at least while it slips"""
+
+    LEVER = """<device xmlns="urn:flexwright:device:1" name="lever"><material ref="silicon-100" thickness="50 um"/>
+<flexure id="l" kind="leaf" length="400 um" width="10 um"/>
+<mechanism><body id="J" mass="1 mg" inertia="0.1 mg mm^2" x="0 mm" y="0 mm"/>
+<revolute id="A" a="ground" b="J" b-y="-1 mm" a-y="-1 mm" hinge="l" axis="90 deg"/></mechanism>
+<probe id="k" kind="stiffness" on="J" direction="0 deg"/><probe id="c" kind="compliance" on="J" direction="0 deg"/>
+<require probe="k" max="18 N/m" scene="draw"/><require probe="c" min="20 mm/N" scene="draw"/><require frequency="1" max="900 Hz" scene="draw"/>
+<scene name="draw" duration="10 ms"><tendon id="t" %s><eyelet on="J"/><eyelet on="ground" x="2 mm" y="0 mm"/><eyelet on="ground" %s/></tendon>%s
+</scene></device>"""
+    DRAWN, BENT, RUBS = 'draw="0.02 um" stiffness="10 N/m"', 'x="2 mm" y="-2 mm"', '<eyelet-friction coefficient="0.2"/>'
+
+    def required(self, *of):
+        done = run("check", "-", "--corners", "none", "--advice", "none", "--json", "-q", input=self.LEVER % of)
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        return json.loads(done.stdout)["requirements"]
+
+    def test_a_stiffness_with_a_cable_that_rubs(self):
+        """a stiffness of at most 18 N/m was accepted, which is 21.8 while the cable sticks"""
+        free = self.required(self.DRAWN, self.BENT, "")
+        rubs = self.required(self.DRAWN, self.BENT, self.RUBS)
+        for was, now in zip(free, rubs):
+            self.assertEqual(was["value"], now["value"])
+        k = free[0]["value"]
+        held, slips = (k + 10) / k, (k - 10 * (1 - np.exp(-0.2 * np.pi / 2))) / k
+        for row, low, high in zip(range(3), (slips, 1 / held, slips**0.5), (held, 1 / slips, held**0.5)):
+            was, now = free[row]["band"], rubs[row]["band"]
+            self.assertAlmostEqual(now[0] / was[0] / low, 1, 2)
+            self.assertAlmostEqual(now[1] / was[1] / high, 1, 2)
+        self.assertEqual([r["verdict"] for r in (*free, *rubs)], ["accept"] * 3 + ["inconclusive", "accept", "accept"])
+        self.assertEqual(self.required(self.DRAWN, 'x="4 mm" y="0 mm"', self.RUBS)[0]["band"], self.required(self.DRAWN, 'x="4 mm" y="0 mm"', "")[0]["band"])
+
+    def test_a_pulled_cable_states_no_stiffness(self):
+        """while it sticks nothing says how far the segment gives"""
+        k, c, f = self.required('pull="1 uN"', self.BENT, self.RUBS)
+        self.assertEqual((k["verdict"], k["band"][1], c["verdict"], c["band"][0]), ("inconclusive", None, "inconclusive", 0))
+        said = run("check", "-", "--corners", "none", "--advice", "none", input=self.LEVER % ('pull="1 uN"', self.BENT, self.RUBS)).stdout
+        self.assertIn("from all that rubs sliding to all of it stuck", " ".join(said.split()))
+
+
 class Sliders(unittest.TestCase):
     def test_errors_hold_what_a_tighter_run_finds(self):
         """six sliders, of which a run of the accuracy that is asked misses an event that a tighter one has, and the run that it is compared
