@@ -91,7 +91,13 @@ void fw_measuring_put_band(fw_text *out, const fw_verdict_band *band) {
         fw_text_add(out, "cut through");
         return;
     }
+    const double no_end =
+        100; /* a min above 0 of what may be next to nothing, or on the other side of 0 */
     percent(out, band->low);
+    if (band->high >= no_end && isfinite(band->high)) {
+        fw_text_add(out, " % to next to nothing of what is asked for");
+        return;
+    }
     if (isinf(band->high)) {
         fw_text_add(out, " % to cut through");
         return;

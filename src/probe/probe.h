@@ -111,8 +111,10 @@ typedef struct fw_probe_course { /* of one probe */
     bool searched;           /* `within` was asked: */
     double below, above;     /* proved: no value is beyond these */
     double moved;            /* the largest */
-    int count;               /* in all; 0: it has no value in this scene */
-    double *time, *value;    /* (kept) every instant and extreme, where and from when asked for */
+    double met;              /* of a gap that has closed: what that was by then, at most */
+    bool meets;
+    int count;            /* in all; 0: it has no value in this scene */
+    double *time, *value; /* (kept) every instant and extreme, where and from when asked for */
     size_t kept, room;
 } fw_probe_course;
 
@@ -171,6 +173,9 @@ typedef struct fw_probe_result { /* what a motion did, and by how much that may 
        are of what is beyond it, or, of a gap, of how far its outlines were moved against each other */
     double origin;
     double moved; /* of a gap; else NaN */
+    /* of a gap that has closed: the share of its motion by which it has, so that one that is less by all its errors closes it, too, as
+       clearances have it; NaN: it has not, or walls that are etched away leave it open */
+    double met;
     /* errors of extremes, of the final value, of `across`: what two runs and the search between
        instants say, and effects left out; infinite without a second run */
     double numeric, final_numeric, across_numeric;

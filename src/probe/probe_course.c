@@ -323,6 +323,7 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
                            .peak = (double)NAN,
                            .across = (double)NAN,
                            .moved = (double)NAN,
+                           .met = (double)NAN,
                            .level = (double)NAN,
                            .across_level = (double)NAN};
     if (c->count == 0) return;
@@ -339,6 +340,7 @@ void fw_probe_result_of(const fw_probe_monitor *monitor, const fw_probe_monitor 
     errors(p, c, looser ? &looser->course[probe] : NULL, motion, r);
     rub(monitor, p, motion, r);
     if (p->row->moved) r->moved = c->moved;
+    if (c->meets && fw_probe_gap_etched_m(p) == 0) r->met = c->moved > 0 ? c->met / c->moved : 0;
     if (p->row->moved && c->minimum.value == 0) { /* how deep they are in each other is not known */
         r->numeric += fw_probe_gap_etched_m(p);
         r->final_numeric += fw_probe_gap_etched_m(p);

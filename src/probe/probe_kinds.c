@@ -206,6 +206,8 @@ static void gap_within(const fw_probe *p, const fw_clearance_path *piece, fw_pro
     gap_extreme(p, piece, -1, course);
     gap_extreme(p, piece, 1, course);
     course->searched = true;
+    if (course->minimum.value <= 0 && !course->meets)
+        course->meets = true, course->met = course->moved;
 }
 
 const fw_probe_row fw_probe_gap = {.value = gap_value, .within = gap_within, .moved = gap_moved};

@@ -250,7 +250,10 @@ static bool is_there(const fw_report_page *page, int i) {
     return !sections[i].there || sections[i].there(page);
 }
 
-static void head(fw_report_page *page) {
+/* its title says what the terminal says first */
+static fw_status head(fw_report_page *page) {
+    fw_report_summary top;
+    FW_TRY(fw_report_summarise(page->out->arena, page->in, &top));
     fw_markup(page->out,
               "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n"
               "<head>\n<meta charset=\"utf-8\"/>\n"
@@ -258,9 +261,12 @@ static void head(fw_report_page *page) {
               "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
               "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\"/>\n"
               "<meta name=\"generator\" content=\"Flexwright {s}\"/>\n"
-              "<title>{s}: {r}</title>\n<style>\n{r}</style>\n</head>\n<body>\n",
+              "<title>{s}: {r}{r}{s}</title>\n<style>\n{r}</style>\n</head>\n<body>\n",
               page->in->version, page->in->device->name,
-              fw_report_decision_word(page->in->verdict->decision), style_sheet);
+              fw_report_decision_word(page->in->verdict->decision),
+              top.unmade ? ", but cannot be made in " : "", top.unmade ? top.unmade : "",
+              style_sheet);
+    return FW_OK;
 }
 
 static void navigation(fw_report_page *page) {
@@ -299,7 +305,7 @@ static fw_status survey(fw_report_page *page) {
 fw_status fw_report_write_html(fw_arena *arena, const fw_report_input *input, fw_text *out) {
     fw_report_page page = {.arena = arena, .out = out, .in = input};
     FW_TRY(survey(&page));
-    head(&page);
+    FW_TRY(head(&page));
     FW_TRY(fw_report_banner(&page));
     navigation(&page);
     fw_text_add(out, "<main>\n");

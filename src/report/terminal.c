@@ -35,7 +35,9 @@ static void requirement_row(fw_text *out, const fw_verdict_requirement *r, const
                    r->scene ? r->scene : fw_verdict_at_rest,
                    fw_probe_when(text, r->measure ? (double)NAN : r->t_s));
     if (at)
-        fw_text_printf(out, ", %s", at);
+        fw_text_printf(out, ", %s%s", at,
+                       reach[0] != r->low || reach[1] != r->high ? "; the band of all corners"
+                                                                 : "");
     else if (r->flow)
         fw_text_printf(out, " (%s)", r->flow);
     fw_text_add(out, "\n");

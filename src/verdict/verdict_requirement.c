@@ -96,9 +96,8 @@ fw_status fw_verdict_requirements_watch(fw_arena *arena, const fw_mechanism *m, 
     double *asked;
     monitor[0] = monitor[1] = NULL;
     if (!v->probed || !moves_in(d, scene)) return FW_OK;
-    FW_NEED(history = fw_arena_array(arena, bool, (size_t)d->nprobe));
-    FW_NEED(judged = fw_arena_array(arena, bool, (size_t)d->nprobe));
-    FW_NEED(ends = fw_arena_array(arena, bool, (size_t)d->nprobe));
+    FW_NEED(history = fw_arena_array(arena, bool, 3 * (size_t)d->nprobe));
+    judged = history + d->nprobe, ends = judged + d->nprobe;
     FW_NEED(asked = fw_arena_array(arena, double, (size_t)d->nprobe));
     for (int k = 0; k < v->nrequirement; k++) {
         const fw_device_requirement *q = &d->requirement[v->requirement[k].asked];
@@ -274,9 +273,9 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion, const
         r->t_s = p->maximum_t_s;
         return;
     case FW_MEASURE_MINIMUM:
-        r->origin = p->origin;
+        r->origin = p->origin, r->t_s = p->minimum_t_s;
         put(r, p->minimum, p->numeric, model, lasting, departure(p, p->minimum), size);
-        r->t_s = p->minimum_t_s;
+        if (p->met * (1 + model + p->numeric / p->moved) < 1) r->high = 0, decide(r);
         return;
     case FW_MEASURE_FINAL:
         r->origin = p->origin;
@@ -320,8 +319,7 @@ static void judge_ended(fw_device_measure measure, fw_verdict_requirement *r) {
     if (stays) return;
     r->value = r->low = r->high = r->margin = (double)NAN;
     r->utilisation = r->utilisation_low = r->utilisation_high = (double)NAN;
-    r->decision = FW_INCONCLUSIVE;
-    r->why = scene_ended;
+    r->decision = FW_INCONCLUSIVE, r->why = scene_ended;
 }
 
 /* Another motion of the scene, with what is left of the band without what the other one has of it */
@@ -344,7 +342,8 @@ static fw_status take_in(const fw_verdict_variant_verdict *v, const fw_dynamics_
                  least = r->low >= 0 && r->value >= 0 && isnan(r->origin) ? 0 : -HUGE_VAL;
     const bool like = time && !(has > 0) && r->value > 0; /* but for what damps */
     const double less = like ? r->low / r->value : 1, more = like ? r->high / r->value : 1;
-    then.low = less * then.value - off, then.high = then.open ? HUGE_VAL : more * then.value + off;
+    then.low = less * then.value - off;
+    then.high = then.open ? HUGE_VAL : then.size && !(then.high > 0) ? 0 : more * then.value + off;
     if (measure == FW_MEASURE_FINAL) FW_TRY(put_ring(v, other, monitor, now, &then));
     if (time && then.open) r->open = then.open;
     const double low = fmin(r->low, fmax(least, then.low)), high = fmax(r->high, then.high);
@@ -363,7 +362,8 @@ static fw_status take_in_motion(const fw_mechanism *m, int scene, const fw_dynam
         const fw_probe_result *p = &v->probed[scene * m->device->nprobe + probe];
         fw_probe_result now;
         if (r->scene_index != scene || !r->measure || r->why) continue;
-        fw_probe_result_of(monitor, NULL, other, probe, &now), now.final_numeric = p->final_numeric;
+        fw_probe_result_of(monitor, NULL, other, probe, &now);
+        now.numeric = p->numeric, now.final_numeric = p->final_numeric;
         if (now.known) FW_TRY(take_in(v, v->motion[scene], other, monitor, p, &now, has, r));
     }
     return FW_OK;

@@ -893,6 +893,22 @@ class Probe(unittest.TestCase):
         self.assertEqual(made["verdict"], "accept", made)
         self.assertGreater(made["band"][0], 43e-6, made)  # 34 um, of 48.4
 
+    CLOSES = """<device xmlns="urn:flexwright:device:1" name="closes"><material ref="silicon-100" thickness="50 um"/><limits safety-factor="1"/>
+<flexure id="l" kind="leaf" length="400 um" width="12 um"/><mechanism>
+<body id="a" x="1 mm" y="0 mm"><bar id="b" x="-0.5 mm" y="0 mm" to-x="0.5 mm" to-y="0 mm" width="100 um"/></body>
+<body id="p" x="1.3 mm" y="0.4 mm"><disc id="k" radius="100 um"/><bar id="s" x="0 mm" y="0 mm" to-x="0 mm" to-y="0.5 mm" width="100 um"/></body>
+<revolute id="A" a="ground" b="a" b-x="-1 mm" hinge="l" axis="180 deg"/><revolute id="P" a="ground" a-x="1.3 mm" a-y="1.4 mm" b="p" b-y="1 mm" hinge="l" axis="90 deg"/>
+</mechanism><probe id="g" kind="gap" a="a" b="p"/><require probe="g" measure="minimum" min="1 um" scene="turn"/>
+<scene name="turn" duration="40 ms"><torque on="a" value="%s uN m" law="ramp" rise="30 ms"/><air kind="slide" gap="5 um"/></scene></device>"""
+
+    def test_a_gap_that_closes_on_the_way_is_rejected(self):
+        """outlines that met after a part of the motion had a least gap of 0 to 35 um, undecided, beside a clearance that was rejected"""
+        for torque, verdict in ((0.2, "accept"), (1.5, "reject")):
+            row = self.answer(self.CLOSES % torque, "check", "--corners", "none", "--advice", "none")["requirements"][0]
+            self.assertEqual(row["verdict"], verdict, (torque, row))
+            if verdict == "reject":
+                self.assertEqual((row["value"], row["band"]), (0, [0, 0]))
+
     def test_a_fast_mode_of_little_does_not_hide_a_ring(self):
         """the last three turns were those of a ripple of 0.3 um: at 42 ms 48.96 um had a band of 0.7 um, in a swing of 57"""
         text = (self.SETTLES % (180, 40, "")).replace('mass="50 ug" inertia="0.01 mg mm^2"/>', '''mass="500 ug" inertia="0.1 mg mm^2"/>
