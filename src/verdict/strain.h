@@ -5,7 +5,7 @@
 #define FW_VERDICT_STRAIN_H
 #include "dynamics/dynamics.h"
 #include "flexure/beam.h"
-#include "flexure/limit.h"
+#include "flexure/flexure.h"
 #include "layout/layout.h"
 #include "maths/functions.h"
 #include "mechanism/mechanism.h"
