@@ -420,7 +420,8 @@ static fw_status hold(sizing *s, double from, double to, double shift, long *fir
 /* As many levels as searches that come somewhere can be paid for: at more of them none would. What they leave of a budget that
    was asked for goes to levels between them. Test: tests/cli/test_sizing.py, Lever */
 static fw_status two_goals(sizing *s, long *first) {
-    enum { PASSES = 3 };
+    static const double shift[] = {0, 0.5, 0.25, 0.75, 0.125};
+    enum { PASSES = sizeof shift / sizeof *shift };
     const goal *a = &s->goal[0], *b = &s->goal[1];
     int low = best_of(s, b), high = best_of(s, a);
     if (low == FW_NONE || high == FW_NONE) return FW_OK;
@@ -432,7 +433,7 @@ static fw_status two_goals(sizing *s, long *first) {
         const int left = left_of(s);
         if (left <= 0 || (pass > 0 && (left < each || s->study->asked->samples <= 0))) break;
         s->levels = (int)fmin(LEVELS, fmax(1, left / each));
-        FW_TRY(hold(s, from, to, pass % 2 > 0 ? 0.5 : 0, first));
+        FW_TRY(hold(s, from, to, shift[pass], first));
     }
     const bool kept = s->for_ends > 0;
     s->for_ends = 0;
