@@ -125,3 +125,20 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     fw_kernel_lanes(avx2 4 -mavx2)
     fw_kernel_lanes(avx512 8 -mavx512f -mavx512dq -mavx512vl)
 endif()
+
+# The law of flexures under forces for hinges side by side, which are to have the bits of one alone: not contracted
+if(CMAKE_C_COMPILER_ID STREQUAL "GNU") # what waits for one another apart: 12 % of one hinge and of four
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/src/flexure/finite_lanes.c PROPERTIES
+                                COMPILE_OPTIONS "-fschedule-insns;-fsched-pressure")
+endif()
+function(fw_hinge_lanes width)
+    add_library(fw_hinge_lanes_${width} OBJECT ${PROJECT_SOURCE_DIR}/src/flexure/finite_lanes.c)
+    target_compile_definitions(fw_hinge_lanes_${width} PRIVATE FW_W=${width})
+    target_compile_options(fw_hinge_lanes_${width} PRIVATE ${ARGN})
+    target_sources(fw_flexure PRIVATE $<TARGET_OBJECTS:fw_hinge_lanes_${width}>)
+endfunction()
+fw_hinge_lanes(2)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    fw_hinge_lanes(4 -mavx2)
+    fw_hinge_lanes(8 -mavx512f -mavx512dq)
+endif()

@@ -119,10 +119,12 @@ fw_status fw_effects_loads_new(fw_arena *arena, const fw_mechanism *mechanism,
 
 typedef struct fw_effects_exact fw_effects_exact;
 
-/* what the closed form said last: force, energy and validity ask for one pose in turn */
+/* where the ports are as a flexure sees them, and what the closed form said there last: force, energy and validity ask for
+   one pose in turn, and the hinges of a model are worked out side by side before (nonlinear_hinge.c) */
 typedef struct fw_effects_bent {
     bool known;
-    double at[3];
+    double p[6];           /* of the ports */
+    double c, n, x, y, th; /* of psi, and e.D, n.D = w, v; the rotation (hinge_element.c) */
     fw_flexure_hinge_bent law;
 } fw_effects_bent;
 
@@ -138,6 +140,19 @@ typedef struct fw_effects_flexed { /* data of an element; ports: pin on body a, 
     fw_effects_exact *exact;    /* NULL: closed form */
 } fw_effects_flexed;
 
+static inline bool fw_effects_bent_at(const fw_effects_bent *b, const double *p) {
+    return b->known && memcmp(b->p, p, sizeof b->p) == 0;
+}
+/* all but the law's */
+static inline void fw_effects_flexed_place(const fw_effects_flexed *f, const double *p,
+                                           fw_effects_bent *b) {
+    const double *pa = p, *pb = p + 3;
+    const double psi = f->axis_rad + 0.5 * (pa[2] + pb[2]), c = cos(psi), n = sin(psi);
+    const double dx = pb[0] - pa[0], dy = pb[1] - pa[1];
+    memcpy(b->p, p, sizeof b->p);
+    b->c = c, b->n = n, b->x = c * dx + n * dy, b->y = c * dy - n * dx;
+    b->th = pb[2] - pa[2] - f->free_rad;
+}
 static inline bool fw_effects_flexed_loses(const fw_effects_flexed *h) {
     return h->loss_s[0] > 0 || h->loss_s[1] > 0;
 }

@@ -33,10 +33,10 @@ typedef struct fw_effects_port { /* a point of a body: local, of the ground: wor
 
 typedef struct fw_effects_port_state { /* what an element sees */
     double t_s, piece_s;               /* for fw_quantity_law_value(law, t_s, piece_s, ...) */
-    double load;     /* actuation is multiplied by it: 1, in statics the load factor s (of
-                            pulls, draws and squared voltages) */
-    const double *p; /* (3 ports) x, y in m from an origin common to all ports, and the turn of
-                            its body in rad */
+    /* what actuation is multiplied by: 1, in statics the load factor s (of pulls, draws and squared voltages) */
+    double load;
+    /* (3 ports) x, y in m from an origin common to all ports, and the turn of its body in rad */
+    const double *p;
     const double *w; /* (3 ports) their velocities */
     const bool *on;  /* (switches) held during a step, changed by events */
     bool still;      /* an equilibrium: laws have their values there, but no rates */
@@ -86,8 +86,7 @@ struct fw_effects_force_element {
     int ports, switches;
     const fw_quantity_law *law[FW_ELEMENT_LAWS]; /* (laws) integration stops at their breaks */
     int laws;
-    int pin;                /* the pin that it stands for (released), or FW_NONE: its force on
-                               its last port's body is then that pin's reaction */
+    int pin; /* the pin that it stands for (released), or FW_NONE: its force on its last port's body is that pin's reaction */
     bool dissipates, works; /* its power[0], power[1] can be other than 0 */
     double size_N_per_m;    /* of its stiffness, for the choice of scales; 0: none */
     double force_N;         /* of its largest force that is not elastic, likewise */
@@ -174,11 +173,9 @@ typedef struct fw_effects_hinge_use { /* how the hinges were taken */
 typedef struct fw_effect_entry { /* a line of the ledger */
     const char *id;
     bool called_for, active;
-    double
-        bound; /* on the relative change of the peak hinge deflection when left out; inf when the effect is the motion */
-    double
-        cost; /* instructions per right-hand side when it is on, as measured once (docs/theory/effects/costs.md) */
-    /* both are 0 when it is not called for */
+    /* on the relative change of the peak hinge deflection when left out, inf when the effect is the motion; instructions per
+       right-hand side when it is on, as measured once (docs/theory/effects/costs.md). 0 when it is not called for */
+    double bound, cost;
     const char *reason;
     const char *looked_at; /* why auto keeps it whatever its bound is (fw_effect_row); or NULL */
 } fw_effect_entry;
@@ -341,11 +338,9 @@ static inline void fw_effects_add_load_value(fw_effects_load_values *values,
         values->more = true;
 }
 
-/* What a mechanism made of solids (continuum/device_deck.c) does with an effect that the scene
-   calls for */
+/* What a mechanism made of solids (continuum/device_deck.c) does with an effect that the scene calls for */
 typedef enum fw_effects_solid {
-    FW_EFFECTS_SOLID_REFUSED, /* nothing is written: without the effect it would be another
-                                 device */
+    FW_EFFECTS_SOLID_REFUSED, /* nothing is written: without the effect it would be another device */
     FW_EFFECTS_SOLID_HAS,     /* the solids have it, or the writer gives it to them */
     FW_EFFECTS_SOLID_NO_PART  /* it has no part in an equilibrium under the loads at the end */
 } fw_effects_solid;
@@ -372,8 +367,7 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     void (*idle)(const fw_effect_case *c, fw_diags *diags);
     bool calms; /* left out by auto only where hinges are pins: those that give vibrate on without
                    it, and every step has to follow them */
-    /* of what is called for: puts behind the reason, in every mode, what a reader has to know;
-       NULL: nothing */
+    /* of what is called for: puts behind the reason, in every mode, what a reader has to know; NULL: nothing */
     fw_status (*note)(const fw_effect_case *c, const char **reason);
     bool by_rate;         /* acts on velocities only: it has no part in an equilibrium */
     bool unbounded_stays; /* not left out where its bound is infinite, whatever was asked for */
@@ -389,8 +383,7 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
     /* of what acts: what its own formula leaves out of it, as a share of what is seen by which values may be off, in every band,
        and in words (NULL: nothing); the member NULL: nothing */
     fw_status (*lacking)(const fw_effect_case *c, double *share, const char **words);
-    /* its part of the sentence about a scene, each item behind "; "; NULL: nothing that the scene
-       states */
+    /* its part of the sentence about a scene, each item behind "; "; NULL: nothing that the scene states */
     void (*describe)(const fw_device *device, const fw_device_scene *scene,
                      const fw_effects_words *words);
     /* what of it advice may ask for less of; scale makes the forces of a copy `by` times as large;
@@ -403,8 +396,7 @@ typedef struct fw_effect_row { /* one row per effect: adding one is one file and
 /* `add` of an effect that moves nothing in the plane, active or not: it is judged, or bounded, beside the motion */
 fw_status fw_effects_add_nothing(const fw_effect_case *c, fw_effects_loads *loads);
 const fw_effect_row *const *fw_effect_rows(size_t *count);
-/* what all rows say of a scene: words, loads, and scaled loads (false: there is nothing to
-   scale) */
+/* what all rows say of a scene: words, loads, and scaled loads (false: there is nothing to scale) */
 void fw_effects_describe(const fw_device *device, const fw_device_scene *scene,
                          const fw_effects_words *words);
 void fw_effects_find_loads(const fw_device_scene *scene, fw_effects_load_scaling *loads);
@@ -427,6 +419,13 @@ fw_status fw_effects_hinges_up(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_device_scene *scene, const fw_effects_loads *loads,
                                fw_effects_hinge_model used, fw_effects_loads *up,
                                fw_effects_hinge_model *next);
+
+/* nonlinear_hinge.c: the closed forms among the elements (n) side by side. What their forces, energies and powers will ask for at
+   the ports p (3 each, of all elements in turn) is worked out at once, to the bits of each alone. NULL: fewer than two */
+typedef struct fw_effects_beside fw_effects_beside;
+fw_status fw_effects_beside_new(fw_arena *arena, int n, const fw_effects_force_element *e,
+                                fw_effects_beside **out);
+void fw_effects_beside_bend(fw_effects_beside *beside, const double *p);
 
 /* Before a motion: exact beams answer from lattices of their solutions (flexure/finite.h), taken from
    the arena; NULL, after it: each by itself again */

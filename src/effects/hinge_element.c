@@ -21,20 +21,20 @@
    most c/K. A damping stated in the file is for the rotation only. All of U is proportional to Young's modulus: warm, it is
    U (1 + beta dT law(t)), which the law feeds with U beta dT law'; dampers keep their values.
    Inputs p in m and rad, w in m/s and rad/s; outputs N, N m. Valid where the law is. Error: see
-   flexure/finite_force.c. Cost of a force some 1500 instructions. Source:
+   flexure/finite_force.c. Cost of a force some 1900 instructions, 750 where hinges stand side by side
+   (nonlinear_hinge.c). Source:
    docs/theory/effects/nonlinear-hinge.md. Test: test_nonlinear_hinge.c. */
 
 typedef fw_effects_flexed flexed;
 
-typedef struct bent {           /* deformations, their rates, and what they store */
-    double c, n, x, y;          /* of psi, and e.D, n.D = w, v */
-    double th, th_rate, w_rate; /* rates: 0 where nothing is dissipated */
-    double z_rate;
-    fw_flexure_hinge_bent law;
+typedef struct
+    bent { /* deformations, what they store, and their rates, 0 where nothing is dissipated */
+    const fw_effects_bent *at;
+    double th_rate, w_rate, z_rate;
 } bent;
 
 /* without the forces of the law */
-static void softness_alone(const flexed *f, bent *b) {
+static void softness_alone(const flexed *f, fw_effects_bent *b) {
     fw_flexure_hinge_at at;
     fw_flexure_hinge_law_slopes(&f->law, &f->rest, f->sense * b->th, &at);
     b->law.kx_N_per_m = at.kx_N_per_m.value, b->law.ky_N_per_m = at.ky_N_per_m.value;
@@ -46,36 +46,21 @@ static inline void rates(const fw_effects_port_state *s, bent *b) {
     const double *va = s->w, *vb = s->w + 3;
     double ux = vb[0] - va[0], uy = vb[1] - va[1], turning = 0.5 * (va[2] + vb[2]);
     b->th_rate = vb[2] - va[2];
-    b->w_rate = b->c * ux + b->n * uy + b->y * turning;
-    b->z_rate = b->c * uy - b->n * ux - b->x * turning - b->law.drift_slope * b->th_rate;
+    b->w_rate = b->at->c * ux + b->at->n * uy + b->at->y * turning;
+    b->z_rate =
+        b->at->c * uy - b->at->n * ux - b->at->x * turning - b->at->law.drift_slope * b->th_rate;
 }
 
-static inline bent placed(const flexed *f, const fw_effects_port_state *s) {
-    const double *pa = s->p, *pb = s->p + 3;
-    double psi = f->axis_rad + 0.5 * (pa[2] + pb[2]), c = cos(psi), n = sin(psi);
-    double dx = pb[0] - pa[0], dy = pb[1] - pa[1];
-    return (bent){.c = c,
-                  .n = n,
-                  .x = c * dx + n * dy,
-                  .y = c * dy - n * dx,
-                  .th = pb[2] - pa[2] - f->free_rad};
-}
-
-static inline bent bend(const flexed *f, const fw_effects_port_state *s, bool law) {
-    bent b = placed(f, s);
-    const double o = f->sense, at[3] = {o * b.th, o * b.x, o * b.y};
+static inline bent bend(const flexed *f, const fw_effects_port_state *s) {
     fw_effects_bent *last = f->last;
-    bool known = last->known && memcmp(last->at, at, sizeof at) == 0;
-    if (law && !known) {
+    if (!fw_effects_bent_at(last, s->p)) {
+        fw_effects_flexed_place(f, s->p, last);
+        const double o = f->sense, at[3] = {o * last->th, o * last->x, o * last->y};
         fw_flexure_hinge_law_bend(&f->law, &f->rest, at, false, &last->law);
-        memcpy(last->at, at, sizeof at);
-        known = last->known = true;
+        last->known = true;
     }
-    if (known) b.law = last->law;
-    if (fw_effects_flexed_loses(f)) {
-        if (!known) softness_alone(f, &b); /* the same bits as the whole law's */
-        rates(s, &b);
-    }
+    bent b = {.at = last};
+    if (fw_effects_flexed_loses(f)) rates(s, &b);
     return b;
 }
 
@@ -94,12 +79,13 @@ static inline double warmth(const fw_effects_force_element *e, const fw_effects_
 /* -(M dth + X dw + Y dv), with the gradients of th, w and v written out: elastic force times warm, and what the
    material dissipates; warm 0: that alone */
 static inline void load_of(const flexed *h, const bent *b, double warm, double *f) {
-    double o = h->sense * warm, lost = h->loss_s[1] * b->law.ky_N_per_m * b->z_rate;
-    double moment = o * b->law.gradient[0] - lost * b->law.drift_slope;
-    double X = o * b->law.gradient[1] + h->loss_s[0] * b->law.kx_N_per_m * b->w_rate;
-    double Y = o * b->law.gradient[2] + lost;
-    double both = 0.5 * (Y * b->x - X * b->y); /* half of the couple that the offset makes */
-    f[0] = X * b->c - Y * b->n, f[1] = X * b->n + Y * b->c;
+    double o = h->sense * warm, lost = h->loss_s[1] * b->at->law.ky_N_per_m * b->z_rate;
+    double moment = o * b->at->law.gradient[0] - lost * b->at->law.drift_slope;
+    double X = o * b->at->law.gradient[1] + h->loss_s[0] * b->at->law.kx_N_per_m * b->w_rate;
+    double Y = o * b->at->law.gradient[2] + lost;
+    double both =
+        0.5 * (Y * b->at->x - X * b->at->y); /* half of the couple that the offset makes */
+    f[0] = X * b->at->c - Y * b->at->n, f[1] = X * b->at->n + Y * b->at->c;
     f[3] = -f[0], f[4] = -f[1];
     f[2] = both + moment;
     f[5] = both - moment;
@@ -107,7 +93,7 @@ static inline void load_of(const flexed *h, const bent *b, double warm, double *
 
 static inline void modal_load(const flexed *h, const fw_effects_port_state *s, double warm,
                               double *f) {
-    const bent b = bend(h, s, warm != 0);
+    const bent b = bend(h, s);
     load_of(h, &b, warm, f);
 }
 
@@ -117,18 +103,18 @@ static void force(const fw_effects_force_element *e, const fw_effects_port_state
 }
 
 static double energy(const fw_effects_force_element *e, const fw_effects_port_state *s) {
-    const bent b = bend(e->data, s, true);
+    const bent b = bend(e->data, s);
     double rate;
-    return warmth(e, s, &rate) * b.law.energy_J;
+    return warmth(e, s, &rate) * b.at->law.energy_J;
 }
 
 static double lost_W(const flexed *h, const bent *b) {
-    return h->loss_s[0] * b->law.kx_N_per_m * b->w_rate * b->w_rate +
-           h->loss_s[1] * b->law.ky_N_per_m * b->z_rate * b->z_rate;
+    return h->loss_s[0] * b->at->law.kx_N_per_m * b->w_rate * b->w_rate +
+           h->loss_s[1] * b->at->law.ky_N_per_m * b->z_rate * b->z_rate;
 }
 
 static double flexed_loss_W(const fw_effects_flexed *h, const fw_effects_port_state *s) {
-    const bent b = bend(h, s, false);
+    const bent b = bend(h, s);
     return lost_W(h, &b);
 }
 
@@ -137,10 +123,9 @@ static void power(const fw_effects_force_element *e, const fw_effects_port_state
     const flexed *h = e->data;
     double rate;
     warmth(e, s, &rate);
-    const bent b =
-        bend(h, s, rate != 0); /* its energy is asked for only while the law changes it */
+    const bent b = bend(h, s);
     power[0] = lost_W(h, &b);
-    power[1] = rate != 0 ? rate * b.law.energy_J : 0;
+    power[1] = rate != 0 ? rate * b.at->law.energy_J : 0;
 }
 
 /* ---- the tangent: all second derivatives ---- */
@@ -263,10 +248,10 @@ static void tangent(const fw_effects_force_element *e, const fw_effects_port_sta
 static bool valid(const fw_effects_force_element *e, const fw_effects_port_state *s,
                   const char **why) {
     const flexed *h = e->data;
-    const bent b = bend(h, s, true);
-    if (b.law.holds) return true;
+    const bent b = bend(h, s);
+    if (b.at->law.holds) return true;
     *why =
-        fw_flexure_hinge_law_holds(&h->law, h->sense * b.th)
+        fw_flexure_hinge_law_holds(&h->law, h->sense * b.at->th)
             ? "a flexure is pressed beyond its buckling load, or displaced by four tenths of its "
               "length, which its closed form does not know; lower the load, or look at "
               "--hinge-model elastica"
@@ -468,12 +453,14 @@ static bool solve(const fw_effects_flexed *h, const double twist[3], bool tangen
 /* while a motion is followed, as of the closed form: the lattice has the same coordinates */
 static bool charted_load(const fw_effects_flexed *h, const fw_effects_port_state *s, double warm,
                          double *f) {
-    bent b = placed(h, s);
-    const double o = h->sense, at[3] = {o * b.th, o * b.x, o * b.y};
-    if (!h->exact->chart || !fw_flexure_chart_bend(h->exact->chart, at, false, &b.law))
+    fw_effects_bent here = {0};
+    bent b = {.at = &here};
+    fw_effects_flexed_place(h, s->p, &here);
+    const double o = h->sense, at[3] = {o * here.th, o * here.x, o * here.y};
+    if (!h->exact->chart || !fw_flexure_chart_bend(h->exact->chart, at, false, &here.law))
         return false;
     if (fw_effects_flexed_loses(h)) {
-        softness_alone(h, &b);
+        softness_alone(h, &here);
         rates(s, &b);
     }
     load_of(h, &b, warm, f);

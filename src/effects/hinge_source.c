@@ -193,6 +193,7 @@ fw_status fw_effects_hinges_stiffer(const fw_effect_case *c, fw_effects_loads *l
         if (along != 0) { /* of another law nothing is remembered */
             f->along = along;
             FW_TRY(fw_flexure_hinge_law_along(c->arena, &f->law, 1 + along));
+            f->rest = fw_flexure_hinge_rest_of(&f->law);
             FW_NEED(f->last = fw_arena_one(c->arena, fw_effects_bent));
         }
         e->data = f;

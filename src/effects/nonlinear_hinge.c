@@ -392,6 +392,71 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
+/* ---- hinges side by side ---- */
+
+/* A motion asks all elements for their forces at one pose. What the closed forms among them need is worked out for all
+   at once, in lanes (flexure/finite_lanes.c), and kept where each of them looks first. Cost 620 instructions a hinge of
+   four, 200 of which are the sine and cosine of its place. Test: test_finite_lanes.c, test_nonlinear_hinge.c beside_each_other */
+struct fw_effects_beside {
+    int count;
+    const fw_effects_flexed **hinge; /* (count) */
+    int *port;                       /* (count) the first of its two among those of all elements */
+    bool *known;
+    fw_flexure_hinge_lanes lanes;
+};
+
+fw_status fw_effects_beside_new(fw_arena *arena, int n, const fw_effects_force_element *e,
+                                fw_effects_beside **out) {
+    fw_effects_beside *b = fw_arena_one(arena, fw_effects_beside);
+    const fw_flexure_hinge_rest **rest;
+    const size_t most = (size_t)n + 1;
+    *out = NULL;
+    FW_NEED(b);
+    FW_NEED(b->hinge = fw_arena_array(arena, const fw_effects_flexed *, most));
+    FW_NEED(b->port = fw_arena_array(arena, int, most));
+    FW_NEED(b->known = fw_arena_array(arena, bool, most));
+    FW_NEED(rest = fw_arena_array(arena, const fw_flexure_hinge_rest *, most));
+    for (int i = 0, port = 0; i < n; port += e[i++].ports) {
+        if (e[i].class_ != &fw_effects_flexed_class) continue;
+        b->hinge[b->count] = e[i].data, b->port[b->count] = port;
+        rest[b->count] = &b->hinge[b->count]->rest;
+        b->count++;
+    }
+    if (b->count < 2) return FW_OK;
+    FW_TRY(fw_flexure_hinge_lanes_new(arena, b->count, rest, &b->lanes));
+    for (int i = 0; i < b->count; i++)
+        b->lanes.out[i] = &b->hinge[i]->last->law;
+    *out = b;
+    return FW_OK;
+}
+
+void fw_effects_beside_bend(fw_effects_beside *b, const double *p) {
+    const fw_flexure_hinge_lanes *lanes = &b->lanes;
+    const size_t stride = lanes->stride;
+    bool all = true;
+    for (int i = 0; i < b->count && all; i++)
+        all = fw_effects_bent_at(b->hinge[i]->last, p + 3 * b->port[i]);
+    if (all) return;
+    for (int i = 0; i < b->count; i++) {
+        const fw_effects_flexed *f = b->hinge[i];
+        fw_effects_flexed_place(f, p + 3 * b->port[i], f->last);
+        double *at = lanes->at + i;
+        at[0] = f->sense * f->last->th;
+        at[stride] = f->sense * f->last->x, at[2 * stride] = f->sense * f->last->y;
+    }
+    fw_flexure_hinge_lanes_bend(lanes, b->known);
+    for (int i = 0; i < b->count; i++) {
+        const fw_effects_flexed *f = b->hinge[i];
+        const double *from = lanes->at + i, at[3] = {from[0], from[stride], from[2 * stride]};
+        if (!b->known[i]) { /* its series do not know, which is not asked once more */
+            fw_flexure_hinge_rest rest = f->rest;
+            rest.number[FW_HINGE_RANGE] = -1;
+            fw_flexure_hinge_law_bend(&f->law, &rest, at, false, &f->last->law);
+        }
+        f->last->known = true;
+    }
+}
+
 const fw_effect_row fw_effect_nonlinear_hinge = {
     .id = "nonlinear-hinge",
     .summary = "what flexures do besides turning: their axis drifts, forces displace it",

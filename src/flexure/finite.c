@@ -36,51 +36,33 @@ typedef struct fw_flexure_series {
     double d[4];
 } fw_flexure_series;
 
-/* of t = x^2, below |x| = 1; the first one left out changes the second derivative by 1e-16 of it */
-enum { OF_SINC = 10, OF_BEND = 12 };
-/* (-1)^n/(2n + 1)! */
-static const double sinc_of[OF_SINC] = {
-    1,
-    -1 / 6.0,
-    1 / 120.0,
-    -1 / 5040.0,
-    1 / 362880.0,
-    -1 / 39916800.0,
-    1 / 6227020800.0,
-    -1 / 1307674368000.0,
-    1 / 355687428096000.0,
-    -1 / 121645100408832000.0,
-};
-/* g: -(-4)^n/(2n + 1)! t^(n-1);  h: (-4)^n (2n - 2)/(2n + 2)! t^(n-1);  n from 1 on */
-static const double bend_of[OF_BEND][2] = {
-    {4 / 6.0, 0},
-    {-16 / 120.0, 16 / 120.0 / 3},
-    {64 / 5040.0, -64 / 5040.0 * 2 / 4},
-    {-256 / 362880.0, 256 / 362880.0 * 3 / 5},
-    {1024 / 39916800.0, -1024 / 39916800.0 * 4 / 6},
-    {-4096 / 6227020800.0, 4096 / 6227020800.0 * 5 / 7},
-    {16384 / 1307674368000.0, -16384 / 1307674368000.0 * 6 / 8},
-    {-65536 / 355687428096000.0, 65536 / 355687428096000.0 * 7 / 9},
-    {262144 / 121645100408832000.0, -262144 / 121645100408832000.0 * 8 / 10},
-    {-1048576 / 51090942171709440000.0, 1048576 / 51090942171709440000.0 * 9 / 11},
-    {4194304 / 25852016738884976640000.0, -4194304 / 25852016738884976640000.0 * 10 / 12},
-    {-16777216 / 15511210043330985984000000.0, 16777216 / 15511210043330985984000000.0 * 11 / 13},
-};
-
 /* p(t) and its derivatives to those of p(x^2) by x */
 static fw_flexure_series of_square(double x, double p, double slope, double curve) {
     return (fw_flexure_series){{p, 2 * x * slope, 2 * slope + 4 * x * x * curve, 0}};
 }
 
+typedef struct near_series { /* a polynomial of t and its first two derivatives */
+    double p, slope, curve;
+} near_series;
+
+/* of eight terms, by Estrin's scheme as in finite_lanes.c, whose drift is to have the same bits: what v is off it by is
+   what pulls a leaf, which hardly gives along its chord */
+INLINE near_series estrin(const double *c, double t, bool second) {
+    const double t2 = t * t, t4 = t2 * t2;
+    return (near_series){((c[0] + c[1] * t) + t2 * (c[2] + c[3] * t)) +
+                             t4 * ((c[4] + c[5] * t) + t2 * (c[6] + c[7] * t)),
+                         ((c[1] + 2 * c[2] * t) + t2 * (3 * c[3] + 4 * c[4] * t)) +
+                             t4 * ((5 * c[5] + 6 * c[6] * t) + t2 * (7 * c[7])),
+                         second ? ((2 * c[2] + 6 * c[3] * t) + t2 * (12 * c[4] + 20 * c[5] * t)) +
+                                      t4 * (30 * c[6] + 42 * c[7] * t)
+                                : 0};
+}
+
 /* sinc(x) = sin(x)/x below |x| = 1; sinc'' = -sinc - 2 sinc'/x */
 INLINE fw_flexure_series sinc_near(double x, bool second) {
-    double t = x * x, p = 0, slope = 0, curve = 0; /* curve: of p''/2 */
-    _Pragma("GCC unroll 10") for (int n = OF_SINC - 1; n >= 0; n--) {
-        if (second) curve = curve * t + slope;
-        slope = slope * t + p;
-        p = p * t + sinc_of[n];
-    }
-    return (fw_flexure_series){{p, 2 * x * slope, -p - 4 * slope, -2 * x * (slope + 8 * curve)}};
+    const near_series s = estrin(fw_flexure_sinc_of, x * x, second);
+    return (fw_flexure_series){
+        {s.p, 2 * x * s.slope, -s.p - 4 * s.slope, -2 * x * (s.slope + 4 * s.curve)}};
 }
 
 /* the same where x is large enough to divide by */
@@ -102,15 +84,12 @@ typedef struct shape { /* what the law is made of, at x: sinc, z = sinc(2x), g a
 } shape;
 
 INLINE void shape_near(double x, bool second, shape *at) {
-    double t = x * x, p[2] = {0}, slope[2] = {0}, curve[2] = {0};
+    const double t = x * x;
+    const near_series b = estrin(fw_flexure_g_of, t, second),
+                      c = estrin(fw_flexure_h_of, t, second);
     at->s = sinc_near(x, second);
-    _Pragma("GCC unroll 12") for (int n = OF_BEND - 1; n >= 0; n--) for (int i = 0; i < 2; i++) {
-        if (second) curve[i] = curve[i] * t + slope[i];
-        slope[i] = slope[i] * t + p[i];
-        p[i] = p[i] * t + bend_of[n][i];
-    }
-    const fw_flexure_series g = at->g = of_square(x, p[0], slope[0], 2 * curve[0]);
-    at->h = of_square(x, p[1], slope[1], 2 * curve[1]);
+    const fw_flexure_series g = at->g = of_square(x, b.p, b.slope, b.curve);
+    at->h = of_square(x, t * c.p, c.p + t * c.slope, 2 * c.slope + t * c.curve);
     at->z = (fw_flexure_series){{1 - t * g.d[0], -2 * x * g.d[0] - t * g.d[1],
                                  -2 * g.d[0] - 4 * x * g.d[1] - t * g.d[2], 0}};
 }
@@ -193,26 +172,7 @@ void fw_flexure_hinge_series(const double *c, const double *d, int terms, double
 
 /* ---- what a pull does, which depends on how far the arc is wound ---- */
 
-enum { TERMS = 8 };
-/* polynomials in x^2 on [0, pi]: alpha, beta (1e-5, 1e-8 off), g4, h4 (1e-4, 1e-3), a4, n4 (6e-6, 1e-11) */
-static const double winding[6][TERMS] = {
-    {0.9999938136439734, 0.05718714905417563, -0.06245087333766429, 0.005008597271293301,
-     -0.00016895481715463692, 7.60229742361299e-06, -2.536864532903121e-08, -1.552608349343485e-08},
-    {1.0000000070450015, -0.15714291342653472, 0.006663676802324393, -0.00011906356215448638,
-     1.8120859051710829e-06, -1.2352991964091367e-08, 7.027535079541526e-10,
-     -4.2162562013330835e-11},
-    {0.5140185347141033, 0.08498159192350846, 0.00626446380071406, -0.0011819546835394265,
-     0.00027430919173046536, -6.40984446250425e-05, 4.0844215727947085e-06,
-     -4.9551865098133094e-08},
-    {0.30851019993467355, -0.01878233813269975, -0.01554799902810932, -0.005699514040496883,
-     0.0017581665974348401, -0.0005461634586697807, 8.200778895512981e-05, -3.696275822588733e-06},
-    {0, 0.00019303110553626129, -0.00010717859107173158, 5.5577391374892374e-05,
-     -1.6687184101909937e-05, 2.4384508568566684e-06, -1.6653777306682087e-07,
-     4.2763896609386958e-09},
-    {0, -5.2566462489825575e-05, 7.0779069283274877e-06, -4.2782996206045487e-07,
-     1.6089728585605016e-08, -4.0521036928134123e-10, 6.9245011467490211e-12,
-     -8.2930693630117909e-14}};
-
+enum { TERMS = FW_WINDING_TERMS };
 /* two of them side by side */
 INLINE void polynomials(const double (*c)[TERMS], double x, double q, const double by[2],
                         bool second, fw_flexure_hinge_jet out[2]) {
@@ -235,9 +195,9 @@ INLINE void wind(const fw_flexure_hinge_law *law, double th, bool second,
     if (fabs(x) > FW_PI) x = copysign(FW_PI, x), q = 0;
     double per = 8 * law->bend_m_per_N / law->length_m; /* L^2/EI */
     fw_flexure_hinge_jet a[2], b[2], c[2];
-    polynomials(winding, x, q, (const double[2]){per, per}, second, a);
-    polynomials(winding + 2, x, q, (const double[2]){1, 1}, second, b);
-    polynomials(winding + 4, x, q, (const double[2]){1, 1}, second, c);
+    polynomials(fw_flexure_winding, x, q, (const double[2]){per, per}, second, a);
+    polynomials(fw_flexure_winding + 2, x, q, (const double[2]){1, 1}, second, b);
+    polynomials(fw_flexure_winding + 4, x, q, (const double[2]){1, 1}, second, c);
     *at = (fw_flexure_hinge_wound){a[0], a[1], b[0], b[1], c[0], c[1], per};
     if (!law->table) return;
     two_series(law->table->pull_x, law->table->pull_y, law->table->terms, th, second, a);
@@ -327,14 +287,76 @@ void fw_flexure_hinge_law_soft(const fw_flexure_hinge_law *law, const fw_flexure
         soft_at(law, rest, th, false, at);
 }
 
-fw_flexure_hinge_rest fw_flexure_hinge_rest_of(const fw_flexure_hinge_law *law) {
+fw_flexure_hinge_rest fw_flexure_hinge_rest_bare(const fw_flexure_hinge_law *law) {
     const fw_flexure_series a = sinc(law->half_angle_rad);
-    return (fw_flexure_hinge_rest){a.d[0], law->share * a.d[1], sin(law->half_angle_rad),
-                                   cos(law->half_angle_rad)};
+    return (fw_flexure_hinge_rest){.sinc = a.d[0],
+                                   .turn = law->share * a.d[1],
+                                   .sine = sin(law->half_angle_rad),
+                                   .cosine = cos(law->half_angle_rad),
+                                   .number[FW_HINGE_RANGE] = -1};
+}
+
+/* Taylor's series of n of finite_force.c,
+     n = (b + e a)/((1/60 + e) (1 + e y a)),  a = sum a_k y^k, b = -sum a_(k+1) y^k
+   with Chebyshev's polynomial of degree 7 on |y| <= R taken away: what is left out is (R/y0)^7/64 of one, y0 the pole,
+   which is beyond -20 where e is below a tenth. Test: test_finite_lanes.c */
+static void series_along(double e, double range, double *n) {
+    enum { LAST = 7 };
+    static const double a[LAST + 2] = {1,
+                                       -0.016666666666666666,
+                                       0.0003968249976586689,
+                                       -9.920628222132633e-06,
+                                       2.505210279888954e-07,
+                                       -6.341027840654833e-09,
+                                       1.6059043683015606e-10,
+                                       -4.067616349232315e-12,
+                                       1.0303274465129939e-13};
+    double c[LAST + 1];
+    for (int k = 0; k <= LAST; k++) {
+        c[k] = e * a[k] - a[k + 1];
+        for (int j = 1; j <= k; j++)
+            c[k] -= e * a[j - 1] * c[k - j];
+    }
+    double r2 = range * range, over = 1 / (1 / 60.0 + e);
+    c[1] += c[7] * 7 / 64 * r2 * r2 * r2, c[3] -= c[7] * 56 / 64 * r2 * r2;
+    c[5] += c[7] * 112 / 64 * r2;
+    for (int k = 1; k < LAST; k++) {
+        n[k - 1] = over * c[k];
+        if (k > 1) n[FW_HINGE_N_SLOPE - FW_HINGE_N + k - 2] = k * n[k - 1];
+        if (k > 2) n[FW_HINGE_N_CURVE - FW_HINGE_N + k - 3] = k * (k - 1) * n[k - 1];
+    }
+}
+
+/* for finite_lanes.c; a path's table, and what has no strip, are not for it */
+static void count_up(const fw_flexure_hinge_law *law, fw_flexure_hinge_rest *rest) {
+    const double L = law->length_m, range = 0.25, most_e = 0.1;
+    const double per = 8 * law->bend_m_per_N / L, unit = 1 / (per * L); /* L^2/EI */
+    const double e = law->share * (0.25 * law->root_m_per_N / law->bend_m_per_N) / 6;
+    double *to = rest->number;
+    if (law->table || !(law->bend_m_per_N > 0) || !(e < most_e)) return;
+    to[FW_HINGE_RANGE] = range;
+    to[FW_HINGE_STIFFNESS] = law->stiffness_Nm_per_rad;
+    to[FW_HINGE_LENGTH] = L, to[FW_HINGE_PER_LENGTH] = 1 / L, to[FW_HINGE_FORCE] = 1 / per;
+    to[FW_HINGE_HALF_ANGLE] = law->half_angle_rad, to[FW_HINGE_Q] = 0.5 * law->share;
+    to[FW_HINGE_SINC] = rest->sinc, to[FW_HINGE_TURN] = rest->turn;
+    to[FW_HINGE_SINE] = rest->sine, to[FW_HINGE_COSINE] = rest->cosine;
+    to[FW_HINGE_ALONG] = 0.125 * (1 + law->uneven_x);
+    to[FW_HINGE_ACROSS] = 0.125 * (1 + law->uneven_y);
+    to[FW_HINGE_ROOT] = unit * law->root_m_per_N;
+    to[FW_HINGE_ROOT_ACROSS] = law->share * to[FW_HINGE_ROOT];
+    to[FW_HINGE_BOTH] = unit * (law->axial_m_per_N + law->shear_m_per_N);
+    to[FW_HINGE_APART] = unit * (law->shear_m_per_N - law->axial_m_per_N);
+    series_along(e, range, to + FW_HINGE_N);
+}
+
+fw_flexure_hinge_rest fw_flexure_hinge_rest_of(const fw_flexure_hinge_law *law) {
+    fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_bare(law);
+    count_up(law, &rest);
+    return rest;
 }
 
 void fw_flexure_hinge_law_at(const fw_flexure_hinge_law *law, double th, fw_flexure_hinge_at *at) {
-    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_of(law);
+    const fw_flexure_hinge_rest rest = fw_flexure_hinge_rest_bare(law);
     law_at(law, &rest, th, true, at);
 }
 

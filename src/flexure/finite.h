@@ -21,9 +21,36 @@ typedef struct fw_flexure_hinge_law {
     const struct fw_flexure_hinge_table *table;
 } fw_flexure_hinge_law;
 
-/* what the free arc gives at every rotation: sinc(a), share sinc'(a), sin(a), cos(a) */
+/* numbers of a hinge for finite_lanes.c, over L, EI/L^2 and EI/L */
+enum {
+    FW_HINGE_STIFFNESS, /* K, N m */
+    FW_HINGE_LENGTH,    /* L, m */
+    FW_HINGE_PER_LENGTH,
+    FW_HINGE_FORCE, /* EI/L^2, N */
+    FW_HINGE_RANGE, /* |y| up to which its series hold; below 0: they do not */
+    FW_HINGE_HALF_ANGLE,
+    FW_HINGE_Q, /* share/2 */
+    FW_HINGE_SINC,
+    FW_HINGE_TURN,
+    FW_HINGE_SINE,
+    FW_HINGE_COSINE,
+    FW_HINGE_ALONG, /* compliances of finite.c: of bending, */
+    FW_HINGE_ACROSS,
+    FW_HINGE_ROOT, /* of the roots, */
+    FW_HINGE_ROOT_ACROSS,
+    FW_HINGE_BOTH, /* axial and shear, their sum and shear less axial */
+    FW_HINGE_APART,
+    FW_HINGE_N,                            /* n(y) less 1: of y, y^2 .. y^6 */
+    FW_HINGE_N_SLOPE = FW_HINGE_N + 6,     /* of its slope: of y, y^2 .. y^5 */
+    FW_HINGE_N_CURVE = FW_HINGE_N + 6 + 5, /* of its second derivative: of y, y^2 .. y^4 */
+    FW_HINGE_NUMBERS = FW_HINGE_N + 6 + 5 + 4
+};
+
+/* what the free arc gives at every rotation: sinc(a), share sinc'(a), sin(a), cos(a); of one law, to be
+   asked for again when that is changed */
 typedef struct fw_flexure_hinge_rest {
     double sinc, turn, sine, cosine;
+    double number[FW_HINGE_NUMBERS];
 } fw_flexure_hinge_rest;
 
 /* value, first and second derivative by the rotation */
@@ -66,6 +93,8 @@ void fw_flexure_hinge_law_at(const fw_flexure_hinge_law *law, double rotation_ra
                              fw_flexure_hinge_at *at);
 /* values and first derivatives alone, for forces; the second ones are not */
 fw_flexure_hinge_rest fw_flexure_hinge_rest_of(const fw_flexure_hinge_law *law);
+/* for one rotation: without the numbers, which cost as much as the law; the law's forces are then always asked for in full */
+fw_flexure_hinge_rest fw_flexure_hinge_rest_bare(const fw_flexure_hinge_law *law);
 void fw_flexure_hinge_law_slopes(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                  double rotation_rad, fw_flexure_hinge_at *at);
 /* ---- finite_force.c: forces of any size ---- */
@@ -82,6 +111,66 @@ typedef struct fw_flexure_hinge_bent {
 } fw_flexure_hinge_bent;
 void fw_flexure_hinge_law_bend(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,
                                const double at[3], bool hessian, fw_flexure_hinge_bent *out);
+/* ---- finite_lanes.c: many hinges side by side, without second derivatives ---- */
+
+typedef struct fw_flexure_hinge_lanes {
+    int count, widest; /* hinges; lanes at most, 1, 2, 4 or 8: the processor's */
+    size_t stride;
+    const double *number;        /* (FW_HINGE_NUMBERS x stride) */
+    double *at;                  /* (3 x stride) th, w, v of all, written by the caller */
+    fw_flexure_hinge_bent **out; /* (count) where answers go, likewise */
+} fw_flexure_hinge_lanes;
+fw_status fw_flexure_hinge_lanes_new(fw_arena *arena, int count,
+                                     const fw_flexure_hinge_rest *const *rest,
+                                     fw_flexure_hinge_lanes *lanes);
+/* what fw_flexure_hinge_law_bend says, to the last bit, at lanes->at; known (count): false where that has to be
+   asked itself, out is then as it was */
+void fw_flexure_hinge_lanes_bend(const fw_flexure_hinge_lanes *lanes, bool *known);
+/* FW_W hinges: bit i where out[i] is known; hinge: numbers, each `stride` from the one before */
+#define FW_FLEXURE_LANES(width)                                                                    \
+    unsigned fw_flexure_lanes_bend_##width(const double *hinge, size_t stride, const double *at,   \
+                                           int count, fw_flexure_hinge_bent *const *out)
+FW_FLEXURE_LANES(1);
+FW_FLEXURE_LANES(2);
+FW_FLEXURE_LANES(4);
+FW_FLEXURE_LANES(8);
+/* of t = x^2 <= 1: sinc; g; h/t. Taylor's series with Chebyshev's polynomials of the next degrees taken away: 1e-16, 6e-17
+   and 2e-16 of the function */
+static const double fw_flexure_sinc_of[8] = {1,
+                                             -0.16666666666666666,
+                                             0.008333333333333106,
+                                             -0.00019841269841087476,
+                                             2.7557319152309194e-06,
+                                             -2.5052093083699724e-08,
+                                             1.6057233337039862e-10,
+                                             -7.535488064487613e-13};
+static const double fw_flexure_g_of[8] = {
+    0.6666666666666666,     -0.13333333333332525,   0.01269841269824269,    -0.0007054673707724874,
+    2.5653353629569092e-05, -6.577669808238979e-07, 1.2515523883035058e-08, -1.758251005351794e-10};
+static const double fw_flexure_h_of[8] = {
+    0.044444444444444446,   -0.006349206349206286, 0.0004232804232790905, -1.710223931378956e-05,
+    4.6984169770327625e-07, -9.39674506355024e-09, 1.43200461726794e-10,  -1.6581003589886058e-12};
+/* What a pull does, by how far the arc is wound: polynomials in x^2 on [0, pi], alpha and beta (1e-5, 1e-8 off), g4 and h4
+   (1e-4, 1e-3), a4 and n4 (6e-6, 1e-11) */
+enum { FW_WINDING_TERMS = 8 };
+static const double fw_flexure_winding[6][FW_WINDING_TERMS] = {
+    {0.9999938136439734, 0.05718714905417563, -0.06245087333766429, 0.005008597271293301,
+     -0.00016895481715463692, 7.60229742361299e-06, -2.536864532903121e-08, -1.552608349343485e-08},
+    {1.0000000070450015, -0.15714291342653472, 0.006663676802324393, -0.00011906356215448638,
+     1.8120859051710829e-06, -1.2352991964091367e-08, 7.027535079541526e-10,
+     -4.2162562013330835e-11},
+    {0.5140185347141033, 0.08498159192350846, 0.00626446380071406, -0.0011819546835394265,
+     0.00027430919173046536, -6.40984446250425e-05, 4.0844215727947085e-06,
+     -4.9551865098133094e-08},
+    {0.30851019993467355, -0.01878233813269975, -0.01554799902810932, -0.005699514040496883,
+     0.0017581665974348401, -0.0005461634586697807, 8.200778895512981e-05, -3.696275822588733e-06},
+    {0, 0.00019303110553626129, -0.00010717859107173158, 5.5577391374892374e-05,
+     -1.6687184101909937e-05, 2.4384508568566684e-06, -1.6653777306682087e-07,
+     4.2763896609386958e-09},
+    {0, -5.2566462489825575e-05, 7.0779069283274877e-06, -4.2782996206045487e-07,
+     1.6089728585605016e-08, -4.0521036928134123e-10, 6.9245011467490211e-12,
+     -8.2930693630117909e-14}};
+
 /* (w, v), the moment about th and the pull px F under a force (along, across) that is given; false:
    no such equilibrium */
 bool fw_flexure_hinge_law_under(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest *rest,

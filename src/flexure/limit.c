@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flexure/limit.h"
+#include "flexure/flexure.h"
 #include "base/constants.h"
 #include "flexure/section.h"
 #include <math.h>
@@ -185,7 +185,7 @@ double fw_flexure_strain_life_cycles(const fw_flexure_strain_life *law, double a
 }
 
 /* amplitude that lasts the cycles asked for, once per repetition; the law itself goes to the
-   verdict, which counts the cycles of a motion. Data: limit.h */
+   verdict, which counts the cycles of a motion. Data: flexure.h */
 static bool fatigue_life(const fw_flexure_limit_input *in, fw_flexure_limits *all,
                          fw_flexure_limit *limit) {
     const fw_device_limit_data *d = &in->material->limit;

@@ -10,7 +10,6 @@
 #define FW_MECHANISM_MECHANISM_H
 #include "device/device.h"
 #include "flexure/flexure.h"
-#include "flexure/limit.h"
 #include "flexure/path.h"
 #include "geometry/segment.h"
 #include "layout/layout.h"

@@ -53,7 +53,7 @@ fw_status fw_multibody_elements_new(fw_arena *arena, fw_multibody_model *m,
         m->nport += own->ports;
         if (own->pin != FW_NONE) m->pin_element[own->pin] = i;
     }
-    return FW_OK;
+    return fw_effects_beside_new(arena, m->nelement, loads->element, &m->beside);
 }
 
 /* what an element sees; also the arms of its ports */
@@ -68,8 +68,9 @@ static fw_effects_port_state look(const fw_multibody_system *sys, const fw_multi
         const fw_effects_port *at = &e->scaled.port[i];
         double rx = pose->cosine[b] * at->x_m - pose->sine[b] * at->y_m;
         double ry = pose->sine[b] * at->x_m + pose->cosine[b] * at->y_m;
-        double *p = k->p + 3 * i, *w = k->w + 3 * i;
-        k->arm[2 * i] = rx, k->arm[2 * i + 1] = ry;
+        const int own = e->first_port + i;
+        double *p = k->p + 3 * own, *w = k->w + 3 * own;
+        k->arm[2 * own] = rx, k->arm[2 * own + 1] = ry;
         if (b == m->nbody) {
             p[0] = length * rx, p[1] = length * ry, p[2] = 0;
             w[0] = w[1] = w[2] = 0;
@@ -94,8 +95,8 @@ static fw_effects_port_state look(const fw_multibody_system *sys, const fw_multi
     return (fw_effects_port_state){.t_s = l->hold.on ? l->hold.t_s : pose->t * m->scale.time_s,
                                    .piece_s = sys->piece_s,
                                    .load = e->electrodes ? l->drive : l->actuation,
-                                   .p = k->p,
-                                   .w = k->w,
+                                   .p = k->p + 3 * e->first_port,
+                                   .w = k->w + 3 * e->first_port,
                                    .on = sys->on.element + e->first_switch,
                                    .still = l->hold.on};
 }
@@ -106,14 +107,17 @@ static void element_forces(const fw_multibody_system *sys, const fw_multibody_po
     const fw_multibody_model *m = sys->model;
     const fw_multibody_solution *found = &sys->work->solution;
     const double unit = 1 / fw_multibody_newton(m), per_length = 1 / m->scale.length_m;
+    fw_effects_port_state *seen = sys->work->port.seen;
+    for (int i = 0; i < m->nelement; i++)
+        seen[i] = look(sys, pose, &m->element[i], v);
+    if (m->beside) fw_effects_beside_bend(m->beside, sys->work->port.p);
     for (int i = 0; i < m->nelement; i++) {
         const fw_multibody_element *e = &m->element[i];
-        const fw_effects_port_state state = look(sys, pose, e, v);
         double *own = found->element + 3 * e->first_port;
-        e->own->class_->force(e->own, &state, own);
+        e->own->class_->force(e->own, &seen[i], own);
         for (int k = 0; k < e->own->ports; k++) { /* the ground has no mass terms: 0 */
             const int b = e->body[k];
-            const double *r = sys->work->port.arm + 2 * k, *f = own + 3 * k;
+            const double *r = sys->work->port.arm + 2 * (e->first_port + k), *f = own + 3 * k;
             double fx = unit * f[0], fy = unit * f[1], *a = found->accel + 3 * b;
             a[0] += m->minv[b] * fx;
             a[1] += m->minv[b] * fy;
@@ -129,7 +133,8 @@ static void push_ports(const fw_multibody_system *sys, const fw_multibody_elemen
     const double unit = 1 / fw_multibody_newton(m), per_length = 1 / m->scale.length_m;
     for (int k = 0; k < e->own->ports; k++) {
         const int b = e->body[k];
-        const double *r = sys->work->port.arm + 2 * k, *f = sys->work->port.f + 3 * k;
+        const double *r = sys->work->port.arm + 2 * (e->first_port + k);
+        const double *f = sys->work->port.f + 3 * k;
         if (b == m->nbody) continue;
         double fx = unit * f[0], fy = unit * f[1];
         force[3 * b] += fx;

@@ -177,6 +177,8 @@ typedef struct fw_multibody_model {
     double *spring_end; /* (4 nspring) local ends in a and b */
     int ncable;         /* of the springs */
     fw_multibody_element *element;
+    struct fw_effects_beside
+        *beside; /* flexures among them that are worked out side by side, or NULL */
     int nswitch, nport, most_ports; /* of all elements, of all elements, of the largest one */
     int *pin_element;               /* (npin) element that stands for a pin, or FW_NONE */
     fw_multibody_friction_joint *friction;

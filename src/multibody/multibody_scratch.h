@@ -6,12 +6,14 @@
 #include "multibody/model.h"
 #include "multibody/system.h"
 
-typedef struct fw_multibody_ports { /* for one element at a time, sizes of the largest one */
-    double *p, *w;                  /* (3 ports) SI: what it sees */
-    double *arm;                    /* (2 ports) scaled, world axes */
-    double *f;                      /* (3 ports) */
-    double *stiffness, *damping;    /* (3 ports x 3 ports) */
-    double *pose;                   /* (3 nbody) */
+typedef struct fw_multibody_ports {
+    double *p, *w;               /* (3 nport) SI: what each element sees at its own */
+    double *arm;                 /* (2 nport) scaled, world axes */
+    fw_effects_port_state *seen; /* (nelement) */
+    /* for one element at a time, sizes of the largest one */
+    double *f;                   /* (3 ports) */
+    double *stiffness, *damping; /* (3 ports x 3 ports) */
+    double *pose;                /* (3 nbody) */
 } fw_multibody_ports;
 
 typedef struct fw_multibody_scratch {

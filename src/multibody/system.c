@@ -82,11 +82,12 @@ static fw_status pose_new(fw_arena *arena, const fw_multibody_model *m, fw_multi
 }
 
 static fw_status ports_new(fw_arena *arena, const fw_multibody_model *m, fw_multibody_ports *k) {
-    size_t ports = (size_t)m->most_ports;
+    size_t ports = (size_t)m->most_ports, all = (size_t)m->nport;
     if (m->nelement == 0) return FW_OK;
-    FW_NEED(k->p = fw_arena_array(arena, double, 3 * ports));
-    FW_NEED(k->w = fw_arena_array(arena, double, 3 * ports));
-    FW_NEED(k->arm = fw_arena_array(arena, double, 2 * ports));
+    FW_NEED(k->p = fw_arena_array(arena, double, 3 * all));
+    FW_NEED(k->w = fw_arena_array(arena, double, 3 * all));
+    FW_NEED(k->arm = fw_arena_array(arena, double, 2 * all));
+    FW_NEED(k->seen = fw_arena_array(arena, fw_effects_port_state, (size_t)m->nelement));
     FW_NEED(k->f = fw_arena_array(arena, double, 3 * ports));
     FW_NEED(k->stiffness = fw_arena_array(arena, double, 9 * ports * ports));
     FW_NEED(k->damping = fw_arena_array(arena, double, 9 * ports * ports));

@@ -3,9 +3,9 @@
    two responses the Pareto front.
 
    The description as it stands and a Sobol' sequence over the ranges are judged first; from the best of them, apart from
-   each other, local searches (study_search.c), and where these end apart from each other some more from further points; the
-   best of these with its inputs at the ends of their ranges; and one search more, by models of all that was judged, with
-   what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
+   each other, local searches by models of all that was judged (study_descent.c), and some more from the best of further
+   points, apart from where these ended; the best of these with its inputs at the ends of their ranges; and one search more,
+   by models again, with what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
    is sought alone, then the first with the second held at nine levels between (epsilon constraints; Haimes, Lasdon, Wismer
    1971; at fewer where the budget has not enough for searches at all of them), and the front is what no other one of all
    that was judged and accepted beats. Nothing is proved: a better one may be where nobody looked.
@@ -24,6 +24,7 @@ enum {
     EACH = 19,         /* devices of a search for each input, and so many more */
     LEVELS = 9,        /* of the second goal */
     DIGITS = 5,        /* of what is tried: more no mask resolves */
+    AGAIN = 36,        /* devices over the ranges once more, or as many as at first */
     FRONT_MOST = 100,  /* devices of a front that are listed */
     LISTS_MOST = 1000, /* combinations of listed values */
 };
@@ -211,6 +212,7 @@ static fw_status starts(sizing *s, const aim *a, int since, const fw_study_searc
         fw_study_search *one = &search[(*n)++];
         *one = search_of(a, most, first);
         FW_TRY(fw_study_search_from(s->study, best, one));
+        FW_TRY(fw_study_search_knows(s->study, one, s->kept, s->nkept));
     }
     return FW_OK;
 }
@@ -229,24 +231,25 @@ static fw_status run_all(sizing *s, fw_study_search *search, int n, int *left) {
     return FW_OK;
 }
 
-/* Local searches that end apart from each other say that there are several places to end at. Then half of the devices that they
-   left beyond what the last search has go over the ranges once more, by further points of the sequence, and the other half to
-   searches from the best of these. *left: devices that there are. Test: tests/cli/test_sizing.py, SeveralMinima */
+/* Where searches from the best of few devices end, another place may be better that none of these was near. So the ranges are
+   looked at once more by further points of the sequence, as far as half of what the searches left beyond what the last search
+   has goes, and searches begin at the best of these that are apart from where the first ones ended. *left: devices that there
+   are. Test: tests/cli/test_sizing.py, SeveralMinima */
 static fw_status look_again(sizing *s, const aim *a, const fw_study_search *ended, int n, int most,
                             int *left, long *first) {
     fw_study_search search[STARTS];
-    bool apart = false;
-    for (int i = 1; i < n; i++)
-        apart = apart || fw_study_search_apart(s->study, &ended[0].best, &ended[i].best) > apart_by;
-    const int look = (*left - most) / 2, since = s->nkept;
-    if (!apart || look < worth_it(s->study)) return FW_OK;
+    const int since = s->nkept, half = (*left - most) / 2,
+              look = (int)fmin(fmax((double)s->first_n, AGAIN), half);
+    if (n == 0 || look < worth_it(s->study)) return FW_OK;
     for (int i = 0; i < look; i++)
         FW_TRY(fw_study_sample_new(s->study->arena, s->study, &s->kept[since + i]));
     const fw_study_work work = {.n = look, .fill = fill_more, .take = take, .context = s};
     FW_TRY(fw_study_pool_run(s->study, &work));
     fw_study_sort_samples(&s->kept[since], s->nkept - since);
     s->more_n += look, *left -= look;
-    FW_TRY(starts(s, a, since, ended, n, search, &n, look / STARTS, first));
+    /* so few that each comes near its end: the last search goes on from the best of all */
+    const int each = (int)fmin(2 * worth_it(s->study), half / STARTS);
+    FW_TRY(starts(s, a, since, ended, n, search, &n, each, first));
     return run_all(s, search, n, left);
 }
 
@@ -256,7 +259,8 @@ static fw_status go_on(sizing *s, const aim *a, int left, long *first) {
     if (from == FW_NONE || left <= 0) return FW_OK;
     fw_study_search one = search_of(a, left, first);
     FW_TRY(fw_study_search_from(s->study, &s->kept[from], &one));
-    FW_TRY(fw_study_search_knows(s->study, &one, s->kept, s->nkept, NULL, 0));
+    FW_TRY(fw_study_search_knows(s->study, &one, s->kept, s->nkept));
+    one.begin = FW_NONE;
     FW_TRY(fw_study_search_run(s->study, &one, 1));
     join(s, &one);
     return FW_OK;
@@ -416,7 +420,8 @@ static fw_status hold(sizing *s, double from, double to, double shift, long *fir
 /* As many levels as searches that come somewhere can be paid for: at more of them none would. What they leave of a budget that
    was asked for goes to levels between them. Test: tests/cli/test_sizing.py, Lever */
 static fw_status two_goals(sizing *s, long *first) {
-    enum { PASSES = 3 };
+    static const double shift[] = {0, 0.5, 0.25, 0.75, 0.125};
+    enum { PASSES = sizeof shift / sizeof *shift };
     const goal *a = &s->goal[0], *b = &s->goal[1];
     int low = best_of(s, b), high = best_of(s, a);
     if (low == FW_NONE || high == FW_NONE) return FW_OK;
@@ -428,7 +433,7 @@ static fw_status two_goals(sizing *s, long *first) {
         const int left = left_of(s);
         if (left <= 0 || (pass > 0 && (left < each || s->study->asked->samples <= 0))) break;
         s->levels = (int)fmin(LEVELS, fmax(1, left / each));
-        FW_TRY(hold(s, from, to, pass % 2 > 0 ? 0.5 : 0, first));
+        FW_TRY(hold(s, from, to, shift[pass], first));
     }
     const bool kept = s->for_ends > 0;
     s->for_ends = 0;
@@ -545,16 +550,17 @@ static fw_status size(fw_study *study, fw_study_result *result) {
     if (s.ngoal == 2 && single > 0) FW_TRY(two_goals(&s, &first));
     const char *searches = said_of(&s, single);
     FW_NEED(searches);
-    FW_NEED(
-        result->how = fw_arena_printf(
-            study->arena,
-            "%ld devices over the ranges, then local searches (COBYLA) from the best of them, at "
-            "most %s, the best at ends of the ranges, and one search from all of "
-            "them (quadratic models)%s; a better one may be where none was tried",
-            s.first_n, searches,
-            study->asked->yield > 0
-                ? ", the last ones with the dies that are worst for the best device"
-                : ""));
+    FW_NEED(result->how = fw_arena_printf(
+                study->arena,
+                "%ld devices over the ranges, then local searches (quadratic models) from the best "
+                "of them, at "
+                "most %s, the same from further devices over the ranges, the best at ends of the "
+                "ranges, and one search from all of "
+                "them%s; a better one may be where none was tried",
+                s.first_n, searches,
+                study->asked->yield > 0
+                    ? ", the last ones with the dies that are worst for the best device"
+                    : ""));
     FW_TRY(study->asked->yield > 0 ? at_yield(&s, most, &first) : finish(&s));
     return tell_what_limits(&s);
 }

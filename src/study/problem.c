@@ -127,9 +127,7 @@ static fw_status look(fw_study_problem *p, double budget) {
     o.most_beams = beams(budget);
     FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, false, &saw));
     FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, false, &looser));
-    if (p->mechanism->nhinge > 0)
-        o.observe = fw_verdict_strain_monitor_record, o.glance = fw_verdict_strain_monitor_glance,
-        o.context = &saw, o.other = &looser;
+    if (p->mechanism->nhinge > 0) fw_verdict_strain_monitor_watch(&saw, &o), o.other = &looser;
     FW_TRY(fw_statics_move_scene(p->arena, p->mechanism, p->scene, &o, &p->plan->diags,
                                  &p->by_itself));
     if (saw.no_memory) return FW_NOMEM;
@@ -255,9 +253,7 @@ fw_status fw_study_problem_run(fw_study_problem *p, const fw_study_tradeoff_sett
     fw_diags own = fw_diags_new(p->arena);
     FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, false, &saw));
     FW_TRY(fw_verdict_strain_monitor_new(p->arena, p->mechanism, false, &looser));
-    if (p->mechanism->nhinge > 0)
-        o.observe = fw_verdict_strain_monitor_record, o.glance = fw_verdict_strain_monitor_glance,
-        o.context = &saw, o.other = &looser;
+    if (p->mechanism->nhinge > 0) fw_verdict_strain_monitor_watch(&saw, &o), o.other = &looser;
     fw_status status = move(p, s, &o, &own, &motion);
     if (status == FW_NOMEM || status == FW_CANCELLED || own.failed || saw.no_memory)
         return status == FW_CANCELLED ? status : FW_NOMEM;

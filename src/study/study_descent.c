@@ -4,8 +4,9 @@
 
    COBYLA (linear models on a simplex, no derivatives; Powell 1994, as NLopt has it), each constraint with models of its
    own: those of the largest of them mix up what belongs to different ones. It ends where nothing better has come for long.
+   It is for searches that know nothing but their start: worst cases, and dies at a wanted yield.
 
-   And from what was judged already: around the best of it quadratic models of the objective and of each constraint, by
+   And from what was judged already, on from the best of it or from one place: around the best of it quadratic models of the objective and of each constraint, by
    weighted least squares, the nearest counting most; and a plane between what holds and what does not although no model
    says so (a region where check accepts nothing, and says no number by which it does not). Next is judged what is best by
    these within a radius. Each answer turns the plane, so the border of such a region is halved, and followed where the
@@ -140,6 +141,8 @@ static const double away_reach = 0.02; /* down to it places far from what does n
 static const double offset = 0.1;      /* the plane is sought near the best */
 static const double again_least = 5e-3; /* and to begin with wide steps again */
 static const double apart = 2e-4;       /* of a place from all that was judged, share of a range */
+static const double span_counts =
+    1e-3; /* of the span of the objective, where it is nearly 0: along a valley in a wide range what is gained is little of it */
 static const double nearer = 4; /* times as far it may be from what holds as from what does not */
 
 typedef enum side { HOLDS, NUMBERED, UNTOLD } side; /* does not: models say so; none does */
@@ -153,7 +156,8 @@ typedef struct cloud {
     int n, m, terms;
     const fw_study_tried **at; /* (count) */
     side *side;
-    int count;
+    int count, known;           /* known: before this search */
+    const fw_study_tried *from; /* where it begins; NULL: at the best of what is known */
     const fw_study_tried *best;
     double radius, scale; /* scale: of the objective */
     double enough;     /* what has to be reached for a judgement: objective, or worst constraint */
@@ -172,16 +176,18 @@ static bool holds(const fw_study_tried *t, int m) {
     return !isnan(t->f) && !t->untold && fw_study_tried_worst(t, m) <= 0;
 }
 
+/* of a search from one place the others that are known teach its models, but it does not go to them */
 static void find_best(cloud *c) {
     double least = HUGE_VAL, most = -HUGE_VAL;
     c->best = NULL;
     for (int p = 0; p < c->count; p++) {
         const fw_study_tried *t = c->at[p];
         if (isnan(t->f)) continue;
-        if (!c->best || better(t, c->best, c->m)) c->best = t;
         least = fmin(least, t->f), most = fmax(most, t->f);
+        if (c->from && p < c->known && t != c->from) continue;
+        if (!c->best || better(t, c->best, c->m)) c->best = t;
     }
-    if (c->best) c->scale = fmax(fmax(fabs(c->best->f), 0.01 * (most - least)), 1e-300);
+    if (c->best) c->scale = fmax(fmax(fabs(c->best->f), span_counts * (most - least)), 1e-300);
 }
 
 /* the largest share of the radius */
@@ -235,7 +241,8 @@ static void slope(const cloud *c, int k, const double *u, double *g) {
     }
 }
 
-/* squares are held back where nothing says how large they are */
+/* Squares are held back where nothing says how large they are: by so little that along a valley, whose floor bends a thousandth
+   as much as its sides, what holds the sides back does not hide the floor. Test: test_descent.c, valleys */
 static void fit(cloud *c, int k) {
     const int n = c->terms;
     double *a = c->matrix, *y = c->beta + k * n, sum = 0;
@@ -254,7 +261,7 @@ static void fit(cloud *c, int k) {
         }
     }
     for (int i = 0; i < n; i++)
-        a[i * n + i] += fmax(sum, 1e-9) * (i < c->n ? 1e-7 : 1e-3);
+        a[i * n + i] += fmax(sum, 1e-9) * (i < c->n ? 1e-7 : 1e-5);
     if (fw_maths_lu_factor(n, a, c->pivot))
         fw_maths_lu_solve(n, a, c->pivot, NULL, y);
     else
@@ -489,6 +496,7 @@ static fw_status cloud_new(fw_arena *arena, const fw_study_descent *d, const fw_
     c->x = c->u + n, c->trial = c->x + n, c->middle = c->trial + n;
     for (int i = 0; i < nknown; i++)
         c->at[c->count++] = &known[i];
+    c->known = nknown, c->from = d->from;
     find_best(c);
     return tolerances(arena, d->m + 1, 1e-8, &c->near);
 }

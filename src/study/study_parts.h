@@ -165,7 +165,8 @@ typedef struct fw_study_descent {
     fw_study_tried *tried; /* room for `most`; (used) in their order */
     int used;
     bool over;
-    double step; /* first one of COBYLA, share of a range; 0: the usual one */
+    double step;                /* first one of COBYLA, share of a range; 0: the usual one */
+    const fw_study_tried *from; /* of models: where they begin, of what is known; NULL: the best */
 } fw_study_descent;
 /* the largest constraint; NaN: as bad as can be */
 double fw_study_tried_worst(const fw_study_tried *t, int m);
@@ -200,9 +201,9 @@ typedef struct fw_study_search {
     double *start;
     const fw_study_sample *from; /* texts of listed inputs */
     /* NULL: COBYLA from the start. Else what was judged already (nknown), of the same texts of listed inputs: models of it
-       say what is judged next, from the best of it on */
+       say what is judged next, from the best of it on, or from the start (its number; FW_NONE: the best) */
     const fw_study_tried *known;
-    int nknown;
+    int nknown, begin;
     fw_study_descend *descend; /* NULL: COBYLA, or models where `known` is */
     int most;                  /* evaluations */
     int digits;                /* of the values that are tried */
@@ -221,10 +222,9 @@ fw_status fw_study_search_from(const fw_study *study, const fw_study_sample *fro
 /* by the largest share of a range that their inputs are apart; 1 where a listed one differs */
 double fw_study_search_apart(const fw_study *study, const fw_study_sample *a,
                              const fw_study_sample *b);
-/* search->known: of these samples and of what these searches tried those that have the texts of its start */
+/* search->known: of these samples those that have the texts of its start; search->begin: that one, else FW_NONE */
 fw_status fw_study_search_knows(const fw_study *study, fw_study_search *search,
-                                const fw_study_sample *sample, int nsample,
-                                const fw_study_search *of, int nof);
+                                const fw_study_sample *sample, int nsample);
 /* n searches, in threads: each gives the same whatever runs beside it */
 fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n);
 

@@ -130,6 +130,7 @@ static fw_status search(board *b, fw_study_search *s, fw_arena *arena) {
         return FW_OK;
     }
     if (s->descend) return s->descend(&d, s->start, arena);
+    if (s->known && s->begin != FW_NONE) d.from = &s->known[s->begin];
     return s->known ? fw_study_descent_models(&d, s->known, s->nknown, arena)
                     : fw_study_descent_cobyla(&d, s->start, arena);
 }
@@ -174,26 +175,20 @@ double fw_study_search_apart(const fw_study *study, const fw_study_sample *a,
 }
 
 fw_status fw_study_search_knows(const fw_study *study, fw_study_search *s,
-                                const fw_study_sample *sample, int nsample,
-                                const fw_study_search *search, int nsearch) {
-    int most = nsample;
+                                const fw_study_sample *sample, int nsample) {
     fw_study_tried *known;
-    for (int i = 0; i < nsearch; i++)
-        most += search[i].used;
-    FW_NEED(known = fw_arena_array(study->arena, fw_study_tried, (size_t)most + 1));
-    s->known = known;
+    FW_NEED(known = fw_arena_array(study->arena, fw_study_tried, (size_t)nsample + 1));
+    s->known = known, s->begin = FW_NONE;
     for (int i = 0; i < nsample; i++) {
         fw_study_search shares;
         if (!same_lists(study, &sample[i], s->from)) continue;
+        if (&sample[i] == s->from) s->begin = s->nknown;
         fw_study_tried *t = &known[s->nknown++];
         FW_NEED(t->c = fw_arena_array(study->arena, double, (size_t)s->nconstraint));
         FW_TRY(fw_study_search_from(study, &sample[i], &shares));
         t->x = shares.start;
         see(s, &sample[i], t);
     }
-    for (int i = 0; i < nsearch; i++)
-        for (int k = 0; k < search[i].used && same_lists(study, search[i].from, s->from); k++)
-            known[s->nknown++] = search[i].tried[k];
     return FW_OK;
 }
 

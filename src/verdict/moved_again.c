@@ -107,7 +107,7 @@ static fw_status hold_stiffer(fw_arena *arena, const fw_mechanism *m, const fw_d
     const fw_dynamics_motion *x;
     fw_verdict_strain_monitor monitor;
     FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
-    o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    fw_verdict_strain_monitor_watch(&monitor, &o), o.most_angle_rad = FW_TURN;
     o.trace = NULL, o.whole = false;
     FW_TRY(fw_statics_move_stiffer(arena, m, scene, by, like, &o, &x));
     *whole = x && !x->ended && !monitor.no_memory;
@@ -228,7 +228,7 @@ static fw_status grown_way(fw_arena *arena, const fw_mechanism *m, int i, int k,
     FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
     FW_TRY(required->watch(arena, m, i, v, true, probe));
     monitor.probe = probe[0];
-    o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    fw_verdict_strain_monitor_watch(&monitor, &o), o.most_angle_rad = FW_TURN;
     o.within_limits = true, o.hopeless_rhs = hopeless, o.effects.along = way.along;
     o.whole = probe[0] != NULL, o.trace = probe[0] ? fw_verdict_clearance_trace : NULL;
     FW_TRY(fw_statics_move_stiffer(arena, m, s, way.stiffer, like, &o, &x));
@@ -263,7 +263,7 @@ static fw_status by_closed_forms(fw_arena *arena, const fw_mechanism *m, const f
     if ((*like)->ledger.hinge.used != FW_HINGE_ELASTICA || all_straight(m)) return FW_OK;
     *closed = **like, closed->ledger.hinge.used = FW_HINGE_COMPLIANCE;
     FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, saw));
-    o.observe = fw_verdict_strain_monitor_record, o.context = saw, o.most_angle_rad = FW_TURN;
+    fw_verdict_strain_monitor_watch(saw, &o), o.most_angle_rad = FW_TURN;
     o.within_limits = true, o.whole = false, o.trace = NULL;
     FW_TRY(fw_statics_move_stiffer(arena, m, s, 0, closed, &o, &x));
     if (saw->no_memory) return FW_NOMEM;
@@ -515,7 +515,7 @@ static fw_status damped_in(fw_arena *arena, int i, double loss,
     FW_TRY(fw_verdict_strain_monitor_new(arena, m, false, &monitor));
     FW_TRY(required->watch(arena, m, i, v, true, probe));
     monitor.probe = probe[0];
-    o.observe = fw_verdict_strain_monitor_record, o.context = &monitor, o.most_angle_rad = FW_TURN;
+    fw_verdict_strain_monitor_watch(&monitor, &o), o.most_angle_rad = FW_TURN;
     o.whole = probe[0] != NULL, o.trace = probe[0] ? fw_verdict_clearance_trace : NULL;
     FW_TRY(fw_statics_move_stiffer(arena, &lossy, &scene, 0, v->motion[i], &o, &x));
     if (monitor.no_memory || (probe[0] && probe[0]->no_memory)) return FW_NOMEM;

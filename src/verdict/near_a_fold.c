@@ -266,7 +266,7 @@ static fw_status move_it(fw_arena *arena, const fw_mechanism *m, const fw_device
     const fw_dynamics_motion *x;
     const bool probes = to->saw.probe != NULL;
     fw_statics_move_like(like, &o);
-    o.observe = fw_verdict_strain_monitor_record, o.context = &to->saw;
+    fw_verdict_strain_monitor_watch(&to->saw, &o);
     o.trace = probes ? fw_verdict_clearance_trace : NULL, o.whole = probes;
     o.most_angle_rad = FW_TURN, o.effects.like = NULL;
     const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, &x);

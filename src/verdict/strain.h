@@ -5,7 +5,7 @@
 #define FW_VERDICT_STRAIN_H
 #include "dynamics/dynamics.h"
 #include "flexure/beam.h"
-#include "flexure/limit.h"
+#include "flexure/flexure.h"
 #include "layout/layout.h"
 #include "maths/functions.h"
 #include "mechanism/mechanism.h"
@@ -504,12 +504,12 @@ void fw_verdict_touch_record(fw_verdict_strain_monitor *monitor,
                              const fw_dynamics_instant *instant);
 /* an fw_dynamics_observer; context is the monitor */
 void fw_verdict_strain_monitor_record(void *context, const fw_dynamics_instant *instant);
-/* An fw_dynamics_glance: the thirds of a step are enough where strains are small in it (below 0.6
-   of the peaks so far: within a third of the loosest step, a fifth of an oscillation, none grows
-   by more), or go on so smoothly that the parabola through them is right to 0.3 % of the peak
-   (third difference below 5 %, of which a cubic leaves 6 %); where cycles are counted, only where
-   the strain of every face goes on ten times more smoothly. Where probes look too none is. */
+/* An fw_dynamics_glance: the thirds of a step are enough where strains are small in it (below 0.6 of the peaks so far: within a
+   third of the loosest step, a fifth of an oscillation, none grows by more), or the parabola through them is right to 0.3 % of the
+   peak (third difference below 5 %, of which a cubic leaves 6 %); where cycles are counted, only where the strain of every face
+   goes on ten times more smoothly. Where probes look, too, steps are looked at closely to begin with. `watch`: of these options */
 bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *third);
+void fw_verdict_strain_monitor_watch(fw_verdict_strain_monitor *w, fw_dynamics_motion_options *o);
 /* Strains of which the numerical error is known from two runs. What stiff axes carry is known less
    well than the rotation: peaks of forces that ride on them come nearer with a tighter tolerance,
    but not at the order of the method. Error: twice what any hinge's largest strain differs by (1.1

@@ -205,6 +205,11 @@ bool fw_verdict_strain_monitor_glance(void *context, const fw_dynamics_instant *
     return true;
 }
 
+void fw_verdict_strain_monitor_watch(fw_verdict_strain_monitor *w, fw_dynamics_motion_options *o) {
+    o->observe = fw_verdict_strain_monitor_record, o->glance = fw_verdict_strain_monitor_glance;
+    o->context = w;
+}
+
 /* ---- fatigue ---- */
 
 /* of what nothing is known to damp the quality is at most 1e8: single crystals of silicon have some 1e7 at best near 300 K, plated

@@ -312,10 +312,8 @@ static fw_status run_scenes(fw_arena *arena, const fw_device *device, const fw_l
         if (!fw_device_in_flow(scene->flow, m->variant->flow)) continue;
         if (options->only_scene && strcmp(options->only_scene, scene->name) != 0) continue;
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &monitor[i]));
-        motion.observe = fw_verdict_strain_monitor_record;
-        motion.glance = fw_verdict_strain_monitor_glance;
+        fw_verdict_strain_monitor_watch(&monitor[i], &motion);
         motion.unsettled = fw_verdict_strain_monitor_unsettled;
-        motion.context = &monitor[i];
         FW_TRY(fw_verdict_strain_monitor_new(arena, m, device->limits.cycles > 0, &other[i]));
         motion.other = &other[i];
         FW_TRY(

@@ -269,8 +269,9 @@ static bool strains_along(const fw_mechanism_hinge *h, fw_flexure_elastica *beam
                              by * (c * load->fy_N - s * load->fx_N)};
     const double apart[2] = {sense * (c * load->apart_m[0] + s * load->apart_m[1]),
                              sense * (c * load->apart_m[1] - s * load->apart_m[0])};
-    fw_flexure_hinge_rest rest = {0}; /* a pin's place does not move */
-    if (beam || !load->pinned) rest = fw_flexure_hinge_rest_of(&h->law);
+    fw_flexure_hinge_rest rest; /* a pin's place does not move */
+    if (beam || !load->pinned)
+        rest = beam ? fw_flexure_hinge_rest_of(&h->law) : fw_flexure_hinge_rest_bare(&h->law);
     if (beam && by_beam(h, &rest, beam, th, along, apart, out)) return true;
     fw_flexure_strip_load strip;
     fw_flexure_strip_load_of(&h->section, &h->law, load->pinned ? NULL : &rest, th, along,

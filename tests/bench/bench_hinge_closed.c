@@ -97,6 +97,49 @@ static double law(int what) {
     return carry;
 }
 
+/* Forces of any size as a motion asks for them: `what` is hinges + 16 times the lanes at most. ns of one hinge. The states
+   vary: rotations to 0.18 rad, pulls to a hundredth of EI/L^2, leaves and arcs by turns of 64 states */
+static double bent(int what) {
+    enum { STATES = 512, HINGES = 8 };
+    static fw_flexure_hinge_law laws[HINGES];
+    static fw_flexure_hinge_rest rests[HINGES];
+    static fw_flexure_hinge_bent out[HINGES];
+    static double state[HINGES][STATES][3];
+    const int hinges = what % 16, widest = what / 16;
+    const fw_flexure_hinge_rest *rest[HINGES];
+    fw_flexure_hinge_lanes lanes;
+    bool known[HINGES];
+    for (int i = 0; i < hinges; i++) {
+        fw_flexure_result closed;
+        fw_flexure_input in = hinge_of(i % 3 == 2 ? ARC : LEAF);
+        in.width_m += 1e-7 * i;
+        fw_flexure_closed_form(&in, &closed);
+        fw_flexure_hinge_law_of(&in, &closed, &laws[i]);
+        rests[i] = fw_flexure_hinge_rest_of(&laws[i]), rest[i] = &rests[i];
+        for (int k = 0; k < STATES; k++) {
+            fw_flexure_hinge_at at;
+            double *to = state[i][k], pull = 0.01 * sin(3 * k);
+            to[0] = 0.0007 * (k - STATES / 2), to[1] = 3e-7 * sin(k);
+            fw_flexure_hinge_law_at(&laws[i], to[0], &at);
+            to[2] = at.drift_m.value - 0.6 * to[1] * to[1] / laws[i].length_m +
+                    pull * laws[i].length_m / (8 * laws[i].bend_m_per_N) / at.ky_N_per_m.value;
+        }
+    }
+    fw_arena *arena = fw_arena_new(0);
+    if (fw_flexure_hinge_lanes_new(arena, hinges, rest, &lanes) != FW_OK) return 0;
+    if (lanes.widest > widest) lanes.widest = widest;
+    for (int i = 0; i < hinges; i++)
+        lanes.out[i] = &out[i];
+    for (int k = 0; k < repeat / hinges; k++) {
+        for (int i = 0; i < hinges; i++)
+            for (int c = 0; c < 3; c++)
+                lanes.at[(size_t)c * lanes.stride + (size_t)i] = state[i][(k + 37 * i) % STATES][c];
+        fw_flexure_hinge_lanes_bend(&lanes, known);
+    }
+    fw_arena_free(arena);
+    return out[0].gradient[0];
+}
+
 static const struct bench_case {
     const char *name;
     double (*run)(int what);
@@ -114,6 +157,13 @@ static const struct bench_case {
     {"finite rotation, values and slopes", law, 0},
     {"finite rotation, second derivatives too", law, 1},
     {"finite rotation, wrench and tangent", law, 2},
+    {"forces of any size, one hinge", bent, 1 + 16 * 1},
+    {"forces of any size, 4 hinges one by one", bent, 4 + 16 * 1},
+    {"forces of any size, 4 hinges, SSE2", bent, 4 + 16 * 2},
+    {"forces of any size, 4 hinges, AVX2", bent, 4 + 16 * 4},
+    {"forces of any size, 6 hinges, SSE2", bent, 6 + 16 * 2},
+    {"forces of any size, 6 hinges, AVX2", bent, 6 + 16 * 4},
+    {"forces of any size, 6 hinges, AVX-512", bent, 6 + 16 * 8},
 };
 
 static int by_size(const void *a, const void *b) {

@@ -122,11 +122,45 @@ static void six_bar_poses(void **state) {
         }
 }
 
+/* hinges that were worked out together push with the bits of each alone, near rest and far from it */
+static void beside_each_other(void **state) {
+    (void)state;
+    unsigned seed = 11;
+    rig r;
+    rig_six_bar(&r, false);
+    rig_compile(&r);
+    fw_effects_beside *beside;
+    assert_int_equal(fw_effects_beside_new(r.arena, r.loads.nelement, r.loads.element, &beside),
+                     FW_OK);
+    assert_non_null(beside);
+    for (int k = 0; k < 200; k++) {
+        double p[6 * RIG_N], w[6] = {0, 1e-3, 20, 2e-3, 0, -20}, together[6 * RIG_N], alone[6];
+        const double far = k % 4 ? 1 : 8;
+        for (int i = 0; i < 6 * r.loads.nelement; i++)
+            p[i] = far * (i % 3 == 2 ? 0.2 : 1e-6) * random_(&seed);
+        fw_effects_beside_bend(beside, p);
+        for (int pass = 0; pass < 2; pass++)
+            for (int i = 0; i < r.loads.nelement; i++) {
+                const fw_effects_force_element *e = &r.loads.element[i];
+                const fw_effects_flexed *f = e->data;
+                const fw_effects_port_state s = {.load = 1, .p = p + 6 * i, .w = w};
+                assert_true(f->last->known);
+                if (pass) f->last->known = false;
+                e->class_->force(e, &s, pass ? alone : together + 6 * i);
+                if (pass) assert_memory_equal(alone, together + 6 * i, sizeof alone);
+            }
+    }
+    assert_int_equal(fw_effects_beside_new(r.arena, 1, r.loads.element, &beside), FW_OK);
+    assert_null(beside); /* of one alone nothing is gained */
+    fw_arena_free(r.arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(element_laws),
         cmocka_unit_test(released_once),
         cmocka_unit_test(six_bar_poses),
+        cmocka_unit_test(beside_each_other),
     };
     return cmocka_run_group_tests_name("nonlinear-hinge", tests, NULL, NULL);
 }

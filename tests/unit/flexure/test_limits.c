@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which criterion governs a flexure, with which number; limit angles against the elastic limits
    "with everything included" of an independent set of closed forms and finite elements. */
-#include "flexure/limit.h"
+#include "flexure/flexure.h"
 #include "flexure/section.h"
 #include "test.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flexure/limit.h"
+#include "flexure/flexure.h"
 #include "test.h"
 
 static const fw_flexure_strain_life basquin = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flexure/section.h"
-#include "flexure/limit.h"
+#include "flexure/flexure.h"
 #include "test.h"
 
 static fw_flexure_input strip(double L_um, double t_um, double h_um, double rho_um) {

@@ -17,7 +17,7 @@ static fw_diags diags;
 static fw_process_flow *flow;
 static const char plan[] = "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff";
 
-static double now = (double)NAN;      /* of the clock; NaN: there is none */
+static double now = (double)NAN; /* of the clock; NaN: there is none */
 static const fw_recipe_counted all_count = {0};
 static const char *lot_wafers = NULL, *lot_zone = NULL; /* of logs that begin */
 static int setup(void **state) {
@@ -58,13 +58,15 @@ static const char *with(const char *log, const char *words, int number) {
 
 static const char *begun(void) {
     const char *line;
-    assert_int_equal(fw_recipe_asrun_begin(arena, flow, plan, "lot 7", lot_wafers, lot_zone, &line), FW_OK);
+    assert_int_equal(fw_recipe_asrun_begin(arena, flow, plan, "lot 7", lot_wafers, lot_zone, &line),
+                     FW_OK);
     return line;
 }
 
 static const char *three(void) {
     const char *log = with(begun(), "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB", 0);
-    log = with(log, "C21;start=2026-11-20T10:09:00;end=2026-11-20T10:14:00;by=AB;contact resistance=0.4",
+    log = with(log,
+               "C21;start=2026-11-20T10:09:00;end=2026-11-20T10:14:00;by=AB;contact resistance=0.4",
                0);
     return with(log,
                 "C22; start=2026-11-20T10:30:00; end=2026-11-20T10:52:30; by=AB; second=CD; "
@@ -81,10 +83,19 @@ static void what_was_put_right_stands(void **state) {
     fw_recipe_asrun_total total;
     int n, of[2] = {0, 0};
     lot_wafers = "1,2";
-    const char *log = with(begun(), "C23; start=2026-11-20T12:00; end=2026-11-20T12:40; by=AB; wafer=1; thickness=7.9 um", 0);
-    log = with(log, "C23; start=2026-11-20T13:00; end=2026-11-20T13:09; by=AB; wafer=1; thickness=9.1 um", 0);
-    log = with(log, "C23; start=2026-11-20T14:00; end=2026-11-20T14:40; by=AB; wafer=2; thickness=7.8 um", 0);
-    log = with(log, "C23; start=2026-11-20T14:00; end=2026-11-20T14:40; by=AB; wafer=2; spread of thickness=3 %", 0);
+    const char *log = with(
+        begun(),
+        "C23; start=2026-11-20T12:00; end=2026-11-20T12:40; by=AB; wafer=1; thickness=7.9 um", 0);
+    log = with(
+        log, "C23; start=2026-11-20T13:00; end=2026-11-20T13:09; by=AB; wafer=1; thickness=9.1 um",
+        0);
+    log = with(
+        log, "C23; start=2026-11-20T14:00; end=2026-11-20T14:40; by=AB; wafer=2; thickness=7.8 um",
+        0);
+    log = with(log,
+               "C23; start=2026-11-20T14:00; end=2026-11-20T14:40; by=AB; wafer=2; spread of "
+               "thickness=3 %",
+               0);
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
     for (int i = 0; i < n; i++)
@@ -95,8 +106,9 @@ static void what_was_put_right_stands(void **state) {
     assert_int_equal(total.out, 2);
     fw_text text = fw_text_new(arena);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
-    assert_non_null(strstr(text.data, "out of limits in runs that were repeated:\n"
-                                      "C23, wafer 1, 2026-11-20T12:00, by AB: duration was 40 min"));
+    assert_non_null(strstr(text.data,
+                           "out of limits in runs that were repeated:\n"
+                           "C23, wafer 1, 2026-11-20T12:00, by AB: duration was 40 min"));
     assert_non_null(strstr(text.data, "thickness was 7.9 um; allowed 8.1 to 9.9 um"));
     assert_null(strstr(text.data, "thickness was 7.8 um"));
 }
@@ -109,19 +121,28 @@ static void a_thickness_goes_with_its_time(void **state) {
         const char *words, *told, *before;
     } entry[] = {
         {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1",
-         "step C22: thickness = 9.1 um does not go with the time that it took: that makes 18 um (16.6 to 19.3 um), by t = d rho P n "
-         "F/(eta J M) in 42 min", NULL},
+         "step C22: thickness = 9.1 um does not go with the time that it took: that makes 18 um "
+         "(16.6 to 19.3 um), by t = d rho P n "
+         "F/(eta J M) in 42 min",
+         NULL},
         {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1", NULL, NULL},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; thickness=9.1", "that makes 2.14 um", NULL},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1; set current density=10 mA/cm2", NULL, NULL},
-        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1; set current density=10 mA/cm2",
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; thickness=9.1",
+         "that makes 2.14 um", NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:45; by=AB; thickness=9.1; set current "
+         "density=10 mA/cm2",
+         NULL, NULL},
+        {"C22; start=2026-11-20T10:00; end=2026-11-20T10:22; by=AB; thickness=9.1; set current "
+         "density=10 mA/cm2",
          "that makes 4.71 um", NULL},
-        {"C13; start=2026-11-20T10:00; end=2026-11-20T10:01; by=AB; resist height=20 um", NULL, NULL},
+        {"C13; start=2026-11-20T10:00; end=2026-11-20T10:01; by=AB; resist height=20 um", NULL,
+         NULL},
         /* the missing charge: both runs make it, each at its own current; resist that was stripped in between begins anew */
-        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", NULL, "C22; start=2026-11-20T10:00; end=2026-11-20T10:11; by=AB"},
+        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", NULL,
+         "C22; start=2026-11-20T10:00; end=2026-11-20T10:11; by=AB"},
         {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", NULL,
          "C22; start=2026-11-20T09:50; end=2026-11-20T10:12; by=AB; set current density=10 mA/cm2"},
-        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", "that makes ", "C22; start=2026-11-20T09:28; end=2026-11-20T09:50; by=AB"},
+        {"C22; start=2026-11-20T10:20; end=2026-11-20T10:31; by=AB; thickness=9.1", "that makes ",
+         "C22; start=2026-11-20T09:28; end=2026-11-20T09:50; by=AB"},
     };
     for (size_t i = 0; i < sizeof entry / sizeof entry[0]; i++) {
         fw_recipe_asrun run;
@@ -131,12 +152,14 @@ static void a_thickness_goes_with_its_time(void **state) {
         const char *log = entry[i].before ? with(begun(), entry[i].before, 0) : begun();
         log = with(log, entry[i].words, 0);
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-        assert_int_equal(
-            fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1],
+                                                  (fw_place){"entry", 1, 1}, &diags),
+                         FW_OK);
         for (size_t k = 0; k < diags.count; k++) {
             if (diags.item[k].number != 654) continue;
             told = true;
-            if (!entry[i].told || !strstr(diags.item[k].message, entry[i].told)) print_message("%s\n", diags.item[k].message);
+            if (!entry[i].told || !strstr(diags.item[k].message, entry[i].told))
+                print_message("%s\n", diags.item[k].message);
             assert_true(entry[i].told && strstr(diags.item[k].message, entry[i].told));
         }
         assert_int_equal(told, entry[i].told != NULL);
@@ -153,18 +176,21 @@ static void a_wafer_is_in_one_place(void **state) {
     static const struct {
         const char *words;
         bool told;
-    } next[] = {{"C10; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=1", true},
-                {"C10; start=2026-11-20T10:05; end=2026-11-20T10:07; by=AB; wafer=1", false},
-                {"C10; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=2", false},
-                {"C09; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=1", false},
-                {"C03; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; second=CD; wafer=1", false}};
+    } next[] = {
+        {"C10; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=1", true},
+        {"C10; start=2026-11-20T10:05; end=2026-11-20T10:07; by=AB; wafer=1", false},
+        {"C10; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=2", false},
+        {"C09; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; wafer=1", false},
+        {"C03; start=2026-11-20T10:03; end=2026-11-20T10:05; by=AB; second=CD; wafer=1", false}};
     lot_wafers = "1,2";
-    const char *log = with(begun(), "C09; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; wafer=1", 0);
+    const char *log =
+        with(begun(), "C09; start=2026-11-20T10:00; end=2026-11-20T10:05; by=AB; wafer=1", 0);
     for (size_t i = 0; i < sizeof next / sizeof next[0]; i++) {
         bool told = false;
         with(log, next[i].words, 0);
         for (size_t k = 0; k < diags.count; k++)
-            told = told || strstr(diags.item[k].message, "the same wafer was in step C09: one of these times");
+            told = told || strstr(diags.item[k].message,
+                                  "the same wafer was in step C09: one of these times");
         assert_int_equal(told, next[i].told);
     }
 }
@@ -224,8 +250,10 @@ static void clocks_that_are_changed(void **state) {
     for (size_t i = 0; i < sizeof entry / sizeof entry[0]; i++) {
         fw_recipe_asrun run;
         lot_zone = entry[i].zone;
-        const char *log = with(begun(), fw_arena_printf(arena, "C20; start=%s; end=%s; by=A", entry[i].start, entry[i].end),
-                               entry[i].number);
+        const char *log = with(
+            begun(),
+            fw_arena_printf(arena, "C20; start=%s; end=%s; by=A", entry[i].start, entry[i].end),
+            entry[i].number);
         if (entry[i].number) continue;
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         assert_near(run.entry[0].end_s - run.entry[0].start_s, 60.0 * entry[i].took_min, 0);
@@ -270,12 +298,12 @@ static void dates(void **state) {
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         assert_near(run.entry[0].start_s, 86400.0 * day[i].days, 0.0);
     }
-    static const char *const wrong[] = {"2026-11-31T00:00",  "2026-02-29T00:00", "2100-02-29T00:00",
-                                        "2026-13-01T00:00",  "2026-00-01T00:00", "2026-11-20T24:00",
-                                        "2026-11-20T10:60",  "2026-11-20 10:00", "20.11.2026",
-                                        "2026-11-20T10:00z", "2026-11-20T10:0a",
-                                        "2026-11-20T10:00+1", "2026-11-20T10:00+15:00",
-                                        "2026-11-20T10:00 CET", "2026-11-20T10:00+01:60"};
+    static const char *const wrong[] = {
+        "2026-11-31T00:00",       "2026-02-29T00:00",     "2100-02-29T00:00",
+        "2026-13-01T00:00",       "2026-00-01T00:00",     "2026-11-20T24:00",
+        "2026-11-20T10:60",       "2026-11-20 10:00",     "20.11.2026",
+        "2026-11-20T10:00z",      "2026-11-20T10:0a",     "2026-11-20T10:00+1",
+        "2026-11-20T10:00+15:00", "2026-11-20T10:00 CET", "2026-11-20T10:00+01:60"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         with(begun(), fw_arena_printf(arena, "C20; start=%s; end=2026-11-21T00:00; by=A", wrong[i]),
              282);
@@ -410,21 +438,25 @@ static void clocks_are_read_to_the_minute(void **state) {
     (void)state;
     static const struct {
         const char *start, *end, *judged;
-    } at[] = {{"10:00", "10:05", "in window"}, {"10:00", "10:04", "short"},
+    } at[] = {{"10:00", "10:05", "in window"},   {"10:00", "10:04", "short"},
               {"10:00:00", "10:05:00", "short"}, {"10:00:00", "10:06:00", "in window"},
-              {"10:00", "10:15", "in window"}, {"10:00", "10:16", "long"},
-              {"10:00:00", "10:14:30", "long"}, {"10:00:00", "10:15", "in window"}};
+              {"10:00", "10:15", "in window"},   {"10:00", "10:16", "long"},
+              {"10:00:00", "10:14:30", "long"},  {"10:00:00", "10:15", "in window"}};
     for (size_t i = 0; i < sizeof at / sizeof at[0]; i++) {
         fw_recipe_asrun run;
         fw_text json = fw_text_new(arena);
-        const char *log = with(begun(), fw_arena_printf(arena, "C21; start=2026-11-20T%s; end=2026-11-20T%s; by=AB",
-                                                     at[i].start, at[i].end), 0);
+        const char *log =
+            with(begun(),
+                 fw_arena_printf(arena, "C21; start=2026-11-20T%s; end=2026-11-20T%s; by=AB",
+                                 at[i].start, at[i].end),
+                 0);
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
         if (!holds(&json, fw_arena_printf(arena, "\"judged\":\"%s\"", at[i].judged)))
             fail_msg("%s to %s is not %s", at[i].start, at[i].end, at[i].judged);
         /* the sheet's own times beside what the machine is booked for */
-        assert_true(holds(&json, "\"planned_s\":600,\"first_look_s\":360,\"stop_s\":840,\"at_machine_s\":600,\"at_machine_most_s\":840"));
+        assert_true(holds(&json, "\"planned_s\":600,\"first_look_s\":360,\"stop_s\":840,\"at_"
+                                 "machine_s\":600,\"at_machine_most_s\":840"));
     }
 }
 
@@ -463,7 +495,8 @@ static void planned_against_actual(void **state) {
    what an earlier one says; a run before counts as long as it would have been at what was set in the last one. */
 static void what_was_set_counts(void **state) {
     (void)state;
-#define AT(step, from, to) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; "
+#define AT(step, from, to)                                                                         \
+    step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; "
     static const struct {
         bool silicon;
         const char *before, *words, *judged;
@@ -471,19 +504,28 @@ static void what_was_set_counts(void **state) {
         int told;           /* FW-D684 */
     } of[] = {
         {false, NULL, AT("C22", "10:00", "10:24") "note=-", "in window", 21.038, 0},
-        {false, NULL, AT("C22", "10:00", "10:21") "note=-", "unclear", 21.038, 0}, /* with its rinse of 3 min in it */
-        {false, NULL, AT("C22", "10:00", "10:21") "set current density=10 mA/cm2", "short", 42.076, 0},
-        {false, NULL, AT("C22", "10:00", "10:44") "set current density=10 mA/cm2", "in window", 42.076, 0},
+        {false, NULL, AT("C22", "10:00", "10:21") "note=-", "unclear", 21.038,
+         0}, /* with its rinse of 3 min in it */
+        {false, NULL, AT("C22", "10:00", "10:21") "set current density=10 mA/cm2", "short", 42.076,
+         0},
+        {false, NULL, AT("C22", "10:00", "10:44") "set current density=10 mA/cm2", "in window",
+         42.076, 0},
         {false, NULL, AT("C22", "10:00", "10:41") "note=-", "long", 21.038, 0},
-        {false, NULL, AT("C22", "10:00", "10:24") "set copper thickness=18 um", "in window", 21.038, 0},
-        {false, AT("C22", "10:00", "10:21") "set current density=10 mA/cm2", AT("C22", "10:00", "10:21") "thickness=4.6 um", "short", 42.076, 0},
-        {false, AT("C22", "09:30", "09:56") "set current density=10 mA/cm2", AT("C22", "10:00", "10:12") "note=-", "in window", 21.038, 0},
-        {false, AT("C22", "09:30", "09:52") "note=-", AT("C22", "10:00", "10:10") "note=-", "long", 21.038, 0},
+        {false, NULL, AT("C22", "10:00", "10:24") "set copper thickness=18 um", "in window", 21.038,
+         0},
+        {false, AT("C22", "10:00", "10:21") "set current density=10 mA/cm2",
+         AT("C22", "10:00", "10:21") "thickness=4.6 um", "short", 42.076, 0},
+        {false, AT("C22", "09:30", "09:56") "set current density=10 mA/cm2",
+         AT("C22", "10:00", "10:12") "note=-", "in window", 21.038, 0},
+        {false, AT("C22", "09:30", "09:52") "note=-", AT("C22", "10:00", "10:10") "note=-", "long",
+         21.038, 0},
         {true, NULL, AT("S14", "10:00", "10:20") "note=-", "in window", 16.667, 0},
-        {true, NULL, AT("S14", "10:00", "10:17") "note=-", "unclear", 16.667, 0}, /* with its rinse of 5 min in it */
+        {true, NULL, AT("S14", "10:00", "10:17") "note=-", "unclear", 16.667,
+         0}, /* with its rinse of 5 min in it */
         {true, NULL, AT("S14", "10:00", "10:17") "set etch rate=20 Ao/s", "long", 8.333, 0},
         {true, NULL, AT("S14", "10:00", "10:15") "set etch rate=20 Ao/s", "unclear", 8.333, 1},
-        {true, AT("S14", "10:00", "10:15") "set etch rate=20 Ao/s", AT("S14", "10:00", "10:08") "note=-", "in window", 8.333, 0},
+        {true, AT("S14", "10:00", "10:15") "set etch rate=20 Ao/s",
+         AT("S14", "10:00", "10:08") "note=-", "in window", 8.333, 0},
         {true, NULL, AT("S14", "10:00", "10:08") "set etch rate=20 Ao/s", "unclear", 8.333, 0},
         {true, NULL, AT("S14", "10:00", "10:08") "note=-", "short", 16.667, 0},
         {true, NULL, AT("S14", "10:00", "10:15") "set temperature=35 Cel", "unclear", 7.4, 1},
@@ -500,9 +542,11 @@ static void what_was_set_counts(void **state) {
         log = with(log, of[i].words, 0);
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         const fw_recipe_asrun_entry *e = &run.entry[run.nentry - 1];
-        if (strcmp(fw_recipe_asrun_in_time(&run, e), of[i].judged) != 0) fail_msg("%zu: %s", i, fw_recipe_asrun_in_time(&run, e));
+        if (strcmp(fw_recipe_asrun_in_time(&run, e), of[i].judged) != 0)
+            fail_msg("%zu: %s", i, fw_recipe_asrun_in_time(&run, e));
         assert_near(e->as_set->time.nominal_s / 60.0, of[i].nominal_min, 0.03 * of[i].nominal_min);
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
         for (size_t k = 0; k < diags.count; k++)
             told += diags.item[k].number == 684;
         assert_int_equal(told, of[i].told);
@@ -526,14 +570,15 @@ static void sites_and_settings(void **state) {
     (void)state;
     fw_recipe_asrun run;
     lot_wafers = "1,2,A-7";
-    const char *log =
-        with(begun(),
-             entry("wafer=A-7; instrument=profilometer 2; thickness=9.1 9.0 9.2 9.15 8.9 um; "
-                   "thickness below the mould's top=left:0.0068 centre:0.0069 mm; "
-                   "set current density=0.0204 A/cm2; set bath temperature=24.5 Cel; set efficiency=96 %; "
-                   "coupon=plating-pads, drawn=1 mm, value=9.1 9.2 9.0 9.1 9.1 um, u=0.05 um, "
-                   "at=25 C/cm2, u-at=0.2 C/cm2"),
-             0);
+    const char *log = with(
+        begun(),
+        entry(
+            "wafer=A-7; instrument=profilometer 2; thickness=9.1 9.0 9.2 9.15 8.9 um; "
+            "thickness below the mould's top=left:0.0068 centre:0.0069 mm; "
+            "set current density=0.0204 A/cm2; set bath temperature=24.5 Cel; set efficiency=96 %; "
+            "coupon=plating-pads, drawn=1 mm, value=9.1 9.2 9.0 9.1 9.1 um, u=0.05 um, "
+            "at=25 C/cm2, u-at=0.2 C/cm2"),
+        0);
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
     assert_int_equal(run.nwafer, 3);
     const fw_recipe_asrun_entry *e = &run.entry[0];
@@ -550,7 +595,8 @@ static void sites_and_settings(void **state) {
     assert_int_equal(e->nset, 3);
     assert_near(e->set[0].value, 20.4, 1e-12);
     assert_near(e->set[1].value, 24.5, 1e-12);
-    assert_string_equal(e->set[2].q->id, "cu.eta"); /* no setting, but the sheet has a cell for it */
+    assert_string_equal(e->set[2].q->id,
+                        "cu.eta"); /* no setting, but the sheet has a cell for it */
     assert_int_equal(e->ncoupon, 1);
     const fw_process_measurement *m = &e->coupon[0].row;
     assert_near(m->drawn_m, 1e-3, 1e-18);
@@ -570,13 +616,16 @@ static void sites_and_settings(void **state) {
     /* told and shown in the unit of the plan, whatever it was written in, and never without one */
     fw_text table = fw_text_new(arena), page = fw_text_new(arena);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
-    assert_true(holds(&table, "set current density = 20.4 mA/cm2 (written 0.0204 A/cm2), planned 20 mA/cm2: OUT of 19.8 to 20.2 mA/cm2"));
+    assert_true(holds(&table, "set current density = 20.4 mA/cm2 (written 0.0204 A/cm2), planned "
+                              "20 mA/cm2: OUT of 19.8 to 20.2 mA/cm2"));
     assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
-    assert_true(holds(&page, "set current density = 20.4 mA/cm2 (written 0.0204 A/cm2), planned 20 mA/cm2"));
+    assert_true(holds(
+        &page, "set current density = 20.4 mA/cm2 (written 0.0204 A/cm2), planned 20 mA/cm2"));
     diags = fw_diags_new(arena);
     assert_int_equal(fw_recipe_asrun_ask_values(e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
     assert_int_equal(diags.count, 1);
-    assert_non_null(strstr(diags.item[0].message, "current density = 20.4 mA/cm2 (written 0.0204 A/cm2), the step allows 19.8 to 20.2 mA/cm2"));
+    assert_non_null(strstr(diags.item[0].message, "current density = 20.4 mA/cm2 (written 0.0204 "
+                                                  "A/cm2), the step allows 19.8 to 20.2 mA/cm2"));
 }
 
 /* for calibrate: each coupon once, by wafer; what is read again takes its place; the plan is not needed */
@@ -596,8 +645,10 @@ static void readings(void **state) {
     log = with(log, entry(fw_arena_printf(arena, "wafer=2; %s", one)), 0);
     log = with(log, entry(fw_arena_printf(arena, "wafer=1; %s; %s", other, again)), 0);
     /* of one run: what was written under at is corrected where a size is read again; a size that is not read again stays */
-    static const char ladder[] = "coupon=undercut-ladder, width, drawn=%d um, value=%s um, u=0.08 um, at=%d um";
-    const char *narrow = fw_arena_printf(arena, ladder, 8, "5.1", 49), *wrong = fw_arena_printf(arena, ladder, 16, "13.1", 49),
+    static const char ladder[] =
+        "coupon=undercut-ladder, width, drawn=%d um, value=%s um, u=0.08 um, at=%d um";
+    const char *narrow = fw_arena_printf(arena, ladder, 8, "5.1", 49),
+               *wrong = fw_arena_printf(arena, ladder, 16, "13.1", 49),
                *right = fw_arena_printf(arena, ladder, 16, "13.1", 51);
     log = with(log, entry(fw_arena_printf(arena, "wafer=2; %s; %s", narrow, wrong)), 0);
     log = with(log, entry(fw_arena_printf(arena, "wafer=2; %s", right)), 0);
@@ -612,15 +663,19 @@ static void readings(void **state) {
     /* which ones, by which line, and what to do where both shall count; and that what is left says two things of one run */
     int said[2] = {0};
     for (size_t i = 0; i < diags.count; i++)
-        if (diags.item[i].number == 610 || diags.item[i].number == 611) said[diags.item[i].number - 610]++;
+        if (diags.item[i].number == 610 || diags.item[i].number == 611)
+            said[diags.item[i].number - 610]++;
     assert_int_equal(said[0], 3);
     assert_int_equal(said[1], 2); /* pads of wafer 1, ladder of wafer 2 */
     fw_text text = fw_text_new(arena), json = fw_text_new(arena);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
-    assert_non_null(strstr(text.data, fw_arena_printf(arena, "line 5, C22: %s; line 6: %s", wrong + 7, right + 7)));
+    assert_non_null(strstr(
+        text.data, fw_arena_printf(arena, "line 5, C22: %s; line 6: %s", wrong + 7, right + 7)));
     assert_non_null(strstr(text.data, "as sites of one value"));
-    assert_non_null(strstr(json.data, fw_arena_printf(arena, "\"line\":5,\"coupon\":\"%s\",\"by_line\":6", wrong + 7)));
+    assert_non_null(
+        strstr(json.data,
+               fw_arena_printf(arena, "\"line\":5,\"coupon\":\"%s\",\"by_line\":6", wrong + 7)));
     assert_null(strstr(text.data, fw_arena_printf(arena, "C22: %s", narrow + 7)));
     assert_string_equal(r.lot, "lot 7");
     assert_string_equal(r.item[0].wafer, "2");
@@ -636,18 +691,24 @@ static void readings(void **state) {
    another wafer, nor of a run before the last one */
 static void readings_of_warm_baths(void **state) {
     (void)state;
-    static const char rate[] = "coupon=etch-rate, pan.R, value=0.62 0.61 0.63 um, u=0.01 um, at=5 min";
-    static const char *const etch = "S14; start=2026-11-20T10:00; end=2026-11-20T10:17; by=AB; second=CD; wafer=1";
-    static const char *const later = "S15; start=2026-11-20T11:00; end=2026-11-20T11:07; by=AB; wafer=%d; %s%s";
+    static const char rate[] =
+        "coupon=etch-rate, pan.R, value=0.62 0.61 0.63 um, u=0.01 um, at=5 min";
+    static const char *const etch =
+        "S14; start=2026-11-20T10:00; end=2026-11-20T10:17; by=AB; second=CD; wafer=1";
+    static const char *const later =
+        "S15; start=2026-11-20T11:00; end=2026-11-20T11:07; by=AB; wafer=%d; %s%s";
     static const struct {
         const char *etched, *again; /* NULL: not */
         int wafer;
         const char *more;
         double T, u;
-    } of[] = {{"; set temperature=35 Cel", NULL, 1, "", 308.15, 0.288675}, {"; set temperature=35.0 Cel", NULL, 1, "", 308.15, 0.0288675},
-              {"; set temperature=35 Cel", NULL, 2, "", 0, 0},             {"", NULL, 1, "", 0, 0},
+    } of[] = {{"; set temperature=35 Cel", NULL, 1, "", 308.15, 0.288675},
+              {"; set temperature=35.0 Cel", NULL, 1, "", 308.15, 0.0288675},
+              {"; set temperature=35 Cel", NULL, 2, "", 0, 0},
+              {"", NULL, 1, "", 0, 0},
               {"", NULL, 1, ", temperature=30 Cel, u-temperature=0.5 K", 303.15, 0.5},
-              {"; set temperature=35 Cel", "", 1, "", 0, 0},               {"; set temperature=35 Cel", "; set temperature=31 Cel", 1, "", 304.15, 0.288675}};
+              {"; set temperature=35 Cel", "", 1, "", 0, 0},
+              {"; set temperature=35 Cel", "; set temperature=31 Cel", 1, "", 304.15, 0.288675}};
     flow = read_pack(arena, SILICON, NULL, NULL, &diags);
     assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
     lot_wafers = "1,2";
@@ -656,9 +717,16 @@ static void readings_of_warm_baths(void **state) {
         fw_process_readings r;
         const char *log = with(begun(), fw_arena_printf(arena, "%s%s", etch, of[i].etched), 0);
         if (of[i].again)
-            log = with(log, fw_arena_printf(arena, "S14; start=2026-11-20T10:30; end=2026-11-20T10:32; by=AB; second=CD; wafer=1%s", of[i].again), 0);
+            log = with(log,
+                       fw_arena_printf(arena,
+                                       "S14; start=2026-11-20T10:30; end=2026-11-20T10:32; by=AB; "
+                                       "second=CD; wafer=1%s",
+                                       of[i].again),
+                       0);
         log = with(log, fw_arena_printf(arena, later, of[i].wafer, rate, of[i].more), 0);
-        assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+        assert_int_equal(
+            fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run),
+            FW_OK);
         assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
         assert_int_equal(r.n, 1);
         assert_near(r.item[0].row.condition[FW_CONDITION_TEMPERATURE], of[i].T, 1e-9);
@@ -666,14 +734,18 @@ static void readings_of_warm_baths(void **state) {
     }
     fw_recipe_asrun run;
     fw_process_readings open;
-    const char *log = with(begun(), fw_arena_printf(arena, "%s; %s, open-area=176.7 cm2, u-open-area=2 cm2", etch, rate), 0);
-    assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    const char *log = with(
+        begun(),
+        fw_arena_printf(arena, "%s; %s, open-area=176.7 cm2, u-open-area=2 cm2", etch, rate), 0);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &open), FW_OK);
     assert_near(open.item[0].row.condition[FW_CONDITION_OPEN_AREA], 176.7e-4, 1e-12);
     assert_near(open.item[0].row.condition_uncertainty[FW_CONDITION_OPEN_AREA], 2e-4, 1e-12);
     with(begun(), fw_arena_printf(arena, "%s; %s, open-area=35 um", etch, rate), 282);
     with(begun(), fw_arena_printf(arena, "%s; %s, temperature=35 um", etch, rate), 282);
-    with(begun(), fw_arena_printf(arena, "%s; %s, temperature=35 Cel, u-temperature=-1 K", etch, rate), 282);
+    with(begun(),
+         fw_arena_printf(arena, "%s; %s, temperature=35 Cel, u-temperature=-1 K", etch, rate), 282);
 }
 
 /* what the plan does not know is refused with what there is */
@@ -802,7 +874,10 @@ static void wafers_are_no_repetitions(void **state) {
     fw_text text = fw_text_new(arena), json = fw_text_new(arena), page = fw_text_new(arena);
     lot_wafers = "1,2";
     const char *log = with(begun(), entry("wafer=1; thickness=9.1 um"), 0);
-    log = with(log, "C22; start=2026-11-20T11:00; end=2026-11-20T11:22; by=AB; second=CD; wafer=2; thickness=7.1 um", 0);
+    log = with(log,
+               "C22; start=2026-11-20T11:00; end=2026-11-20T11:22; by=AB; second=CD; wafer=2; "
+               "thickness=7.1 um",
+               0);
     log = with(log, entry("wafer=1; thickness=9.2 um"), 0);
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
@@ -840,7 +915,9 @@ static int too_many_of(const char *const *words, int n, bool *told) {
     for (int i = 0; i < count; i++)
         found += strcmp(list[i].what, "wafers at once") == 0;
     const int before = said(659);
-    assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"log", 1, 1}, &diags), FW_OK);
+    assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1],
+                                              (fw_place){"log", 1, 1}, &diags),
+                     FW_OK);
     *told = said(659) > before;
     return found;
 }
@@ -849,23 +926,30 @@ static int too_many_of(const char *const *words, int n, bool *told) {
    enough for one after the other, where a clock that was read to the minute leaves it open, or on two hotplates */
 static void machines_take_so_many(void **state) {
     (void)state;
-#define BAKE(id, from, to, more) id "; start=2026-11-20T" from "; end=2026-11-20T" to "; by=AB; " more
+#define BAKE(id, from, to, more)                                                                   \
+    id "; start=2026-11-20T" from "; end=2026-11-20T" to "; by=AB; " more
     static const struct {
         const char *words[3];
         int found;
     } of[] = {
         {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C09", "10:00", "10:11", "wafer=2"),
-          BAKE("C09", "10:00", "10:11", "wafer=3")}, 3},
+          BAKE("C09", "10:00", "10:11", "wafer=3")},
+         3},
         {{BAKE("C09", "10:00", "10:11", "")}, 1},
         {{BAKE("C09", "10:00", "10:34", "wafer=1"), BAKE("C09", "10:00", "10:34", "wafer=2"),
-          BAKE("C09", "10:00", "10:34", "wafer=3")}, 0},
+          BAKE("C09", "10:00", "10:34", "wafer=3")},
+         0},
         {{BAKE("C09", "10:00", "10:34", "")}, 0},
         {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C09", "10:02", "10:13", "wafer=2")}, 2},
         {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C11", "10:02", "10:13", "wafer=2")}, 2},
         {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C09", "10:10", "10:21", "wafer=2")}, 0},
         {{BAKE("C09", "10:00", "10:11", "wafer=1"), BAKE("C09", "10:11", "10:22", "wafer=2")}, 0},
-        {{BAKE("C09", "10:00", "10:11", "wafer=1; tool=left"), BAKE("C09", "10:02", "10:13", "wafer=2; tool=right")}, 0},
-        {{BAKE("C09", "10:00", "10:11", "wafer=1; tool=left"), BAKE("C09", "10:02", "10:13", "wafer=2; tool=left")}, 2},
+        {{BAKE("C09", "10:00", "10:11", "wafer=1; tool=left"),
+          BAKE("C09", "10:02", "10:13", "wafer=2; tool=right")},
+         0},
+        {{BAKE("C09", "10:00", "10:11", "wafer=1; tool=left"),
+          BAKE("C09", "10:02", "10:13", "wafer=2; tool=left")},
+         2},
     };
 #undef BAKE
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
@@ -874,19 +958,29 @@ static void machines_take_so_many(void **state) {
         while (n < 3 && of[i].words[n])
             n++;
         const int found = too_many_of(of[i].words, n, &told);
-        if (found != of[i].found || told != (found > 0)) fail_msg("case %d: %d are found, %d is told", (int)i, found, told);
+        if (found != of[i].found || told != (found > 0))
+            fail_msg("case %d: %d are found, %d is told", (int)i, found, told);
     }
 }
 
 /* ---- what becomes of wafers ---- */
 
-static const char *fate(const char *log, const char *wafer, const char *time, const char *word, int number) {
-    return with(log, fw_arena_printf(arena, "C22; wafer=%s; start=2026-11-20T%s; by=AB; %s=cracked in the jig", wafer, time, word), number);
+static const char *fate(const char *log, const char *wafer, const char *time, const char *word,
+                        int number) {
+    return with(log,
+                fw_arena_printf(arena,
+                                "C22; wafer=%s; start=2026-11-20T%s; by=AB; %s=cracked in the jig",
+                                wafer, time, word),
+                number);
 }
 
-static const char *run_of(const char *log, const char *step, const char *wafer, const char *from, const char *to, int number) {
-    return with(log, fw_arena_printf(arena, "%s; start=2026-11-20T%s; end=2026-11-20T%s; by=AB; second=CD%s%s", step, from, to,
-                                     wafer ? "; wafer=" : "", wafer ? wafer : ""), number);
+static const char *run_of(const char *log, const char *step, const char *wafer, const char *from,
+                          const char *to, int number) {
+    return with(log,
+                fw_arena_printf(arena,
+                                "%s; start=2026-11-20T%s; end=2026-11-20T%s; by=AB; second=CD%s%s",
+                                step, from, to, wafer ? "; wafer=" : "", wafer ? wafer : ""),
+                number);
 }
 
 /* from then on no entry of a wafer that is scrapped or held is taken or expected; what was done before may still be logged */
@@ -900,7 +994,9 @@ static void wafers_that_are_out(void **state) {
     log = fate(log, "2", "10:45", "scrapped", 0);
     log = fate(log, "3", "10:50", "held", 0);
     run_of(log, "C22", "2", "10:46", "10:50", 603);
-    assert_non_null(strstr(diags.item[diags.count - 1].message, "wafer 2 was scrapped at C22, 2026-11-20T10:45 (line 4: cracked in the jig)"));
+    assert_non_null(
+        strstr(diags.item[diags.count - 1].message,
+               "wafer 2 was scrapped at C22, 2026-11-20T10:45 (line 4: cracked in the jig)"));
     run_of(log, "C22", "3", "11:00", "11:22", 603);
     assert_non_null(strstr(diags.item[diags.count - 1].message, "log resumed= first"));
     run_of(log, "C22", "2", "10:21", "10:43", 0); /* before that, and only logged now */
@@ -912,13 +1008,16 @@ static void wafers_that_are_out(void **state) {
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
-    assert_true(holds(&text, "wafer 2: scrapped at C22, 2026-11-20T10:45, by AB: cracked in the jig"));
+    assert_true(
+        holds(&text, "wafer 2: scrapped at C22, 2026-11-20T10:45, by AB: cracked in the jig"));
     assert_true(holds(&text, "wafers: 3 in, 1 out, 1 held"));
     assert_true(holds(&text, "2 of 28 steps run, 0 repeated"));
     assert_false(holds(&text, "not yet"));
     assert_true(holds(&json, "\"wafers_in\":3,\"wafers_out\":1,\"expected\":[]"));
     assert_true(holds(&json, "\"wafers_in\":1,\"wafers_out\":1,\"expected\":[\"1\"]"));
-    assert_true(holds(&json, "\"fates\":[{\"wafer\":\"2\",\"fate\":\"scrapped\",\"step\":\"C22\",\"at\":\"2026-11-20T10:45\",\"by\":\"AB\",\"why\":\"cracked in the jig\",\"line\":4}"));
+    assert_true(holds(
+        &json, "\"fates\":[{\"wafer\":\"2\",\"fate\":\"scrapped\",\"step\":\"C22\",\"at\":\"2026-"
+               "11-20T10:45\",\"by\":\"AB\",\"why\":\"cracked in the jig\",\"line\":4}"));
     assert_true(holds(&page, "3 in, 1 out, 1 held, 1 scrapped"));
     /* held, and goes on; scrapped, and does not; and no lot is left of scrapped wafers */
     const char *on = fate(log, "3", "12:00", "resumed", 0);
@@ -950,22 +1049,30 @@ static void deviations_are_written_down(void **state) {
     lot_wafers = "1,2";
     const char *log = with(begun(), entry("wafer=1; deviation=1, plated at 30 °C = too warm"), 0);
     log = run_of(log, "C22", "1", "11:20", "11:42", 0);
-    log = with(log, "C22; wafer=2; start=2026-11-20T10:45; by=CD; scrapped=cracked; deviation=2, without its jig", 0);
+    log = with(log,
+               "C22; wafer=2; start=2026-11-20T10:45; by=CD; scrapped=cracked; deviation=2, "
+               "without its jig",
+               0);
     with(log, entry("wafer=1; deviation=1; deviation=2"), 282);
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
     assert_string_equal(run.entry[0].deviation, "1, plated at 30 °C = too warm");
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
-    assert_true(holds(&text, "deviations written down:\nC22, wafer 1, by AB: 1, plated at 30 °C = too warm\nC22, wafer 2, by CD: 2, without its jig\n"));
-    assert_true(holds(&json, "\"written_down\":[{\"step\":\"C22\",\"wafer\":\"1\",\"at\":\"2026-11-20T10:30\",\"by\":\"AB\",\"deviation\":\"1, plated at 30 °C = too warm\",\"line\":2}"));
+    assert_true(holds(&text, "deviations written down:\nC22, wafer 1, by AB: 1, plated at 30 °C = "
+                             "too warm\nC22, wafer 2, by CD: 2, without its jig\n"));
+    assert_true(holds(
+        &json, "\"written_down\":[{\"step\":\"C22\",\"wafer\":\"1\",\"at\":\"2026-11-20T10:30\","
+               "\"by\":\"AB\",\"deviation\":\"1, plated at 30 °C = too warm\",\"line\":2}"));
     assert_true(holds(&page, "<td>2, without its jig</td><td>CD</td>"));
 }
 
 /* calibrate leaves out what was read on a wafer after it was scrapped, and keeps what was read before */
 static void readings_of_what_is_out(void **state) {
     (void)state;
-    static const char pads[] = "%s; wafer=1; start=2026-11-20T%s; end=2026-11-20T%s; by=AB; second=CD; coupon=plating-pads, drawn=%d um, value=9.1 um, u=0.1 um, at=25 C/cm2";
+    static const char pads[] =
+        "%s; wafer=1; start=2026-11-20T%s; end=2026-11-20T%s; by=AB; second=CD; "
+        "coupon=plating-pads, drawn=%d um, value=9.1 um, u=0.1 um, at=25 C/cm2";
     fw_recipe_asrun run;
     fw_process_readings r;
     lot_wafers = "1,2";
@@ -973,7 +1080,8 @@ static void readings_of_what_is_out(void **state) {
     log = with(log, fw_arena_printf(arena, pads, "C22", "11:00", "11:22", 100), 0);
     log = fate(log, "1", "11:30", "scrapped", 0);
     diags = fw_diags_new(arena);
-    assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, flow, NULL, "lot.log", log, strlen(log), &diags, &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     assert_int_equal(r.n, 2);
     run.entry[2].start_s -= 3600.0; /* as if it had been scrapped at 10:30 */
@@ -988,10 +1096,15 @@ static void readings_of_what_is_out(void **state) {
    counts; --all-runs counts all, --without leaves a wafer out. */
 static void readings_of_bad_runs(void **state) {
     (void)state;
-#define AT(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
-    static const char lines[] = "; coupon=cd-lines, line, drawn=6 um, value=3.64 3.65 3.63 um, u=0.02 um; coupon=cd-lines, space, drawn=6 um, value=8.34 8.35 8.36 um, u=0.02 um";
+#define AT(step, from, to, wafer)                                                                  \
+    step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; "            \
+                                                              "wafer=" wafer
+    static const char lines[] =
+        "; coupon=cd-lines, line, drawn=6 um, value=3.64 3.65 3.63 um, u=0.02 um; coupon=cd-lines, "
+        "space, drawn=6 um, value=8.34 8.35 8.36 um, u=0.02 um";
     static const char step[] = "; coupon=al-step, value=0.6 um, u=0.01 um, at=50 um";
-    static const char ladder[] = "; coupon=undercut-ladder, width, drawn=10 um, value=6.9 um, u=0.02 um, at=50 um";
+    static const char ladder[] =
+        "; coupon=undercut-ladder, width, drawn=10 um, value=6.9 um, u=0.02 um, at=50 um";
 #define LADDER AT("S18", "14:00", "15:50", "1") ";"
     static const struct {
         const char *entry[4];
@@ -1004,19 +1117,55 @@ static void readings_of_bad_runs(void **state) {
         {{AT("S14", "10:00", "10:40", "1"), LADDER}, 2, {0}, 0, 1},
         {{AT("S14", "10:00", "10:40", "2"), LADDER}, 2, {0}, 1, 0},
         {{AT("S14", "10:00", "10:40", "1"), LADDER}, 2, {.all_runs = true}, 1, 0},
-        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1"), LADDER}, 3, {0}, 3, 1},
-        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:20", "1"), LADDER}, 4, {0}, 0, 2},
-        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:02", "1"), LADDER}, 4, {0}, 1, 1},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1"), LADDER},
+         3,
+         {0},
+         3,
+         1},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"),
+          AT("S14", "12:00", "12:20", "1"), LADDER},
+         4,
+         {0},
+         0,
+         2},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"),
+          AT("S14", "12:00", "12:02", "1"), LADDER},
+         4,
+         {0},
+         1,
+         1},
         {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 2, 0},
         {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 0, 1},
-        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.all_runs = true}, 2, 1},
+        {{AT("S14", "10:00", "10:40", "1"), AT("S15", "11:00", "11:07", "1")},
+         2,
+         {.all_runs = true},
+         2,
+         1},
         {{AT("S14", "10:00", "10:40", "2"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 2, 0},
         {{AT("S14", "10:00", "10:05", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {0}, 0, 1},
-        {{AT("S14", "10:00", "10:05", "1"), AT("S14", "10:30", "10:42", "1"), AT("S15", "11:00", "11:07", "1")}, 3, {0}, 2, 0},
-        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"), AT("S14", "12:00", "12:02", "1")}, 3, {0}, 0, 1},
+        {{AT("S14", "10:00", "10:05", "1"), AT("S14", "10:30", "10:42", "1"),
+          AT("S15", "11:00", "11:07", "1")},
+         3,
+         {0},
+         2,
+         0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1"),
+          AT("S14", "12:00", "12:02", "1")},
+         3,
+         {0},
+         0,
+         1},
         {{AT("S14", "10:00", "10:40", "1"), AT("S18", "11:00", "12:50", "1")}, 2, {0}, 1, 0},
-        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.without = "1"}, 0, 0},
-        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")}, 2, {.without = "2"}, 2, 0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")},
+         2,
+         {.without = "1"},
+         0,
+         0},
+        {{AT("S14", "10:00", "10:17", "1"), AT("S15", "11:00", "11:07", "1")},
+         2,
+         {.without = "2"},
+         2,
+         0},
     };
     flow = read_pack(arena, SILICON, NULL, NULL, &diags);
     assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
@@ -1028,7 +1177,10 @@ static void readings_of_bad_runs(void **state) {
         const char *text = begun();
         for (int k = 0; k < log[i].n; k++) {
             const char *e = log[i].entry[k];
-            const char *more = strncmp(e, "S15", 3) == 0 ? lines : strchr(e, '\0')[-1] == ';' ? ladder : strncmp(e, "S18", 3) == 0 ? step : "";
+            const char *more = strncmp(e, "S15", 3) == 0    ? lines
+                               : strchr(e, '\0')[-1] == ';' ? ladder
+                               : strncmp(e, "S18", 3) == 0  ? step
+                                                            : "";
             if (more == ladder) more++; /* its entry ends with one */
             text = with(text, fw_arena_printf(arena, "%s%s", e, more), 0);
         }
@@ -1037,11 +1189,14 @@ static void readings_of_bad_runs(void **state) {
         fw_process_flow *computed = flow;
         flow = read_pack(arena, SILICON, NULL, NULL, &diags);
         diags = fw_diags_new(arena);
-        assert_int_equal(fw_recipe_asrun_read(arena, flow, NULL, "lot.log", text, strlen(text), &diags, &run), FW_OK);
+        assert_int_equal(
+            fw_recipe_asrun_read(arena, flow, NULL, "lot.log", text, strlen(text), &diags, &run),
+            FW_OK);
         assert_int_equal(fw_recipe_asrun_readings(arena, &run, &log[i].counted, &diags, &r), FW_OK);
         for (size_t k = 0; k < diags.count; k++)
             told += diags.item[k].number == 693;
-        if (r.n != log[i].read || told != log[i].told) fail_msg("%zu: %d readings, told %d times", i, r.n, told);
+        if (r.n != log[i].read || told != log[i].told)
+            fail_msg("%zu: %d readings, told %d times", i, r.n, told);
         flow = computed;
     }
     fw_recipe_asrun run;
@@ -1063,30 +1218,55 @@ static void a_log_goes_on_by_another_plan(void **state) {
     static const struct {
         const char *words;
         bool taken;
-    } of[] = {{"plan; by=AB", false}, {"plan; start=2026-11-20T12:00", false}, {"plan; start=noon; by=AB", false},
-              {"plan; start=2026-11-20T12:00; by=AB; wafer=1", false}, {"plan; start=2026-11-20T12:00; by=AB; note=pack of wafer 1", true}};
+    } of[] = {{"plan; by=AB", false},
+              {"plan; start=2026-11-20T12:00", false},
+              {"plan; start=noon; by=AB", false},
+              {"plan; start=2026-11-20T12:00; by=AB; wafer=1", false},
+              {"plan; start=2026-11-20T12:00; by=AB; note=pack of wafer 1", true}};
     fw_recipe_asrun run;
     const char *line = NULL, *head;
-    const char *log = with(begun(), "C22; start=2026-11-20T10:00:00; end=2026-11-20T10:24:00; by=AB; second=CD; thickness=9.1", 0);
+    const char *log = with(
+        begun(),
+        "C22; start=2026-11-20T10:00:00; end=2026-11-20T10:24:00; by=AB; second=CD; thickness=9.1",
+        0);
     assert_true(fw_recipe_asrun_is_plan(of[0].words));
     assert_false(fw_recipe_asrun_is_plan("planarise; start=2026-11-20T12:00"));
     diags = fw_diags_new(arena);
-    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_INPUT);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run),
+        FW_INPUT);
     assert_int_equal(diags.item[diags.count - 1].number, 281);
-    assert_non_null(strstr(diags.item[diags.count - 1].message, "--entry \"plan; start=TIME; by=INITIALS; note=WHY\""));
-    assert_int_equal(fw_recipe_asrun_read_former(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_non_null(strstr(diags.item[diags.count - 1].message,
+                           "--entry \"plan; start=TIME; by=INITIALS; note=WHY\""));
+    assert_int_equal(
+        fw_recipe_asrun_read_former(arena, flow, other, "lot.log", log, strlen(log), &diags, &run),
+        FW_OK);
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
-        assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, other, of[i].words, (fw_place){"entry", 1, 1}, &diags, &line), of[i].taken ? FW_OK : FW_INPUT);
-    assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, plan, of[4].words, (fw_place){"entry", 1, 1}, &diags, &head), FW_INPUT);
+        assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, other, of[i].words,
+                                                  (fw_place){"entry", 1, 1}, &diags, &line),
+                         of[i].taken ? FW_OK : FW_INPUT);
+    assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, plan, of[4].words,
+                                              (fw_place){"entry", 1, 1}, &diags, &head),
+                     FW_INPUT);
     log = fw_arena_printf(arena, "%s%s", log, line);
     /* at half of the rate the same times are short: of the line before they are not */
     measured(flow, "cu.J", 100.0, 1.0);
     assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
-    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, "C22; start=2026-11-20T13:00:00; end=2026-11-20T13:21:00; by=AB; second=CD; thickness=4.6; wafer=1", (fw_place){"entry", 1, 1}, now, &diags, &line), FW_INPUT);
-    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, "C20; start=2026-11-20T13:00:00; end=2026-11-20T13:09:00; by=AB", (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run,
+                                         "C22; start=2026-11-20T13:00:00; end=2026-11-20T13:21:00; "
+                                         "by=AB; second=CD; thickness=4.6; wafer=1",
+                                         (fw_place){"entry", 1, 1}, now, &diags, &line),
+                     FW_INPUT);
+    assert_int_equal(
+        fw_recipe_asrun_add(arena, flow, &run,
+                            "C20; start=2026-11-20T13:00:00; end=2026-11-20T13:09:00; by=AB",
+                            (fw_place){"entry", 1, 1}, now, &diags, &line),
+        FW_OK);
     log = fw_arena_printf(arena, "%s%s", log, line);
-    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
     assert_int_equal(run.nentry, 2);
     assert_int_equal(run.nline, 3);
     fw_recipe_asrun_total total; /* what was planned is of the plan of each line */
@@ -1102,14 +1282,17 @@ static void a_log_goes_on_by_another_plan(void **state) {
     assert_int_equal(run.entry[0].nmeasured, 1);
     fw_text text = fw_text_new(arena);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
-    assert_true(holds(&text, "from line 3 on plan ffeeddccbbaa: 2026-11-20T12:00, by AB: pack of wafer 1"));
+    assert_true(
+        holds(&text, "from line 3 on plan ffeeddccbbaa: 2026-11-20T12:00, by AB: pack of wafer 1"));
     assert_true(holds(&text, "by the plan of its line: "));
     for (int n = 3; n >= 2; n--) { /* also where the head ends with the line of the plan */
         assert_int_equal(fw_recipe_asrun_head(arena, n, run.link[n - 1], &head), FW_OK);
-        assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags), FW_OK);
+        assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags),
+                         FW_OK);
     }
     assert_int_equal(fw_recipe_asrun_head(arena, 4, run.chain, &head), FW_OK);
-    assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags), FW_INPUT);
+    assert_int_equal(fw_recipe_asrun_check_head(&run, "head", head, strlen(head), &diags),
+                     FW_INPUT);
 }
 
 /* a line of a former version: without the limits of its values */
@@ -1133,22 +1316,34 @@ static void values_go_by_the_plan_of_their_line(void **state) {
     const char *line;
     int n;
     lot_wafers = "1,2,3";
-    const char *log = with(begun(), "C22; start=2026-11-20T10:00:00; end=2026-11-20T10:21:00; by=AB; second=CD; wafer=1; thickness=9.1 um; set current density=20.1 mA/cm2", 0);
-    log = with(log, "C22; start=2026-11-20T11:00:00; end=2026-11-20T11:21:00; by=AB; second=CD; wafer=2; thickness=9.1 9.2 9.0 9.1 8.0 um", 0);
+    const char *log = with(begun(),
+                           "C22; start=2026-11-20T10:00:00; end=2026-11-20T10:21:00; by=AB; "
+                           "second=CD; wafer=1; thickness=9.1 um; set current density=20.1 mA/cm2",
+                           0);
+    log = with(log,
+               "C22; start=2026-11-20T11:00:00; end=2026-11-20T11:21:00; by=AB; second=CD; "
+               "wafer=2; thickness=9.1 9.2 9.0 9.1 8.0 um",
+               0);
     assert_non_null(strstr(log, "\tlimits of thickness=8.1 9.9 - um\t"));
     assert_non_null(strstr(log, "\tlimits of set current density=19.8 20.2 20 mA/cm2\t"));
-    log = of_before(log, "step=C22\tstart=2026-11-20T12:00:00\tend=2026-11-20T12:21:00\tby=AB\twafer=3\tsecond=CD\tthickness=9.1 um");
+    log = of_before(log, "step=C22\tstart=2026-11-20T12:00:00\tend=2026-11-20T12:21:00\tby="
+                         "AB\twafer=3\tsecond=CD\tthickness=9.1 um");
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-    assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, other, "plan; start=2026-11-20T13:00; by=AB", (fw_place){"entry", 1, 1}, &diags, &line), FW_OK);
+    assert_int_equal(fw_recipe_asrun_add_plan(arena, &run, other,
+                                              "plan; start=2026-11-20T13:00; by=AB",
+                                              (fw_place){"entry", 1, 1}, &diags, &line),
+                     FW_OK);
     log = fw_arena_printf(arena, "%s%s", log, line);
     measured(flow, "cu.J", 100.0, 1.0);
     assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
     for (int k = 0; k < flow->nstep; k++)
         for (int i = 0; i < flow->step[k].naccept && strcmp(flow->step[k].id, "C22") == 0; i++)
             if (strcmp(flow->step[k].accept[i].measure, "thickness") == 0)
-                flow->step[k].accept[i].low = "9500", flow->step[k].accept[i].high = "10500", flow->step[k].accept[i].unit = "nm";
+                flow->step[k].accept[i].low = "9500", flow->step[k].accept[i].high = "10500",
+                flow->step[k].accept[i].unit = "nm";
     diags = fw_diags_new(arena);
-    assert_int_equal(fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
+    assert_int_equal(
+        fw_recipe_asrun_read(arena, flow, other, "lot.log", log, strlen(log), &diags, &run), FW_OK);
     assert_true(run.entry[0].limited && run.entry[1].limited && !run.entry[2].limited);
     assert_true(fw_recipe_asrun_accepted(&run.entry[0].measured[0]));
     assert_string_equal(run.entry[0].measured[0].low, "8100");
@@ -1161,11 +1356,16 @@ static void values_go_by_the_plan_of_their_line(void **state) {
         assert_false(strcmp(list[i].what, "thickness") == 0 && list[i].entry == &run.entry[0]);
     fw_text text = fw_text_new(arena);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
-    assert_true(holds(&text, "lines before are judged by the times and the limits that stand in them"));
+    assert_true(
+        holds(&text, "lines before are judged by the times and the limits that stand in them"));
     assert_true(holds(&text, "without limits, and judged by the last plan's: line 4\n"));
     /* of one site, and not of the mean of the sites, which is fine */
-    assert_true(holds(&text, "thickness = 8880 nm, mean of 5 sites: 8000 nm (right) OUT of 8100 to 9900 nm"));
-    with(begun(), "C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; second=CD; limits of thickness=1 2 - um", 282);
+    assert_true(holds(
+        &text, "thickness = 8880 nm, mean of 5 sites: 8000 nm (right) OUT of 8100 to 9900 nm"));
+    with(begun(),
+         "C22; start=2026-11-20T10:00; end=2026-11-20T10:21; by=AB; second=CD; limits of "
+         "thickness=1 2 - um",
+         282);
 }
 
 /* A wafer that goes on without a step: it is no step that is not yet due. A bath whose time nobody can compute, and in which one wafer stayed over night */
@@ -1176,11 +1376,14 @@ static void steps_left_out_and_times_of_no_plan(void **state) {
     fw_recipe_asrun_total total;
     fw_text text = fw_text_new(arena), json = fw_text_new(arena), page = fw_text_new(arena);
     int n, odd = 0;
-#define C(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-2" to ":00; by=AB; second=CD; wafer=" wafer
+#define C(step, from, to, wafer)                                                                   \
+    step "; start=2026-11-20T" from ":00; end=2026-11-2" to ":00; by=AB; second=CD; wafer=" wafer
     static const char *const entries[] = {
-        C("C19", "08:00", "0T08:10", "1"), C("C19", "08:10", "0T08:20", "2"), C("C20", "08:30", "0T08:39", "1"), C("C20", "08:40", "0T08:49", "2"),
-        C("C21", "08:50", "0T09:00", "2"), C("C22", "08:52", "0T09:12", "2"), C("C22", "08:52", "0T09:12", "1"),
-        C("C26", "10:00", "0T10:15", "1"), C("C26", "10:00", "1T01:15", "2")};
+        C("C19", "08:00", "0T08:10", "1"), C("C19", "08:10", "0T08:20", "2"),
+        C("C20", "08:30", "0T08:39", "1"), C("C20", "08:40", "0T08:49", "2"),
+        C("C21", "08:50", "0T09:00", "2"), C("C22", "08:52", "0T09:12", "2"),
+        C("C22", "08:52", "0T09:12", "1"), C("C26", "10:00", "0T10:15", "1"),
+        C("C26", "10:00", "1T01:15", "2")};
 #undef C
     lot_wafers = "1,2,3";
     const char *log = begun();
@@ -1190,8 +1393,12 @@ static void steps_left_out_and_times_of_no_plan(void **state) {
     for (int i = 0; i < flow->nstep; i++) {
         const fw_process_step *s = &flow->step[i];
         for (int w = 0; w < 3; w++) {
-            const bool between = i > 18 && i < 25 && w < 2, there = strcmp(s->id, "C20") == 0 || strcmp(s->id, "C22") == 0 || (strcmp(s->id, "C21") == 0 && w == 1);
-            assert_int_equal(fw_recipe_asrun_left_out(&run, s, run.wafer[w]), (between && !there) || (i < 18 && w < 2 && !fw_process_step_is_of_lot(s)));
+            const bool between = i > 18 && i < 25 && w < 2,
+                       there = strcmp(s->id, "C20") == 0 || strcmp(s->id, "C22") == 0 ||
+                               (strcmp(s->id, "C21") == 0 && w == 1);
+            assert_int_equal(fw_recipe_asrun_left_out(&run, s, run.wafer[w]),
+                             (between && !there) ||
+                                 (i < 18 && w < 2 && !fw_process_step_is_of_lot(s)));
         }
     }
     assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
@@ -1204,24 +1411,31 @@ static void steps_left_out_and_times_of_no_plan(void **state) {
     assert_true(holds(&json, "\"left_out\":[\"1\"]"));
     assert_true(holds(&page, "C21 of wafer 1: left out"));
     for (int k = 1; k <= 2; k++) {
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - k], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - k],
+                                                  (fw_place){"entry", 1, 1}, &diags),
+                         FW_OK);
     }
     for (size_t k = 0; k < diags.count; k++)
-        if (diags.item[k].number == 703 && strstr(diags.item[k].message, "C26 of wafer 2 took otherwise than others: no planned time")) odd++;
+        if (diags.item[k].number == 703 &&
+            strstr(diags.item[k].message,
+                   "C26 of wafer 2 took otherwise than others: no planned time"))
+            odd++;
     assert_int_equal(odd, 1);
     assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
     odd = 0;
     for (int i = 0; i < n; i++)
         odd += strstr(list[i].planned, "other wafers took 15 min") != NULL;
     assert_int_equal(odd, 1);
-    assert_true(holds(&text, "times without a zone: taken to be of one clock that is never changed"));
+    assert_true(
+        holds(&text, "times without a zone: taken to be of one clock that is never changed"));
 }
 
 /* An entry whose times were mistyped cannot be taken back, and one with later times is another run, which adds up; what says that it
    replaces the line does not: neither times nor coupons of the former count, nor what a wafer waited by it */
 static void a_line_is_replaced(void **state) {
     (void)state;
-#define AT(step, from, to) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=1"
+#define AT(step, from, to)                                                                         \
+    step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=1"
     static const char rate[] = "; coupon=etch-rate, pan.R, value=%s um, u=0.01 um, at=%d min";
     static const struct {
         const char *more;
@@ -1231,12 +1445,18 @@ static void a_line_is_replaced(void **state) {
     flow = read_pack(arena, SILICON, NULL, NULL, &diags);
     assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
     lot_wafers = "1,2";
-    const char *first = with(begun(), fw_arena_printf(arena, "%s%s", AT("S14", "08:00", "08:17"), fw_arena_printf(arena, rate, "0.62", 5)), 0);
+    const char *first = with(begun(),
+                             fw_arena_printf(arena, "%s%s", AT("S14", "08:00", "08:17"),
+                                             fw_arena_printf(arena, rate, "0.62", 5)),
+                             0);
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
         fw_recipe_asrun run;
         fw_process_readings r;
         fw_recipe_asrun_total total;
-        const char *log = with(first, fw_arena_printf(arena, "%s%s%s", AT("S14", "10:00", "10:20"), fw_arena_printf(arena, rate, "0.64", 6), of[i].more), 0);
+        const char *log = with(first,
+                               fw_arena_printf(arena, "%s%s%s", AT("S14", "10:00", "10:20"),
+                                               fw_arena_printf(arena, rate, "0.64", 6), of[i].more),
+                               0);
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         assert_string_equal(fw_recipe_asrun_in_time(&run, &run.entry[1]), of[i].judged);
         assert_int_equal(fw_recipe_asrun_taken_back(&run, &run.entry[0]), i);
@@ -1247,13 +1467,17 @@ static void a_line_is_replaced(void **state) {
         assert_near(total.actual_s, i ? 1200.0 : 2220.0, 1e-9);
         fw_text page = fw_text_new(arena);
         assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
-        assert_non_null(strstr(page.data, i ? "S14 (replaced by a later line)" : "S14 (gone on with later)"));
+        assert_non_null(
+            strstr(page.data, i ? "S14 (replaced by a later line)" : "S14 (gone on with later)"));
         assert_null(strstr(page.data, "repeated later"));
         if (i == 0) continue;
         with(log, AT("S14", "11:00", "11:17") "; replaces=2", 282); /* another one stands there */
         with(log, AT("S15", "11:00", "11:07") "; replaces=3", 282);
         with(log, AT("S14", "11:00", "11:17") "; replaces=9", 282);
-        with(log, "S14; start=2026-11-20T11:00; end=2026-11-20T11:17; by=AB; second=CD; wafer=2; replaces=3", 282);
+        with(log,
+             "S14; start=2026-11-20T11:00; end=2026-11-20T11:17; by=AB; second=CD; wafer=2; "
+             "replaces=3",
+             282);
         with(log, AT("S14", "11:00", "11:17") "; replaces=that", 282);
     }
 #undef AT
@@ -1272,7 +1496,8 @@ static void loads_share_their_time(void **state) {
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &text), FW_OK);
     assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
-    assert_true(holds(&text, "0 outside of their limits; planned at the machine 40 min for them, actual 40 min"));
+    assert_true(holds(
+        &text, "0 outside of their limits; planned at the machine 40 min for them, actual 40 min"));
     assert_false(holds(&json, "\"judged\":\"long\""));
     /* of one wafer alone that is long */
     log = run_of(begun(), "C21", "1", "10:00", "10:40", 0);
@@ -1290,7 +1515,9 @@ static int told_of_waits(const char *const *entry, int n, const char *words, fw_
     for (int i = 0; i < n; i++) {
         log = with(log, entry[i], 0);
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[i], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, &run.entry[i], (fw_place){"entry", 1, 1}, &diags),
+            FW_OK);
         for (size_t k = 0; k < diags.count; k++) {
             if (diags.item[k].number != 648) continue;
             told++;
@@ -1307,45 +1534,104 @@ static int told_of_waits(const char *const *entry, int n, const char *words, fw_
    that is too long is told with the entry that shows it. Each once */
 static void waits_are_not_below_nothing(void **state) {
     (void)state;
-#define C(step, from, to, wafer) step "; start=2026-11-20T" from "; end=2026-11-20T" to "; by=AB; second=CD; wafer=" wafer
+#define C(step, from, to, wafer)                                                                   \
+    step "; start=2026-11-20T" from "; end=2026-11-20T" to "; by=AB; second=CD; wafer=" wafer
     static const struct {
         const char *entry[5];
         int n, told;
         const char *words, *table;
     } log[] = {
-        {{C("C20", "10:00", "10:09", "1"), C("C22", "09:00", "09:22", "1")}, 2, 1,
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "09:00", "09:22", "1")},
+         2,
+         1,
          "step C22 of wafer 1 began 69 min before C20 ended (2026-11-20T10:00 to 2026-11-20T10:09)",
          "began 69 min before C20 ended: OUT of 0 s to 15 min"},
-        {{C("C22", "09:00", "09:22", "1"), C("C20", "10:00", "10:09", "1")}, 2, 1, "step C22 of wafer 1 began 69 min before C20",
+        {{C("C22", "09:00", "09:22", "1"), C("C20", "10:00", "10:09", "1")},
+         2,
+         1,
+         "step C22 of wafer 1 began 69 min before C20",
          "began 69 min before C20 ended: OUT"},
-        {{C("C01", "10:00", "10:05", "1"), C("C02", "08:00", "08:45", "1")}, 2, 1, "step C02 of wafer 1 began 2 h 5 min before C01 ended",
+        {{C("C01", "10:00", "10:05", "1"), C("C02", "08:00", "08:45", "1")},
+         2,
+         1,
+         "step C02 of wafer 1 began 2 h 5 min before C01 ended",
          "began 2 h 5 min before C01 ended: OUT of 0 s or more"},
-        {{C("C10", "08:00", "08:05", "1"), C("C09", "10:00", "10:05", "1")}, 2, 1, "step C10 of wafer 1 began", "before C09 ended: OUT"},
-        {{C("C20", "10:00", "10:09", "1"), C("C22", "11:00", "11:22", "1")}, 2, 1,
-         "step C22 of wafer 1 waited 51 min since C20, and allowed is 0 s to 15 min", "waited 51 min since C20: OUT"},
-        {{C("C22", "11:00", "11:22", "1"), C("C20", "10:00", "10:09", "1")}, 2, 1, "waited 51 min since C20", "waited 51 min since C20: OUT"},
+        {{C("C10", "08:00", "08:05", "1"), C("C09", "10:00", "10:05", "1")},
+         2,
+         1,
+         "step C10 of wafer 1 began",
+         "before C09 ended: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "11:00", "11:22", "1")},
+         2,
+         1,
+         "step C22 of wafer 1 waited 51 min since C20, and allowed is 0 s to 15 min",
+         "waited 51 min since C20: OUT"},
+        {{C("C22", "11:00", "11:22", "1"), C("C20", "10:00", "10:09", "1")},
+         2,
+         1,
+         "waited 51 min since C20",
+         "waited 51 min since C20: OUT"},
         /* what a state of the wafer allows is no other than what a lag does */
-        {{C("C05", "09:40", "09:44", "1"), C("C06", "09:59", "10:02", "1")}, 2, 1, "step C06 of wafer 1 waited 15 min since C05, wet with",
+        {{C("C05", "09:40", "09:44", "1"), C("C06", "09:59", "10:02", "1")},
+         2,
+         1,
+         "step C06 of wafer 1 waited 15 min since C05, wet with",
          "waited 15 min since C05, wet with"},
-        {{C("C08", "18:00", "18:05", "1"), C("C07", "10:05", "10:10", "1")}, 2, 1, "waited 7 h 50 min since C07, wet with", "since C07, wet with"},
+        {{C("C08", "18:00", "18:05", "1"), C("C07", "10:05", "10:10", "1")},
+         2,
+         1,
+         "waited 7 h 50 min since C07, wet with",
+         "since C07, wet with"},
         /* none of these */
         {{C("C05", "09:40", "09:44", "1"), C("C06", "09:44", "09:47", "1")}, 2, 0, "", NULL},
         {{C("C07", "10:05", "10:10", "1"), C("C08", "14:00", "14:05", "1")}, 2, 0, "", NULL},
         {{C("C05", "09:40", "09:44", "2"), C("C06", "09:59", "10:02", "1")}, 2, 0, "", NULL},
         {{C("C20", "10:00", "10:09", "2"), C("C22", "09:00", "09:22", "1")}, 2, 0, "", NULL},
-        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "12:00", "12:09", "1")}, 3, 0, "", NULL},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:10", "10:32", "1"),
+          C("C20", "12:00", "12:09", "1")},
+         3,
+         0,
+         "",
+         NULL},
         {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1")}, 2, 0, "", NULL},
-        {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1"), C("C09", "10:20", "10:25", "1")}, 3, 0, "", NULL},
+        {{C("C09", "10:00", "10:05", "1"), C("C10", "10:05", "10:10", "1"),
+          C("C09", "10:20", "10:25", "1")},
+         3,
+         0,
+         "",
+         NULL},
         /* an interrupted step goes on from its first run: what it waited for was over then, and what that waited for stands */
-        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C22", "10:35", "10:47", "1")}, 3, 0, "", NULL},
-        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:30", "10:40", "1"), C("C22", "10:45", "10:57", "1")}, 3, 1,
-         "step C22 of wafer 1 waited 21 min since C20, and allowed", "waited 21 min since C20: OUT"},
-        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C20", "10:40", "10:49", "1"), C("C22", "11:10", "11:22", "1")}, 4, 1,
-         "step C22 of wafer 1 waited 21 min since C20, and allowed", "waited 21 min since C20: OUT"},
-        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"), C("C22", "10:45", "10:50", "1"), C("C22", "10:55", "11:01", "1")}, 4, 1,
-         "step C22 of wafer 1 waited 23 min since C22, and allowed is 0 s to 15 min", "waited 23 min since C22: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"),
+          C("C22", "10:35", "10:47", "1")},
+         3,
+         0,
+         "",
+         NULL},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:30", "10:40", "1"),
+          C("C22", "10:45", "10:57", "1")},
+         3,
+         1,
+         "step C22 of wafer 1 waited 21 min since C20, and allowed",
+         "waited 21 min since C20: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"),
+          C("C20", "10:40", "10:49", "1"), C("C22", "11:10", "11:22", "1")},
+         4,
+         1,
+         "step C22 of wafer 1 waited 21 min since C20, and allowed",
+         "waited 21 min since C20: OUT"},
+        {{C("C20", "10:00", "10:09", "1"), C("C22", "10:12", "10:22", "1"),
+          C("C22", "10:45", "10:50", "1"), C("C22", "10:55", "11:01", "1")},
+         4,
+         1,
+         "step C22 of wafer 1 waited 23 min since C22, and allowed is 0 s to 15 min",
+         "waited 23 min since C22: OUT"},
         /* the wrong time was put right */
-        {{C("C20", "18:00", "18:09", "1"), C("C22", "10:10", "10:32", "1"), C("C20", "10:00", "10:09", "1")}, 3, 1, "before C20 ended", NULL},
+        {{C("C20", "18:00", "18:09", "1"), C("C22", "10:10", "10:32", "1"),
+          C("C20", "10:00", "10:09", "1")},
+         3,
+         1,
+         "before C20 ended",
+         NULL},
     };
 #undef C
     lot_wafers = "1,2";
@@ -1354,7 +1640,8 @@ static void waits_are_not_below_nothing(void **state) {
         int told = told_of_waits(log[i].entry, log[i].n, log[i].words, &table);
         if (told != log[i].told) print_message("log %zu: told %d times\n", i, told);
         assert_int_equal(told, log[i].told);
-        if (log[i].table && !holds(&table, log[i].table)) print_message("log %zu\n%s\n", i, table.data);
+        if (log[i].table && !holds(&table, log[i].table))
+            print_message("log %zu\n%s\n", i, table.data);
         assert_true(!log[i].table || holds(&table, log[i].table));
         assert_true(log[i].table || (!holds(&table, "before") && !holds(&table, "waited")));
     }
@@ -1363,9 +1650,10 @@ static void waits_are_not_below_nothing(void **state) {
     fw_text json = fw_text_new(arena), page = fw_text_new(arena);
     int n, waits = 0;
     const char *late = begun(), *early = begun();
-    static const char *const once[] = {"C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; wafer=1",
-                                       "C22; start=2026-11-20T10:30; end=2026-11-20T10:40; by=AB; second=CD; wafer=1",
-                                       "C22; start=2026-11-20T10:45; end=2026-11-20T10:57; by=AB; second=CD; wafer=1"};
+    static const char *const once[] = {
+        "C20; start=2026-11-20T10:00; end=2026-11-20T10:09; by=AB; wafer=1",
+        "C22; start=2026-11-20T10:30; end=2026-11-20T10:40; by=AB; second=CD; wafer=1",
+        "C22; start=2026-11-20T10:45; end=2026-11-20T10:57; by=AB; second=CD; wafer=1"};
     for (int i = 0; i < 3; i++)
         late = with(late, once[i], 0);
     assert_int_equal(read_log(late, strlen(late), &run), FW_OK);
@@ -1388,14 +1676,17 @@ static void waits_are_not_below_nothing(void **state) {
 /* the same line a second time is seldom meant; with a value more it is */
 static void an_entry_is_made_once(void **state) {
     (void)state;
-    static const char again[] = "C23; start=2026-11-20T10:30; end=2026-11-20T10:39; by=AB; thickness=9.1",
-                      more[] = "C23; start=2026-11-20T10:30; end=2026-11-20T10:39; by=AB; spread of thickness=3 %";
+    static const char
+        again[] = "C23; start=2026-11-20T10:30; end=2026-11-20T10:39; by=AB; thickness=9.1",
+        more[] =
+            "C23; start=2026-11-20T10:30; end=2026-11-20T10:39; by=AB; spread of thickness=3 %";
     const char *log = with(begun(), again, 0);
     for (int i = 0; i < 2; i++) {
         bool told = false;
         with(log, i ? more : again, 0);
         for (size_t k = 0; k < diags.count; k++)
-            told = told || strstr(diags.item[k].message, "is in the log already, with the same values (line 2)");
+            told = told || strstr(diags.item[k].message,
+                                  "is in the log already, with the same values (line 2)");
         assert_int_equal(told, i == 0);
     }
 }
@@ -1405,27 +1696,103 @@ static void an_entry_is_made_once(void **state) {
    wafer's has no part in it. A run that is gone on with is not short. */
 static void runs_add_up(void **state) {
     (void)state;
-#define E(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
+#define E(step, from, to, wafer)                                                                   \
+    step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; "            \
+                                                              "wafer=" wafer
     static const struct {
         const char *entry[4];
-        int n, asked; /* FW-D680 */
+        int n, asked;               /* FW-D680 */
         const char *judged, *table; /* of the last */
         int out;
     } log[] = {
-        {{E("S14", "10:00", "10:12", "1"), E("S14", "10:20", "10:32", "1")}, 2, 0, "in window", "adds up to 24 min in 2 runs\n", 0},
-        {{E("S14", "10:00", "10:10", "1"), E("S14", "10:20", "10:27", "1")}, 2, 0, "unclear", "adds up to 17 min in 2 runs\n", 0},
-        {{E("S14", "10:00", "10:05", "1"), E("S14", "10:20", "10:24", "1")}, 2, 0, "short", "adds up to 9 min in 2 runs", 1},
-        {{E("S14", "10:00", "10:16", "1"), E("S14", "10:20", "10:35", "1")}, 2, 1, "unclear", "adds up to 31 min in 2 runs, and one run is to stop by 27 min 7 s", 0},
-        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:30", "10:43", "1")}, 2, 0, "long", "adds up to 33 min in 2 runs", 1},
-        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:30", "10:50", "2")}, 2, 0, "in window", NULL, 0},
-        {{E("S03", "08:00", "08:25", "1"), E("S14", "10:00", "10:20", "1"), E("S03", "12:00", "12:25", "1"), E("S14", "13:00", "13:20", "1")}, 4, 0, "in window", NULL, 0},
-        {{E("S07", "08:00", "08:03", "1"), E("S14", "10:00", "10:20", "1"), E("S07", "12:00", "12:03", "1"), E("S14", "13:00", "13:20", "1")}, 4, 0, "long", "adds up to 40 min in 2 runs", 1},
-        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:00", "10:19", "1")}, 2, 0, "in window", NULL, 0},
-        {{E("S14", "10:00", "10:20", "1"), E("S14", "09:00", "09:20", "1")}, 2, 0, "in window", NULL, 0},
-        {{E("S06", "10:00", "10:20", "1"), E("S06", "10:30", "10:50", "1")}, 2, 0, "in window", NULL, 0},
-        {{E("S08", "10:00", "10:02", "1"), E("S08", "10:30", "10:32", "1")}, 2, 0, "long", "adds up to 4 min in 2 runs", 1},
-        {{E("S07", "09:50", "09:52", "1"), E("S08", "10:00", "10:02", "1"), E("S07", "10:10", "10:12", "1"), E("S08", "10:30", "10:32", "1")}, 4, 0, "in window", NULL, 0},
-        {{E("S18", "10:00", "10:40", "1"), E("S18", "10:50", "11:30", "1"), E("S18", "11:40", "12:10", "1")}, 3, 0, "in window", "adds up to 110 min in 3 runs", 0},
+        {{E("S14", "10:00", "10:12", "1"), E("S14", "10:20", "10:32", "1")},
+         2,
+         0,
+         "in window",
+         "adds up to 24 min in 2 runs\n",
+         0},
+        {{E("S14", "10:00", "10:10", "1"), E("S14", "10:20", "10:27", "1")},
+         2,
+         0,
+         "unclear",
+         "adds up to 17 min in 2 runs\n",
+         0},
+        {{E("S14", "10:00", "10:05", "1"), E("S14", "10:20", "10:24", "1")},
+         2,
+         0,
+         "short",
+         "adds up to 9 min in 2 runs",
+         1},
+        {{E("S14", "10:00", "10:16", "1"), E("S14", "10:20", "10:35", "1")},
+         2,
+         1,
+         "unclear",
+         "adds up to 31 min in 2 runs, and one run is to stop by 27 min 7 s",
+         0},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:30", "10:43", "1")},
+         2,
+         0,
+         "long",
+         "adds up to 33 min in 2 runs",
+         1},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:30", "10:50", "2")},
+         2,
+         0,
+         "in window",
+         NULL,
+         0},
+        {{E("S03", "08:00", "08:25", "1"), E("S14", "10:00", "10:20", "1"),
+          E("S03", "12:00", "12:25", "1"), E("S14", "13:00", "13:20", "1")},
+         4,
+         0,
+         "in window",
+         NULL,
+         0},
+        {{E("S07", "08:00", "08:03", "1"), E("S14", "10:00", "10:20", "1"),
+          E("S07", "12:00", "12:03", "1"), E("S14", "13:00", "13:20", "1")},
+         4,
+         0,
+         "long",
+         "adds up to 40 min in 2 runs",
+         1},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "10:00", "10:19", "1")},
+         2,
+         0,
+         "in window",
+         NULL,
+         0},
+        {{E("S14", "10:00", "10:20", "1"), E("S14", "09:00", "09:20", "1")},
+         2,
+         0,
+         "in window",
+         NULL,
+         0},
+        {{E("S06", "10:00", "10:20", "1"), E("S06", "10:30", "10:50", "1")},
+         2,
+         0,
+         "in window",
+         NULL,
+         0},
+        {{E("S08", "10:00", "10:02", "1"), E("S08", "10:30", "10:32", "1")},
+         2,
+         0,
+         "long",
+         "adds up to 4 min in 2 runs",
+         1},
+        {{E("S07", "09:50", "09:52", "1"), E("S08", "10:00", "10:02", "1"),
+          E("S07", "10:10", "10:12", "1"), E("S08", "10:30", "10:32", "1")},
+         4,
+         0,
+         "in window",
+         NULL,
+         0},
+        {{E("S18", "10:00", "10:40", "1"), E("S18", "10:50", "11:30", "1"),
+          E("S18", "11:40", "12:10", "1")},
+         3,
+         0,
+         "in window",
+         "adds up to 110 min in 3 runs",
+         0},
     };
     flow = read_pack(arena, SILICON, NULL, NULL, &diags);
     assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
@@ -1440,25 +1807,31 @@ static void runs_add_up(void **state) {
             text = with(text, log[i].entry[k], 0);
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
         const fw_recipe_asrun_entry *last = &run.entry[run.nentry - 1];
-        if (strcmp(fw_recipe_asrun_in_time(&run, last), log[i].judged) != 0) print_message("log %zu\n", i);
+        if (strcmp(fw_recipe_asrun_in_time(&run, last), log[i].judged) != 0)
+            print_message("log %zu\n", i);
         assert_string_equal(fw_recipe_asrun_in_time(&run, last), log[i].judged);
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, last, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, last, (fw_place){"entry", 1, 1}, &diags), FW_OK);
         for (size_t k = 0; k < diags.count; k++)
             asked += diags.item[k].number == 680;
         assert_int_equal(asked, log[i].asked);
         assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
         assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
-        if (log[i].table && !holds(&table, log[i].table)) print_message("log %zu\n%s\n", i, table.data);
+        if (log[i].table && !holds(&table, log[i].table))
+            print_message("log %zu\n%s\n", i, table.data);
         assert_true(log[i].table ? holds(&table, log[i].table) : !holds(&table, "adds up"));
         assert_true(holds(&json, "\"runs\":") == (log[i].table != NULL));
         assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &total), FW_OK);
         if (total.out != log[i].out) print_message("log %zu\n%s\n", i, table.data);
         assert_int_equal(total.out, log[i].out);
-        if (holds(&table, "out of limits in runs that were repeated")) print_message("log %zu\n%s\n", i, strstr(table.data, "steps run"));
+        if (holds(&table, "out of limits in runs that were repeated"))
+            print_message("log %zu\n%s\n", i, strstr(table.data, "steps run"));
         assert_false(holds(&table, "out of limits in runs that were repeated"));
     }
     /* planned and actual are of the same steps: those with a planned time; the others are told beside them */
-    static const char *const both[] = {E("S01", "08:00", "08:08", "1"), E("S03", "09:00", "09:30", "1"), E("S14", "10:00", "10:10", "1"), E("S14", "10:20", "10:27", "1")};
+    static const char *const both[] = {
+        E("S01", "08:00", "08:08", "1"), E("S03", "09:00", "09:30", "1"),
+        E("S14", "10:00", "10:10", "1"), E("S14", "10:20", "10:27", "1")};
     fw_recipe_asrun run;
     fw_recipe_asrun_total total;
     fw_text table = fw_text_new(arena);
@@ -1475,15 +1848,18 @@ static void runs_add_up(void **state) {
     assert_int_equal(fw_recipe_asrun_write_html(flow, &run, &page), FW_OK);
     assert_true(holds(&page, "S14 (gone on with later)"));
     assert_int_equal(total.repeated, 0);
-    assert_near(total.planned_s, step_of(flow, "S01")->booked_s + step_of(flow, "S14")->booked_s, 1e-9);
+    assert_near(total.planned_s, step_of(flow, "S01")->booked_s + step_of(flow, "S14")->booked_s,
+                1e-9);
     assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
-    assert_true(holds(&table, "for those that have a planned time, actual 25 min, of which 10 min in earlier runs; 1 without a planned time took 30 min"));
+    assert_true(holds(&table, "for those that have a planned time, actual 25 min, of which 10 min "
+                              "in earlier runs; 1 without a planned time took 30 min"));
 #undef E
 }
 
 /* ---- what is read, and when ---- */
 
-#define AT(step, from, to) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=1"
+#define AT(step, from, to)                                                                         \
+    step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=1"
 
 static int told_of(int number) {
     int n = 0;
@@ -1503,7 +1879,9 @@ static void silicon(void) {
    takes it away, is nothing that a plan goes by, whatever else counts. */
 static void lines_in_the_resist(void **state) {
     (void)state;
-#define LINES "; coupon=cd-lines, line, drawn=10 um, value=10.04 10.06 10.02 um, u=0.05 um; coupon=cd-lines, space, drawn=10 um, value=9.96 9.98 9.94 um, u=0.05 um"
+#define LINES                                                                                      \
+    "; coupon=cd-lines, line, drawn=10 um, value=10.04 10.06 10.02 um, u=0.05 um; "                \
+    "coupon=cd-lines, space, drawn=10 um, value=9.96 9.98 9.94 um, u=0.05 um"
 #define STEP "; coupon=al-step, value=0.6 um, u=0.01 um, at=50 um"
     static const struct {
         const char *entry[4];
@@ -1517,7 +1895,12 @@ static void lines_in_the_resist(void **state) {
         {{AT("S15", "11:00", "11:07") LINES, AT("S14", "12:00", "12:17")}, 2, 0, 2, NULL},
         {{AT("S14", "12:00", "12:17"), AT("S15", "11:00", "11:07") LINES}, 2, 0, 2, NULL},
         {{AT("S14", "10:00", "10:17"), AT("S12", "11:00", "11:08") LINES}, 2, 0, 2, NULL},
-        {{AT("S11", "09:00", "09:03"), AT("S14", "10:00", "10:17"), AT("S11", "10:30", "10:33"), AT("S12", "11:00", "11:08") LINES}, 4, 2, 0, "litho.edge"},
+        {{AT("S11", "09:00", "09:03"), AT("S14", "10:00", "10:17"), AT("S11", "10:30", "10:33"),
+          AT("S12", "11:00", "11:08") LINES},
+         4,
+         2,
+         0,
+         "litho.edge"},
         {{AT("S18", "12:00", "13:50") STEP}, 1, 1, 0, NULL},
         {{AT("S19", "12:00", "12:10") STEP, AT("S18", "13:00", "14:50")}, 2, 0, 1, NULL},
     };
@@ -1532,7 +1915,8 @@ static void lines_in_the_resist(void **state) {
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
         diags = fw_diags_new(arena);
         assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all, &diags, &r), FW_OK);
-        if (r.n != log[i].read || told_of(707) != log[i].told) fail_msg("%zu: %d readings, told %d times", i, r.n, told_of(707));
+        if (r.n != log[i].read || told_of(707) != log[i].told)
+            fail_msg("%zu: %d readings, told %d times", i, r.n, told_of(707));
         assert_int_equal(r.left_out, r.n ? r.left_out : log[i].told);
         for (int k = 0; k < r.n; k++)
             assert_true(fw_text_same(r.item[k].row.of, log[i].of));
@@ -1543,7 +1927,11 @@ static void lines_in_the_resist(void **state) {
     fw_process_calibration c;
     const char *text = with(begun(), log[0].entry[0], 0);
     text = with(text, AT("S14", "11:00", "11:17"), 0);
-    text = with(text, AT("S15", "12:00", "12:07") "; coupon=cd-lines, line, drawn=10 um, value=7.80 7.82 7.78 um, u=0.05 um", 0);
+    text =
+        with(text,
+             AT("S15", "12:00",
+                "12:07") "; coupon=cd-lines, line, drawn=10 um, value=7.80 7.82 7.78 um, u=0.05 um",
+             0);
     assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
     assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     r.file = "lot.log", r.sha256 = plan;
@@ -1558,7 +1946,9 @@ static void lines_in_the_resist(void **state) {
     for (int i = 0; i < c.nwith; i++)
         assert_string_equal(c.with[i].of, "made.al-edge");
     with(begun(), AT("S09", "10:00", "10:08") LINES, 706);
-    assert_non_null(strstr(diags.item[diags.count - 1].message, "the printed edge (litho.edge) from S11 to S13, the edge of the aluminium (made.al-edge) from S14 to S20"));
+    assert_non_null(strstr(diags.item[diags.count - 1].message,
+                           "the printed edge (litho.edge) from S11 to S13, the edge of the "
+                           "aluminium (made.al-edge) from S14 to S20"));
     with(begun(), AT("S15", "10:00", "10:08") STEP, 706);
     assert_non_null(strstr(diags.item[diags.count - 1].message, "it reads from S18 to S20"));
     with(begun(), AT("S21", "10:00", "10:18") LINES, 706);
@@ -1570,7 +1960,8 @@ static void lines_in_the_resist(void **state) {
     assert_int_equal(fw_recipe_asrun_readings(arena, &run, &all_count, &diags, &r), FW_OK);
     assert_int_equal(told_of(706), 2);
     assert_int_equal(fw_process_calibrate_wafers(arena, flow, &r, &diags, &c), FW_INPUT);
-    assert_non_null(strstr(diags.item[diags.count - 1].message, "of 2 readings of coupons in the log none counts"));
+    assert_non_null(strstr(diags.item[diags.count - 1].message,
+                           "of 2 readings of coupons in the log none counts"));
 #undef STEP
 #undef LINES
 }
@@ -1582,12 +1973,21 @@ static void inspections_come_after(void **state) {
     static const struct {
         const char *entry[3], *step;
     } log[] = {
-        {{AT("S15", "12:10", "12:17") "; line width in aluminium against the drawn one=-2.2 um", AT("S14", "12:20", "12:37"), AT("S16", "12:40", "12:55")}, "S15"},
-        {{AT("S14", "12:20", "12:37"), AT("S15", "12:10", "12:17") "; line width in aluminium against the drawn one=-2.2 um", AT("S16", "12:40", "12:55")}, "S15"},
-        {{AT("S19", "12:10", "12:20"), AT("S18", "13:00", "14:50"), AT("S20", "15:00", "16:00")}, "S19"},
-        {{AT("S12", "12:10", "12:18"), AT("S11", "13:00", "13:02"), AT("S13", "13:10", "13:15")}, "S12"},
-        {{AT("S14", "12:00", "12:17"), AT("S15", "12:18", "12:25"), AT("S16", "12:40", "12:55")}, NULL},
-        {{AT("S04", "12:10", "12:15"), AT("S05", "12:20", "12:35"), AT("S06", "12:40", "13:00")}, NULL},
+        {{AT("S15", "12:10", "12:17") "; line width in aluminium against the drawn one=-2.2 um",
+          AT("S14", "12:20", "12:37"), AT("S16", "12:40", "12:55")},
+         "S15"},
+        {{AT("S14", "12:20", "12:37"),
+          AT("S15", "12:10", "12:17") "; line width in aluminium against the drawn one=-2.2 um",
+          AT("S16", "12:40", "12:55")},
+         "S15"},
+        {{AT("S19", "12:10", "12:20"), AT("S18", "13:00", "14:50"), AT("S20", "15:00", "16:00")},
+         "S19"},
+        {{AT("S12", "12:10", "12:18"), AT("S11", "13:00", "13:02"), AT("S13", "13:10", "13:15")},
+         "S12"},
+        {{AT("S14", "12:00", "12:17"), AT("S15", "12:18", "12:25"), AT("S16", "12:40", "12:55")},
+         NULL},
+        {{AT("S04", "12:10", "12:15"), AT("S05", "12:20", "12:35"), AT("S06", "12:40", "13:00")},
+         NULL},
     };
     silicon();
     for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
@@ -1599,7 +1999,9 @@ static void inspections_come_after(void **state) {
         for (int k = 0; k < 3; k++)
             text = with(text, log[i].entry[k], 0);
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, &run.entry[1], (fw_place){"entry", 1, 1}, &diags),
+            FW_OK);
         if (told_of(707) != (log[i].step != NULL)) fail_msg("%zu: told %d times", i, told_of(707));
         assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
         for (int k = 0; k < n; k++) {
@@ -1628,37 +2030,79 @@ static void differences_are_taken(void **state) {
     static const struct {
         const char *is;
         int asked;
-    } of[] = {{"-2.2", 0}, {"-3.3", 0}, {"-6.6", 0}, {"-0.0033 mm", 0}, {"7.8", 1}, {"-220", 1}, {"2200 nm", 0}};
+    } of[] = {{"-2.2", 0}, {"-3.3", 0}, {"-6.6", 0},   {"-0.0033 mm", 0},
+              {"7.8", 1},  {"-220", 1}, {"2200 nm", 0}};
     silicon();
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
         int asked = 0;
-        with(begun(), fw_arena_printf(arena, "%s; line width in aluminium against the drawn one=%s%s", AT("S15", "10:00", "10:07"), of[i].is, strchr(of[i].is, 'm') ? "" : " um"), 0);
+        with(begun(),
+             fw_arena_printf(arena, "%s; line width in aluminium against the drawn one=%s%s",
+                             AT("S15", "10:00", "10:07"), of[i].is,
+                             strchr(of[i].is, 'm') ? "" : " um"),
+             0);
         for (size_t k = 0; k < diags.count; k++)
-            asked += diags.item[k].number == 283 && strstr(diags.item[k].message, "is the unit right") != NULL;
+            asked += diags.item[k].number == 283 &&
+                     strstr(diags.item[k].message, "is the unit right") != NULL;
         if (asked != of[i].asked) fail_msg("%s: asked %d times", of[i].is, asked);
     }
-    with(begun(), AT("S15", "10:00", "10:07") "; line width in aluminium against the drawn one=-1 m", 278);
+    with(begun(),
+         AT("S15", "10:00", "10:07") "; line width in aluminium against the drawn one=-1 m", 278);
 }
 
 /* A filling that is named serves so many wafers, and keeps so long from when it was mixed; under another name it is another
    one, and what is mixed anew under the same name as well */
 static void fillings_serve_so_many(void **state) {
     (void)state;
-#define C(step, wafer, day, from, to, name) step "; start=2026-11-" day "T" from ":00; end=2026-11-" day "T" to ":00; by=AB; second=CD" wafer "; bath=" name
+#define C(step, wafer, day, from, to, name)                                                        \
+    step "; start=2026-11-" day "T" from ":00; end=2026-11-" day "T" to                            \
+         ":00; by=AB; second=CD" wafer "; bath=" name
     static const struct {
         bool silicon;
         const char *entry[3];
         int n;
         const char *is; /* of the last one; NULL: it does not say so */
     } log[] = {
-        {true, {C("S14", "; wafer=1", "20", "10:00", "10:17", "A"), C("S14", "; wafer=2", "20", "11:00", "11:17", "B")}, 2, NULL},
-        {true, {C("S14", "; wafer=1", "20", "10:00", "10:17", "A"), C("S14", "; wafer=2", "20", "11:00", "11:17", "A")}, 2, "wafer 2 of one filling"},
-        {true, {C("S14", "; wafer=1", "20", "10:00", "10:10", "A"), C("S14", "; wafer=1", "20", "10:20", "10:27", "A")}, 2, NULL},
-        {true, {C("S14", "; wafer=1", "20", "10:00", "10:17", "A"), C("S14", "; wafer=2", "20", "11:00", "11:17", "A; replaces=2")}, 1, NULL},
-        {false, {C("C05", "; wafer=1", "20", "10:00", "10:02", "A"), C("C05", "; wafer=2", "20", "17:00", "17:02", "A")}, 2, NULL},
-        {false, {C("C05", "; wafer=1", "20", "10:00", "10:02", "A"), C("C05", "; wafer=2", "21", "10:00", "10:02", "A")}, 2, "24 h after it was first used"},
-        {false, {C("C03", "", "20", "08:00", "08:30", "A"), C("C05", "; wafer=1", "21", "10:30", "10:30", "A")}, 2, "26 h after it was mixed"},
-        {false, {C("C05", "; wafer=1", "20", "10:00", "10:02", "A"), C("C03", "", "21", "08:00", "08:30", "A"), C("C05", "; wafer=2", "21", "10:00", "10:02", "A")}, 3, NULL},
+        {true,
+         {C("S14", "; wafer=1", "20", "10:00", "10:17", "A"),
+          C("S14", "; wafer=2", "20", "11:00", "11:17", "B")},
+         2,
+         NULL},
+        {true,
+         {C("S14", "; wafer=1", "20", "10:00", "10:17", "A"),
+          C("S14", "; wafer=2", "20", "11:00", "11:17", "A")},
+         2,
+         "wafer 2 of one filling"},
+        {true,
+         {C("S14", "; wafer=1", "20", "10:00", "10:10", "A"),
+          C("S14", "; wafer=1", "20", "10:20", "10:27", "A")},
+         2,
+         NULL},
+        {true,
+         {C("S14", "; wafer=1", "20", "10:00", "10:17", "A"),
+          C("S14", "; wafer=2", "20", "11:00", "11:17", "A; replaces=2")},
+         1,
+         NULL},
+        {false,
+         {C("C05", "; wafer=1", "20", "10:00", "10:02", "A"),
+          C("C05", "; wafer=2", "20", "17:00", "17:02", "A")},
+         2,
+         NULL},
+        {false,
+         {C("C05", "; wafer=1", "20", "10:00", "10:02", "A"),
+          C("C05", "; wafer=2", "21", "10:00", "10:02", "A")},
+         2,
+         "24 h after it was first used"},
+        {false,
+         {C("C03", "", "20", "08:00", "08:30", "A"),
+          C("C05", "; wafer=1", "21", "10:30", "10:30", "A")},
+         2,
+         "26 h after it was mixed"},
+        {false,
+         {C("C05", "; wafer=1", "20", "10:00", "10:02", "A"),
+          C("C03", "", "21", "08:00", "08:30", "A"),
+          C("C05", "; wafer=2", "21", "10:00", "10:02", "A")},
+         3,
+         NULL},
     };
     fw_process_flow *both[2] = {flow, NULL};
     silicon();
@@ -1673,13 +2117,16 @@ static void fillings_serve_so_many(void **state) {
         for (int k = 0; k < log[i].n; k++)
             text = with(text, log[i].entry[k], 0);
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1],
+                                                  (fw_place){"entry", 1, 1}, &diags),
+                         FW_OK);
         if (told_of(708) != (log[i].is != NULL)) fail_msg("%zu: told %d times", i, told_of(708));
         assert_int_equal(fw_recipe_asrun_deviations(arena, flow, &run, &list, &n), FW_OK);
         for (int k = 0; k < n; k++)
             if (strcmp(list[k].what, "bath A") == 0) {
                 of_bath++;
-                if (!log[i].is || !strstr(list[k].actual, log[i].is)) fail_msg("%zu: %s", i, list[k].actual);
+                if (!log[i].is || !strstr(list[k].actual, log[i].is))
+                    fail_msg("%zu: %s", i, list[k].actual);
             }
         assert_int_equal(of_bath, log[i].is != NULL);
         assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
@@ -1697,7 +2144,9 @@ static void left_in_the_bath(void **state) {
         int told;
     } log[] = {
         {{AT("S11", "10:00", "10:03")}, "in window", 0},
-        {{AT("S11", "10:00", "10:05")}, "in window", 0}, /* as the plan has it there, handling included */
+        {{AT("S11", "10:00", "10:05")},
+         "in window",
+         0}, /* as the plan has it there, handling included */
         {{"S11; start=2026-11-20T10:00:00; end=2026-11-20T10:05:10; by=AB; wafer=1"}, "unclear", 1},
         {{AT("S11", "10:00", "10:20")}, "long", 0},
         {{AT("S11", "10:00", "10:04"), AT("S11", "10:00", "10:01")}, "in window", 0},
@@ -1711,12 +2160,16 @@ static void left_in_the_bath(void **state) {
         if (log[i].entry[1]) text = with(text, log[i].entry[1], 0);
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
         const fw_recipe_asrun_entry *e = &run.entry[run.nentry - 1];
-        if (strcmp(fw_recipe_asrun_in_time(&run, e), log[i].judged) != 0) fail_msg("%zu: %s", i, fw_recipe_asrun_in_time(&run, e));
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        if (strcmp(fw_recipe_asrun_in_time(&run, e), log[i].judged) != 0)
+            fail_msg("%zu: %s", i, fw_recipe_asrun_in_time(&run, e));
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
         assert_int_equal(told_of(684), log[i].told);
         assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
         assert_int_equal(fw_recipe_asrun_write_json(flow, &run, &json), FW_OK);
-        assert_int_equal(holds(&table, "took 5 min 10 s, and is to stop by 96 s, with what is finished at the bench by 5 min; was the rest in it?"), log[i].told);
+        assert_int_equal(holds(&table, "took 5 min 10 s, and is to stop by 96 s, with what is "
+                                       "finished at the bench by 5 min; was the rest in it?"),
+                         log[i].told);
         assert_int_equal(holds(&json, "\"judged\":\"unclear\""), log[i].told);
     }
 }
@@ -1730,21 +2183,32 @@ static void pauses_between_parts(void **state) {
     for (const fw_process_step *k = flow->step; k < flow->step + flow->nstep; k++)
         if (strcmp(k->id, "S18") == 0) s = k;
     assert_non_null(s);
-    assert_near(fw_process_step_own_s(s, 110 * 60.0), 90 * 60.0, 1e-9); /* 30 min, 10 min, 30, 10, 30 */
+    assert_near(fw_process_step_own_s(s, 110 * 60.0), 90 * 60.0,
+                1e-9); /* 30 min, 10 min, 30, 10, 30 */
     assert_near(fw_process_step_own_s(s, 35 * 60.0), 30 * 60.0, 1e-9);
     const struct {
         double took_s;
         const char *judged;
         int told;
-    } of[] = {{s->time.first_look_s - 60.0, "short", 0}, {s->time.first_look_s + 120.0, "unclear", 1}, {s->booked_s + 1.0, "in window", 0}};
+    } of[] = {{s->time.first_look_s - 60.0, "short", 0},
+              {s->time.first_look_s + 120.0, "unclear", 1},
+              {s->booked_s + 1.0, "in window", 0}};
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
         fw_recipe_asrun run;
         fw_text table = fw_text_new(arena);
         const int t = (int)of[i].took_s;
-        const char *text = with(begun(), fw_arena_printf(arena, "S18; start=2026-11-20T10:00:00; end=2026-11-20T%02d:%02d:%02d; by=AB; second=CD; wafer=1", 10 + t / 3600, t / 60 % 60, t % 60), 0);
+        const char *text =
+            with(begun(),
+                 fw_arena_printf(arena,
+                                 "S18; start=2026-11-20T10:00:00; end=2026-11-20T%02d:%02d:%02d; "
+                                 "by=AB; second=CD; wafer=1",
+                                 10 + t / 3600, t / 60 % 60, t % 60),
+                 0);
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
         assert_string_equal(fw_recipe_asrun_in_time(&run, run.entry), of[i].judged);
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, run.entry, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, run.entry, (fw_place){"entry", 1, 1}, &diags),
+            FW_OK);
         assert_int_equal(told_of(732), of[i].told);
         assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
         assert_int_equal(holds(&table, "; or was that without them?"), of[i].told);
@@ -1760,16 +2224,35 @@ static void finishes_inside(void **state) {
         const char *entry[2], *judged, *left;
         int told;
     } of[] = {
-        {{AT("S14", "13:00", "13:15")}, "unclear", "took 15 min, of which its finishes leave 10 min, and the first look is at 13 min 14 s; or was that without them?", 1},
+        {{AT("S14", "13:00", "13:15")},
+         "unclear",
+         "took 15 min, of which its finishes leave 10 min, and the first look is at 13 min 14 s; "
+         "or was that without them?",
+         1},
         {{AT("S14", "13:00", "13:15"), AT("S14", "13:00", "13:20")}, "in window", NULL, 0},
         {{AT("S14", "13:00", "13:15"), AT("S14", "13:00", "13:10")}, "short", NULL, 0},
-        {{AT("S14", "13:00", "13:10"), AT("S14", "13:12", "13:20")}, "unclear", "took 18 min in 2 runs, of which its finishes leave 8 min, ", 1},
+        {{AT("S14", "13:00", "13:10"), AT("S14", "13:12", "13:20")},
+         "unclear",
+         "took 18 min in 2 runs, of which its finishes leave 8 min, ",
+         1},
         {{AT("S14", "13:00", "13:15"), AT("S14", "13:17", "13:27")}, "in window", NULL, 0},
         {{AT("S14", "13:00", "13:12")}, "short", NULL, 0},
-        {{"S14; start=2026-11-20T13:00:00; end=2026-11-20T13:23:20; by=AB; wafer=1"}, "in window", NULL, 0},
-        {{AT("S14", "13:00", "13:15") "; set etch rate=20 Ao/s", AT("S14", "13:00", "13:08")}, "in window", NULL, 0},
-        {{AT("S14", "13:00", "13:08") "; set etch rate=20 Ao/s"}, "unclear", "took 8 min, of which its finishes leave 3 min, ", 1},
-        {{AT("C22", "13:00", "13:21")}, "unclear", "took 21 min, of which its finishes leave 18 min, ", 1},
+        {{"S14; start=2026-11-20T13:00:00; end=2026-11-20T13:23:20; by=AB; wafer=1"},
+         "in window",
+         NULL,
+         0},
+        {{AT("S14", "13:00", "13:15") "; set etch rate=20 Ao/s", AT("S14", "13:00", "13:08")},
+         "in window",
+         NULL,
+         0},
+        {{AT("S14", "13:00", "13:08") "; set etch rate=20 Ao/s"},
+         "unclear",
+         "took 8 min, of which its finishes leave 3 min, ",
+         1},
+        {{AT("C22", "13:00", "13:21")},
+         "unclear",
+         "took 21 min, of which its finishes leave 18 min, ",
+         1},
     };
     for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
         fw_recipe_asrun run;
@@ -1783,8 +2266,10 @@ static void finishes_inside(void **state) {
         if (of[i].entry[1]) text = with(text, of[i].entry[1], 0);
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
         const fw_recipe_asrun_entry *e = &run.entry[run.nentry - 1];
-        if (strcmp(fw_recipe_asrun_in_time(&run, e), of[i].judged) != 0) fail_msg("%zu: %s", i, fw_recipe_asrun_in_time(&run, e));
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        if (strcmp(fw_recipe_asrun_in_time(&run, e), of[i].judged) != 0)
+            fail_msg("%zu: %s", i, fw_recipe_asrun_in_time(&run, e));
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
         if (told_of(759) != of[i].told) fail_msg("%zu: told %d times", i, told_of(759));
         assert_int_equal(fw_recipe_asrun_write_text(flow, &run, &table), FW_OK);
         if (of[i].left && !holds(&table, of[i].left)) fail_msg("%zu: %s", i, table.data);
@@ -1816,13 +2301,19 @@ static void least_of_a_long_time(void **state) {
         const fw_process_argument *a = fw_recipe_asrun_amount_of_law(e->step);
         assert_non_null(a);
         double amount_m = a->q->value;
-        assert_int_equal(fw_process_step_amount_in(arena, e->step, (int)(a - e->step->argument), of[i].etch_s, &amount_m), FW_OK);
+        assert_int_equal(fw_process_step_amount_in(arena, e->step, (int)(a - e->step->argument),
+                                                   of[i].etch_s, &amount_m),
+                         FW_OK);
         fw_process_law_answer answer; /* there and back */
-        assert_int_equal(fw_process_step_time_of(arena, e->step, (int)(a - e->step->argument), amount_m, &answer), FW_OK);
+        assert_int_equal(fw_process_step_time_of(arena, e->step, (int)(a - e->step->argument),
+                                                 amount_m, &answer),
+                         FW_OK);
         assert_near(answer.value, of[i].etch_s, 1e-6 * of[i].etch_s);
         assert_string_equal(fw_recipe_asrun_in_time(&run, e), "long");
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
-        snprintf(least, sizeof least, "by its law that makes at least %s um", fw_number_text(number, sizeof number, amount_m * 1e6, 3));
+        assert_int_equal(
+            fw_recipe_asrun_ask_time(arena, &run, e, (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        snprintf(least, sizeof least, "by its law that makes at least %s um",
+                 fw_number_text(number, sizeof number, amount_m * 1e6, 3));
         for (size_t k = 0; k < diags.count; k++)
             found = found || strstr(diags.item[k].message, least);
         if (!found) fail_msg("%zu: no '%s'", i, least);
@@ -1839,7 +2330,14 @@ static void a_step_of_the_lot_counts_once(void **state) {
         fw_recipe_asrun_total t;
         const char *text = begun();
         for (int w = 0; w < (one ? 1 : 2); w++)
-            text = with(text, fw_arena_printf(arena, "S17; start=2026-11-20T10:00; end=2026-11-20T10:20; by=AB; second=CD%s", one ? "" : w ? "; wafer=2" : "; wafer=1"), 0);
+            text = with(text,
+                        fw_arena_printf(
+                            arena,
+                            "S17; start=2026-11-20T10:00; end=2026-11-20T10:20; by=AB; second=CD%s",
+                            one ? ""
+                            : w ? "; wafer=2"
+                                : "; wafer=1"),
+                        0);
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
         assert_true(fw_process_step_is_of_lot(run.entry->step));
         assert_int_equal(fw_recipe_asrun_sum_up(flow, &run, arena, &t), FW_OK);
@@ -1856,12 +2354,26 @@ static void entries_that_contradict_themselves(void **state) {
         const char *entry[2];
         int told;
     } log[] = {
-        {{AT("S18", "10:00", "10:50") "; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=90 min"}, 1},
-        {{AT("S18", "10:00", "12:00") "; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=90 min"}, 0},
-        {{AT("S18", "10:00", "10:50"), AT("S19", "11:00", "11:10") "; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=90 min"}, 1},
-        {{AT("S18", "10:00", "10:50"), AT("S18", "11:00", "11:50") "; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=90 min"}, 0},
-        {{AT("S18", "10:00", "12:00") "; coupon=al-step, value=0.2 um, u=0.01 um, at=50 um; aluminium left=0.4 0.41 0.39 0.4 0.4 um"}, 1},
-        {{AT("S18", "10:00", "12:00") "; coupon=al-step, value=0.58 um, u=0.01 um, at=50 um; aluminium left=0.4 0.41 0.39 0.4 0.4 um"}, 0},
+        {{AT("S18", "10:00",
+             "10:50") "; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=90 min"},
+         1},
+        {{AT("S18", "10:00",
+             "12:00") "; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=90 min"},
+         0},
+        {{AT("S18", "10:00", "10:50"),
+          AT("S19", "11:00",
+             "11:10") "; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=90 min"},
+         1},
+        {{AT("S18", "10:00", "10:50"),
+          AT("S18", "11:00",
+             "11:50") "; coupon=arde-slots, drawn=10 um, value=45.6 45.4 um, u=0.1 um, at=90 min"},
+         0},
+        {{AT("S18", "10:00", "12:00") "; coupon=al-step, value=0.2 um, u=0.01 um, at=50 um; "
+                                      "aluminium left=0.4 0.41 0.39 0.4 0.4 um"},
+         1},
+        {{AT("S18", "10:00", "12:00") "; coupon=al-step, value=0.58 um, u=0.01 um, at=50 um; "
+                                      "aluminium left=0.4 0.41 0.39 0.4 0.4 um"},
+         0},
     };
     silicon();
     for (size_t i = 0; i < sizeof log / sizeof log[0]; i++) {
@@ -1869,7 +2381,9 @@ static void entries_that_contradict_themselves(void **state) {
         const char *text = with(begun(), log[i].entry[0], 0);
         if (log[i].entry[1]) text = with(text, log[i].entry[1], 0);
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1],
+                                                  (fw_place){"entry", 1, 1}, &diags),
+                         FW_OK);
         if (told_of(709) != log[i].told) fail_msg("%zu: told %d times", i, told_of(709));
     }
 }
@@ -1880,19 +2394,64 @@ static void entries_that_contradict_themselves(void **state) {
    its bakes to see again. Times that are put right and another wafer overtake nothing. */
 static void inspections_are_overtaken(void **state) {
     (void)state;
-#define E(step, from, to, wafer) step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; wafer=" wafer
+#define E(step, from, to, wafer)                                                                   \
+    step "; start=2026-11-20T" from ":00; end=2026-11-20T" to ":00; by=AB; second=CD; "            \
+                                                              "wafer=" wafer
     static const struct {
         const char *entry[5];
         int n, told; /* FW-D687 of the last one */
         const char *expected, *step, *deviation;
     } log[] = {
-        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1")}, 3, 1, "not yet: wafer 1", "S15", NULL},
-        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1"), E("S16", "13:00", "13:15", "1")}, 4, 1, "not yet: wafer 1", "S15", "not run again"},
-        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:02", "1"), E("S15", "12:30", "12:37", "1"), E("S16", "13:00", "13:15", "1")}, 5, 0, NULL, NULL, NULL},
-        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "09:59", "10:16", "1")}, 3, 0, NULL, NULL, NULL},
-        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S14", "12:00", "12:17", "2")}, 3, 0, NULL, NULL, NULL},
-        {{E("S07", "10:00", "10:03", "1"), E("S08", "10:05", "10:07", "1"), E("S07", "12:00", "12:03", "1")}, 3, 1, "not yet: wafer 1", "S08", NULL},
-        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"), E("S15", "12:00", "12:07", "1")}, 3, 0, NULL, NULL, NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"),
+          E("S14", "12:00", "12:02", "1")},
+         3,
+         1,
+         "not yet: wafer 1",
+         "S15",
+         NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"),
+          E("S14", "12:00", "12:02", "1"), E("S16", "13:00", "13:15", "1")},
+         4,
+         1,
+         "not yet: wafer 1",
+         "S15",
+         "not run again"},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"),
+          E("S14", "12:00", "12:02", "1"), E("S15", "12:30", "12:37", "1"),
+          E("S16", "13:00", "13:15", "1")},
+         5,
+         0,
+         NULL,
+         NULL,
+         NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"),
+          E("S14", "09:59", "10:16", "1")},
+         3,
+         0,
+         NULL,
+         NULL,
+         NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"),
+          E("S14", "12:00", "12:17", "2")},
+         3,
+         0,
+         NULL,
+         NULL,
+         NULL},
+        {{E("S07", "10:00", "10:03", "1"), E("S08", "10:05", "10:07", "1"),
+          E("S07", "12:00", "12:03", "1")},
+         3,
+         1,
+         "not yet: wafer 1",
+         "S08",
+         NULL},
+        {{E("S14", "10:00", "10:17", "1"), E("S15", "11:00", "11:07", "1"),
+          E("S15", "12:00", "12:07", "1")},
+         3,
+         0,
+         NULL,
+         NULL,
+         NULL},
     };
     flow = read_pack(arena, SILICON, NULL, NULL, &diags);
     assert_int_equal(fw_process_flow_compute(arena, flow, &plain_facts, &diags), FW_OK);
@@ -1908,7 +2467,9 @@ static void inspections_are_overtaken(void **state) {
         for (size_t k = 0; k < diags.count; k++)
             told += diags.item[k].number == 687;
         assert_int_equal(read_log(text, strlen(text), &run), FW_OK);
-        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1], (fw_place){"entry", 1, 1}, &diags), FW_OK);
+        assert_int_equal(fw_recipe_asrun_ask_time(arena, &run, &run.entry[run.nentry - 1],
+                                                  (fw_place){"entry", 1, 1}, &diags),
+                         FW_OK);
         for (size_t k = 0; k < diags.count; k++)
             told += diags.item[k].number == 687;
         if (told != log[i].told) fail_msg("%zu: told %d times", i, told);
@@ -1931,7 +2492,9 @@ static void inspections_are_overtaken(void **state) {
 /* what calibrate could make nothing of is not written */
 static void coupons_of_other_flows(void **state) {
     (void)state;
-    static const char *const words[] = {"coupon=al-step, value=0.4 um, u=0.01 um, at=50 um", "coupon=arde-slots, drawn=10 um, value=45 um, u=0.1 um, at=90 min"};
+    static const char *const words[] = {
+        "coupon=al-step, value=0.4 um, u=0.01 um, at=50 um",
+        "coupon=arde-slots, drawn=10 um, value=45 um, u=0.1 um, at=90 min"};
     fw_recipe_asrun run;
     const char *line;
     with(begun(), entry("coupon=etch-rate, seed.Q, value=1 um, u=0.01 um, at=5 min"), 605);
@@ -1944,25 +2507,40 @@ static void coupons_of_other_flows(void **state) {
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         run.table = &table;
-        assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry(words[i]), (fw_place){"entry", 1, 1}, now, &diags, &line), FW_INPUT);
+        assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry(words[i]),
+                                             (fw_place){"entry", 1, 1}, now, &diags, &line),
+                         FW_INPUT);
         assert_int_equal(diags.item[diags.count - 1].number, 605);
     }
     assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
     run.table = &table;
-    assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry("coupon=plating-pads, drawn=10 um, value=9.1 um, u=0.1 um, at=25 C/cm2"),
-                                         (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+    assert_int_equal(
+        fw_recipe_asrun_add(
+            arena, flow, &run,
+            entry("coupon=plating-pads, drawn=10 um, value=9.1 um, u=0.1 um, at=25 C/cm2"),
+            (fw_place){"entry", 1, 1}, now, &diags, &line),
+        FW_OK);
     /* a width that the die does not have is asked after, with those that there are */
-    const fw_layout_pattern sized = {.kind = &pads, .id = "pads", .size_m = {10e-6, 30e-6}, .nsize = 2};
+    const fw_layout_pattern sized = {
+        .kind = &pads, .id = "pads", .size_m = {10e-6, 30e-6}, .nsize = 2};
     const fw_mask_table widths = {.pattern = &sized, .npattern = 1};
     static const char *const drawn[] = {"12", "10", "30"};
     for (size_t i = 0; i < sizeof drawn / sizeof drawn[0]; i++) {
         bool told = false;
         assert_int_equal(read_log(log, strlen(log), &run), FW_OK);
         run.table = &widths;
-        const char *of = fw_arena_printf(arena, "coupon=plating-pads, drawn=%s um, value=9.1 um, u=0.1 um, at=25 C/cm2", drawn[i]);
-        assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry(of), (fw_place){"entry", 1, 1}, now, &diags, &line), FW_OK);
+        const char *of = fw_arena_printf(
+            arena, "coupon=plating-pads, drawn=%s um, value=9.1 um, u=0.1 um, at=25 C/cm2",
+            drawn[i]);
+        assert_int_equal(fw_recipe_asrun_add(arena, flow, &run, entry(of),
+                                             (fw_place){"entry", 1, 1}, now, &diags, &line),
+                         FW_OK);
         for (size_t k = 0; k < diags.count; k++)
-            told = told || strstr(diags.item[k].message, "coupon plating-pads, drawn=12 um: on the test die it is drawn with 10, 30 um");
+            told =
+                told ||
+                strstr(
+                    diags.item[k].message,
+                    "coupon plating-pads, drawn=12 um: on the test die it is drawn with 10, 30 um");
         assert_int_equal(told, i == 0);
     }
 }
