@@ -273,7 +273,7 @@ double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
 /* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with the pull as
    it may be, and on the other side of an unstable one that was left on the way there; without a scene there are none */
 typedef struct fw_verdict_small_others {
-    const fw_statics_modes *modes[2 * 3 * FW_VERDICT_WAYS]; /* (count) */
+    const fw_statics_modes *modes[2 * 3 * FW_VERDICT_WAYS + 1]; /* (count) */
     int count;
     const fw_statics_modes *at; /* as they are; NULL: without a scene */
     const char *lost;           /* a clause: one of them is not there; NULL: all are */
@@ -284,7 +284,7 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
                                  fw_verdict_small_others *others);
 /* a band takes in what a probe (mode 0), or a mode's frequency (from 1 on), is in these. times: of the softer side, by its place */
 void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
-                            double times, double *low, double *high);
+                            double times, fw_verdict_requirement *r);
 /* required_small.c: relative, by the energies that flexures have of what the probe's unit load displaces; why a band has no
    ends, and what would give it some */
 fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,

@@ -504,7 +504,7 @@ static fw_status judge_small(fw_arena *arena, const fw_mechanism *m,
             FW_TRY(fw_verdict_soft_leaves(arena, &soft, p, mode, value, closely, v, &left));
             put(r, value, 0, model, modes->stiffness_error, value, true);
             put_soft(p, left, value, r);
-            fw_verdict_small_widen(&others, p, mode, yields ? 1 / left : left, &r->low, &r->high);
+            fw_verdict_small_widen(&others, p, mode, yields ? 1 / left : left, r);
             if (p->asked->row == FW_PROBE_IS_frequency) overtaken(v, p->asked, r);
             decide(r);
             if (r->decision != FW_INCONCLUSIVE || left > hardly_soft || v->corner || !v->arm) break;
