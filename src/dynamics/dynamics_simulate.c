@@ -477,8 +477,14 @@ static fw_status assembled(fw_dynamics_run *r, const fw_effects_loads *loads) {
         r->problem.q0[3 * b + 2] = m->body[b].phi_rad;
     }
     double moved;
-    FW_TRY(fw_assembly_assemble_giving(r->problem.arena, m, loads->released, r->problem.q0, &moved,
-                                       r->diags));
+    const fw_status status = fw_assembly_assemble_giving(r->problem.arena, m, loads->released,
+                                                         r->problem.q0, &moved, r->diags);
+    if (status == FW_SOLVER && loads->strained)
+        fw_diag_warning(r->diags, 100, r->problem.scene->place,
+                        "%s%s: heat or stress makes the layer grow or shrink against the ground%s",
+                        FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)),
+                        fw_dynamics_run_pinned(r));
+    FW_TRY(status);
     r->record.motion->stats.assembly_moved_m = fmax(moved, r->problem.options->moved_m);
     return FW_OK;
 }

@@ -210,6 +210,8 @@ fw_status fw_dynamics_run_limits(const fw_dynamics_run *r, const fw_maths_steppe
 fw_status fw_dynamics_run_stopped(const fw_dynamics_run *r, const fw_maths_stepper *s,
                                   fw_maths_ode_result why);
 fw_status fw_dynamics_run_position_jumps(const fw_dynamics_run *r, double t);
+/* a clause, where hinges are pins that give nothing of what a layer grows by; else "" */
+const char *fw_dynamics_run_pinned(const fw_dynamics_run *r);
 
 /* start.c: pieces, assembled state with fitting velocities, size of the motion, output arrays */
 fw_status fw_dynamics_run_prepare(fw_dynamics_run *r, const fw_effects_loads *loads);

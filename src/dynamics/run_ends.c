@@ -180,6 +180,26 @@ fw_status fw_dynamics_run_jammed(const fw_dynamics_run *r, double t) {
         fw_number_text(time, sizeof time, t * r->problem.model->scale.time_s, 6)));
 }
 
+const char *fw_dynamics_run_pinned(const fw_dynamics_run *r) {
+    const bool pins = r->record.motion->ledger.hinge.used == FW_HINGE_REVOLUTE;
+    return pins && r->problem.mechanism->nhinge > 0
+               ? "; hinges are pins here, which give nothing of that: add nonlinear-hinge to the "
+                 "list of --effects, or let --hinge-model choose"
+               : "";
+}
+
+/* what asks of joints what they cannot keep together */
+static const char *what_asks(const fw_multibody_model *m) {
+    if (m->stretch.law && m->ndriver > 0)
+        return "heat moves the ground's points against the layer, or a driver prescribes a value, "
+               "by what the other joints do not allow";
+    if (m->stretch.law)
+        return "heat moves the ground's points against the layer, by what the other joints do not "
+               "allow";
+    return m->driven ? "a driver prescribes a value that the other joints do not allow"
+                     : "the mechanism cannot reach any farther";
+}
+
 fw_status fw_dynamics_run_stopped(const fw_dynamics_run *r, const fw_maths_stepper *s,
                                   fw_maths_ode_result why) {
     const fw_multibody_model *m = r->problem.model;
@@ -205,14 +225,13 @@ fw_status fw_dynamics_run_stopped(const fw_dynamics_run *r, const fw_maths_stepp
     double final = fw_dynamics_end(&r->problem);
     if (record->stuck >= 0 && fabs(record->stuck_time - s->t) < 1e-9 * final) {
         const fw_multibody_block *b = &m->block[record->stuck];
-        return solver_error(fw_diag_error(
-            r->diags, 101, r->problem.scene->place,
-            "the joints of %s%s contradict each other from %s s on: %s%s "
-            "cannot be kept; %s",
-            FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)), time,
-            FW_NAMED("joint", fw_multibody_block_name(r->problem.mechanism, b)),
-            m->driven ? "a driver prescribes a value that the other joints do not allow"
-                      : "the mechanism cannot reach any farther"));
+        return solver_error(
+            fw_diag_error(r->diags, 101, r->problem.scene->place,
+                          "the joints of %s%s contradict each other from %s s on: %s%s "
+                          "cannot be kept; %s%s",
+                          FW_NAMED("scene", fw_dynamics_scene_name(&r->problem)), time,
+                          FW_NAMED("joint", fw_multibody_block_name(r->problem.mechanism, b)),
+                          what_asks(m), m->stretch.law ? fw_dynamics_run_pinned(r) : ""));
     }
     return solver_error(fw_diag_error(
         r->diags, 101, r->problem.scene->place,

@@ -494,11 +494,12 @@ static double mode_along(const fw_probe *p, const fw_statics_modes *modes, int m
 }
 
 static double compliance(const fw_probe *p, const fw_statics_modes *modes) {
+    const double rounding = 1e-12; /* of a free motion's farthest way: the point stays */
     double sum = 0;
     for (int i = 0; i < modes->count; i++) {
         const fw_statics_mode *m = &modes->mode[i];
         double u = mode_along(p, modes, i);
-        if (u == 0) continue;
+        if (fabs(u) <= (m->kind == FW_MODE_FREE ? rounding * modes->unit_length_m : 0)) continue;
         if (m->kind == FW_MODE_UNSTABLE) return (double)NAN;
         sum += m->kind == FW_MODE_FREE ? (double)INFINITY
                                        : u * u / (m->modal_mass_kg_m2 * m->stiffness_per_s2);

@@ -57,11 +57,14 @@ typedef struct looker {
 
 /* ---- when ---- */
 
+/* of timed loads, drivers, the ground's stretch, elements: a piece of time that one of them left out would go across a break
+   of it, and the values of its law there are those of another piece */
 static const fw_quantity_law *law_at(const fw_effects_loads *t, const fw_mechanism *m, int i) {
     if (i < t->ntimed) return t->timed[i].law;
     i -= t->ntimed;
     if (i < m->ndriver) return &m->driver[i].law;
     i -= m->ndriver;
+    if (t->stretch.law && i-- == 0) return t->stretch.law;
     for (int k = 0; k < t->nelement; k++) {
         if (i < t->element[k].laws) return t->element[k].law[i];
         i -= t->element[k].laws;
@@ -70,7 +73,7 @@ static const fw_quantity_law *law_at(const fw_effects_loads *t, const fw_mechani
 }
 
 static int law_count(const fw_effects_loads *t, const fw_mechanism *m) {
-    int count = t->ntimed + m->ndriver;
+    int count = t->ntimed + m->ndriver + (t->stretch.law != NULL);
     for (int k = 0; k < t->nelement; k++)
         count += t->element[k].laws;
     return count;

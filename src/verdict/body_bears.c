@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What bodies bear: rims of release holes, ways of hinges and loads, once and over the cycles that are asked for; and what of them
-   hangs over, of required frequencies; and how near bodies that bend come to electrodes. Theory: docs/theory/verdict.md, docs/theory/release.md. */
+   hangs over, of required frequencies, and which mode these count; and how near bodies that bend come to electrodes. Theory: docs/theory/verdict.md, docs/theory/release.md. */
 #include "base/constants.h"
 #include "base/text.h"
 #include "geometry/segment.h"
+#include "mechanism/mechanism_plates.h"
 #include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
@@ -453,6 +454,17 @@ double fw_verdict_electrodes_nearer(const fw_dynamics_motion *was, const fw_dyna
     return nearer;
 }
 
+double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
+    const fw_dynamics_motion *x = v->motion ? v->motion[scene] : NULL;
+    double most = 0;
+    for (int i = 0; x && x->loads && i < x->loads->nelement; i++) {
+        const fw_effects_comb_element *c = fw_effects_comb_of(&x->loads->element[i]);
+        if (c) most = fmax(most, fw_effects_comb_fringe(c, NULL));
+    }
+    if (!x && v->pull_in && v->pull_in[scene]) most = v->pull_in[scene]->fringe;
+    return most;
+}
+
 /* ---- and in series with electrodes ----
    Pull-in comes where the field takes the stiffness k that holds its rotor; where a place of the rotor's body gives c that is
    k/(1 + c k), and k is what the field takes there: the largest eigenvalue of -df/dp at the pull-in voltage and pose. Test:
@@ -501,4 +513,20 @@ fw_status fw_verdict_places_pulled(fw_arena *arena, const fw_verdict_variant_ver
                     field_takes(&motion->loads->element[i], p, m->device->scene[scene].duration_s);
     }
     return FW_OK;
+}
+
+/* ---- which mode a probe is of, in the plane and across it ---- */
+
+const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
+                                                  const fw_device_probe *probe,
+                                                  const fw_statics_modes *modes, int *in_plane) {
+    const fw_verdict_out_of_plane *o = v->out_of_plane;
+    fw_mechanism_frequencies in = {NULL, 0, sizeof(fw_statics_mode)},
+                             out = {NULL, 0, sizeof(fw_verdict_plate_mode)};
+    bool across;
+    if (modes && modes->count > 0) in.f_Hz = &modes->mode[0].f_Hz, in.count = modes->count;
+    if (o && o->nmode > 0) out.f_Hz = &o->mode[0].f_Hz, out.count = o->nmode;
+    int at = fw_mechanism_plates_nth(probe->mode, probe->plane, in, out, &across);
+    *in_plane = at + 1;
+    return at >= 0 && across ? &o->mode[at] : NULL;
 }

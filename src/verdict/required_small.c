@@ -5,7 +5,6 @@
 #include "base/sort.h"
 #include "effects/effects.h"
 #include "geometry/segment.h"
-#include "mechanism/mechanism_plates.h"
 #include "quantity/law_kind.h"
 #include "statics/statics.h"
 #include "verdict/body.h"
@@ -52,24 +51,12 @@ fw_status fw_verdict_small_off(fw_arena *arena, const fw_mechanism *m,
    carrier that conducts with as much less. Bands hold all of these. Error: one e for all that gives. Cost: two small motions, four
    or six with electrodes. Test: test_near_pull_in.py */
 
-double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene) {
-    const fw_dynamics_motion *x = v->motion ? v->motion[scene] : NULL;
-    double most = 0;
-    for (int i = 0; x && x->loads && i < x->loads->nelement; i++) {
-        const fw_effects_comb_element *c = fw_effects_comb_of(&x->loads->element[i]);
-        if (c) most = fmax(most, fw_effects_comb_fringe(c, NULL));
-    }
-    if (!x && v->pull_in && v->pull_in[scene]) most = v->pull_in[scene]->fringe;
-    return most;
-}
-
 /* a copy of a scene whose electrodes pull so many times as much */
 static fw_status pull_times(fw_arena *arena, double times, fw_device_scene *scene) {
-    fw_device_comb *comb;
-    FW_NEED(comb = fw_arena_array(arena, fw_device_comb, (size_t)scene->ncomb));
+    const size_t n = (size_t)scene->ncomb;
+    FW_NEED(scene->comb = fw_arena_grow(arena, scene->comb, n, n, sizeof *scene->comb));
     for (int i = 0; i < scene->ncomb; i++)
-        comb[i] = scene->comb[i], comb[i].voltage_V *= sqrt(times);
-    scene->comb = comb;
+        scene->comb[i].voltage_V *= sqrt(times);
     return FW_OK;
 }
 
@@ -129,6 +116,35 @@ static const char many_sides[] =
     "the description decides: decide the sides, by forces that are there from the beginning or by "
     "angles of the flexures";
 
+/* are two equilibria at places of their own? */
+static bool apart(const fw_statics_modes *a, const fw_statics_modes *b) {
+    const double hardly = 1e-7;
+    for (int i = 0; i < 3 * a->nbody; i++)
+        if (fabs(a->q[i] - b->q[i]) > hardly * (i % 3 == 2 ? 1 : a->unit_length_m)) return true;
+    return false;
+}
+
+/* Between a way with equilibria on two sides and one (`is`) without there is one where these part, by a fork or at a fold, and nothing
+   holds the lowest mode: its frequency, and the stiffness of what takes part in it, go to 0. Error: its shape is that of `is`, which
+   a fork shares. Source: Thompson and Hunt, A General Theory of Elastic Stability 1973. Test: test_heated.py, Forks */
+static fw_status at_the_fold(fw_arena *arena, const fw_statics_modes *is,
+                             fw_verdict_small_others *to) {
+    const size_t n = (size_t)is->count;
+    fw_statics_modes *fold = fw_arena_grow(arena, is, 1, 1, sizeof *is);
+    FW_NEED(fold);
+    FW_NEED(fold->mode = fw_arena_grow(arena, is->mode, n, n, sizeof *fold->mode));
+    fw_statics_mode *lowest = fold->mode;
+    while (lowest->kind == FW_MODE_FREE && lowest + 1 < fold->mode + n)
+        lowest++;
+    lowest->kind = FW_MODE_FREE;
+    lowest->omega_rad_per_s = lowest->f_Hz = lowest->stiffness_per_s2 = 0;
+    to->modes[to->count++] = fold;
+    return FW_OK;
+}
+
+static const char no_motion[] =
+    "no motion of its scene was found, so that nothing says which equilibrium the device comes to";
+
 fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
                                  int scene, const fw_statics_mode_options *given,
                                  const fw_statics_modes *modes, const fw_verdict_variant_verdict *v,
@@ -139,11 +155,14 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
     const ways w = ways_of(m, scene, modes, v);
     const double missing = fw_verdict_pull_missing(v, scene);
     if (!isfinite(w.off)) return FW_OK; /* bands have no ends then */
+    if (v->motion && !v->motion[scene] && !(v->pull_in && v->pull_in[scene])) to->lost = no_motion;
     const int pulls = !(missing > 0) ? 1 : fw_effects_levitation_may_be(m) ? 3 : 2;
     fw_device_scene now[3] = {*of, *of, *of}; /* as it is, more, less */
     FW_TRY(pull_times(arena, 1 + missing, &now[1]));
     FW_TRY(pull_times(arena, 1 / (1 + missing), &now[2]));
+    const fw_statics_modes *one = NULL, *two = NULL; /* a way with one side, with two */
     for (int k = 0; k < w.n * pulls; k++) {
+        const int before = to->count;
         fw_statics_mode_options o = *given;
         o.effects.hinge = modes->ledger.hinge.used, o.effects.like = NULL, o.effects.untold = true;
         o.effects.stiffer = w.of[k % w.n].stiffer, o.effects.along = w.of[k % w.n].along;
@@ -163,8 +182,11 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
                 FW_NEED(to->lost = other ? other_side : no_equilibrium(arena, &w, missing, k));
             if (stands && found->sides > 1) to->lost = many_sides;
         }
+        if (to->count == before) continue;
+        const bool both = to->count > before + 1 && apart(to->modes[before], to->modes[before + 1]);
+        *(both ? &two : &one) = to->modes[before];
     }
-    return FW_OK;
+    return two && one && one->count > 0 ? at_the_fold(arena, one, to) : FW_OK;
 }
 
 void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_probe *probe, int mode,
@@ -175,7 +197,8 @@ void fw_verdict_small_widen(const fw_verdict_small_others *others, const fw_prob
         const double x = mode == 0            ? fw_probe_small(probe, now)
                          : mode <= now->count ? now->mode[mode - 1].f_Hz
                                               : (double)NAN;
-        if (!isfinite(x)) continue;
+        if (isnan(x)) continue;
+        if (x == 0 || isinf(x)) r->lasting = HUGE_VAL; /* at a fold, whatever model is taken */
         r->low = fmin(r->low, x * fmin(1, times)), r->high = fmax(r->high, x * fmax(1, times));
     }
     if (others->at && mode > 0) r->high *= others->at->mode[mode - 1].raised;
@@ -411,15 +434,6 @@ fw_status fw_verdict_slowest_s(fw_arena *arena, const fw_verdict_variant_verdict
     return FW_OK;
 }
 
-/* equilibria do not ring */
-fw_status fw_verdict_rings_from(const void *v, const fw_probe_monitor *w, double *late_s) {
-    const int scene = (int)(w->scene - w->mechanism->device->scene);
-    double slowest_s = 0;
-    if (!w->loads->quasi_static) FW_TRY(fw_verdict_slowest_s(w->arena, v, scene, &slowest_s));
-    *late_s = fw_probe_rings_from(w->scene->duration_s, slowest_s);
-    return FW_OK;
-}
-
 /* ---- where a motion comes to rest ----
    In: the course of a probe that was kept, the loads as they are at the scene's end. Out: the equilibrium under these, where
    the course ends about it; where loads go on, friction holds it anywhere within a range, or none is found, the middle of what the
@@ -581,20 +595,4 @@ fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
     if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
     fw_verdict_swings_required(v, r);
     return FW_OK;
-}
-
-/* ---- which mode a probe is of, in the plane and across it ---- */
-
-const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdict *v,
-                                                  const fw_device_probe *probe,
-                                                  const fw_statics_modes *modes, int *in_plane) {
-    const fw_verdict_out_of_plane *o = v->out_of_plane;
-    fw_mechanism_frequencies in = {NULL, 0, sizeof(fw_statics_mode)},
-                             out = {NULL, 0, sizeof(fw_verdict_plate_mode)};
-    bool across;
-    if (modes && modes->count > 0) in.f_Hz = &modes->mode[0].f_Hz, in.count = modes->count;
-    if (o && o->nmode > 0) out.f_Hz = &o->mode[0].f_Hz, out.count = o->nmode;
-    int at = fw_mechanism_plates_nth(probe->mode, probe->plane, in, out, &across);
-    *in_plane = at + 1;
-    return at >= 0 && across ? &o->mode[at] : NULL;
 }

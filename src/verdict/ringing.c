@@ -585,3 +585,12 @@ fw_status fw_verdict_rings_on(fw_arena *arena, const fw_mechanism *m, const fw_d
     }
     return FW_OK;
 }
+
+/* equilibria do not ring */
+fw_status fw_verdict_rings_from(const void *v, const fw_probe_monitor *w, double *late_s) {
+    const int scene = (int)(w->scene - w->mechanism->device->scene);
+    double slowest_s = 0;
+    if (!w->loads->quasi_static) FW_TRY(fw_verdict_slowest_s(w->arena, v, scene, &slowest_s));
+    *late_s = fw_probe_rings_from(w->scene->duration_s, slowest_s);
+    return FW_OK;
+}

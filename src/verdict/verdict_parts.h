@@ -273,7 +273,7 @@ double fw_verdict_pull_missing(const fw_verdict_variant_verdict *v, int scene);
 /* Small motions about the equilibria that a scene has with flexures softer and stiffer by their error, and with the pull as
    it may be, and on the other side of an unstable one that was left on the way there; without a scene there are none */
 typedef struct fw_verdict_small_others {
-    const fw_statics_modes *modes[2 * 3 * FW_VERDICT_WAYS]; /* (count) */
+    const fw_statics_modes *modes[2 * 3 * FW_VERDICT_WAYS + 1]; /* (count) */
     int count;
     const fw_statics_modes *at; /* as they are; NULL: without a scene */
     const char *lost;           /* a clause: one of them is not there; NULL: all are */

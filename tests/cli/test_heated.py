@@ -487,6 +487,72 @@ class Pressed(unittest.TestCase):
         self.assertRegex(said, r"press +force +29\.9\d? uN")
 
 
+GUIDED = """<device xmlns="urn:flexwright:device:1" name="guided"><parameter name="dT" value="30 K"/><parameter name="sm" value="0 MPa"/>
+<material ref="silicon-100" thickness="50 um" youngs-modulus="160 GPa" poisson="0.22"/><limits safety-factor="2"/>
+<flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/><flexure id="leaf" kind="leaf" length="400 um" width="6 um"/>
+<mechanism><body id="stage" x="0 mm" y="0 mm" plate-width="1.4 mm" plate-height="0.6 mm"/>
+<revolute id="A" a="ground" a-x="-0.5 mm" a-y="0.6 mm" b="stage" b-x="-0.5 mm" b-y="0.6 mm" hinge="leaf" axis="0 deg"/>
+<revolute id="B" a="ground" a-x="0.5 mm" a-y="0.6 mm" b="stage" b-x="0.5 mm" b-y="0.6 mm" hinge="leaf" axis="0 deg"/>
+<revolute id="C" a="ground" a-x="-0.5 mm" a-y="-0.6 mm" b="stage" b-x="-0.5 mm" b-y="-0.6 mm" hinge="leaf" axis="180 deg"/>
+<revolute id="D" a="ground" a-x="0.5 mm" a-y="-0.6 mm" b="stage" b-x="0.5 mm" b-y="-0.6 mm" hinge="leaf" axis="180 deg"/></mechanism>
+<probe id="x" kind="displacement" on="stage" direction="0 deg"/><probe id="k" kind="stiffness" on="stage" direction="0 deg"/>
+<probe id="along" kind="stiffness" on="stage" direction="90 deg"/><require probe="x" measure="final" min="-1 um" scene="push"/>
+<require frequency="1" scene="push" min="100 Hz"/><require probe="k" scene="push" min="1 N/m"/>
+<require probe="along" scene="push" min="1 N/m"/><scene name="push" duration="14 ms">{}</scene></device>"""
+WARM = '<temperature change="dT" expansion="3 ppm/K" substrate-expansion="0 ppm/K" modulus-change="0 ppm/K" {}/>'
+
+
+class Forks(unittest.TestCase):
+    """a stage on four clamped leaves that heat buckles at 31.4 K, by Euler's load of a guided leaf and what fillets stiffen"""
+
+    def judged(self, scene, *more):
+        with tempfile.TemporaryDirectory() as place:
+            file = pathlib.Path(place) / "device.xml"
+            file.write_text(GUIDED.replace("{}", scene))
+            done = run("check", file, "--jobs", "1", "--advice", "none", "--corners", "none", "--json", *more)
+            return json.loads(done.stdout)
+
+    def test_a_later_force_leaves_heat_as_it_is(self):
+        """at 27 K it stands; what was looked at where the force begins was the ramp that goes on, at 48.6 K (FW-D259)"""
+        for law in ('law="ramp" rise="5 ms"', 'law="table" table="0 ms: 0; 5 ms: 1; 20 ms: 1"',
+                    'law="expression" factor="min(1, t/(5 ms))"'):
+            said = self.judged(WARM.format(law) + '<force on="stage" fx="1 nN" fy="0 N" law="ramp" start="9 ms" rise="4 ms"/>',
+                               "--set", "dT=27 K")
+            self.assertEqual(said["verdict"], "accept", (law, said["reasons"]))
+
+    def test_between_standing_and_buckled(self):
+        """some of the devices that it may be stand and others are buckled: one between them has no stiffness but along its leaves.
+        The frequency had bands from 430 to 900 Hz"""
+        warm = WARM.format('law="ramp" rise="5 ms"')
+        for heat, fork in ((27, False), (29.5, True), (30, True), (32, True)):
+            _, frequency, k, along = self.judged(warm, "--set", f"dT={heat} K")["requirements"]
+            for row in frequency, k:
+                self.assertEqual(row["band"][0] == 0, fork, (heat, row))
+                self.assertEqual(row["verdict"], "inconclusive" if fork else "accept", (heat, row))
+            self.assertGreater(along["band"][0], 1.5e5)
+            self.assertEqual(along["verdict"], "accept")
+
+    def test_pins_that_heat_pulls_apart(self):
+        """a list of effects without what hinges give leaves pins, and no driver is to blame"""
+        for scene, effects, code in ((WARM.format('law="ramp" rise="5 ms"'), "temperature", "FW-D101"),
+                                     ('<residual-stress mean="-20 MPa"/>', "residual-stress", "FW-D100")):
+            with tempfile.TemporaryDirectory() as place:
+                file = pathlib.Path(place) / "device.xml"
+                file.write_text(GUIDED.replace("{}", scene))
+                said = run("simulate", file, "--effects", effects).stderr
+            self.assertIn(code, said)
+            self.assertIn("add nonlinear-hinge to the list of --effects", said)
+            self.assertNotIn("driver", said)
+
+    def test_where_no_motion_is_known_no_equilibrium_is(self):
+        """exact beams are not followed from so much stress on: x is not known, and what swings about where it comes to neither"""
+        said = self.judged('<residual-stress mean="-100 MPa"/>')
+        x, frequency = said["requirements"][:2]
+        self.assertEqual((x["verdict"], x["value"]), ("inconclusive", None))
+        self.assertEqual(frequency["verdict"], "inconclusive")
+        self.assertIn("no motion of its scene", json.dumps(said["reasons"]))
+
+
 def on_its_side(row, band):
     """a band of a requirement on the right side of its bounds; None: not known there, or no bound"""
     low, high = band

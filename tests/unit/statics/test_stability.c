@@ -133,6 +133,40 @@ static void rising_load(void **state) {
     fw_arena_free(f.arena);
 }
 
+/* Two legs with a pressed beam on four springs, whose feet heat moves apart, as far as it goes after 5 s. A force that begins
+   later has the only other break of a law: what is looked at before that is not of a ramp that goes on */
+static void a_ramp_of_heat_ends(void **state) {
+    (void)state;
+    const fw_quantity_law ramp = {.kind = &fw_quantity_law_ramp, .rise_s = 5},
+                          later = {.kind = &fw_quantity_law_step,
+                                   .start_s = 9,
+                                   .end_s = (double)INFINITY};
+    double alone = 0;
+    for (int i = 0; i < 2; i++) {
+        fixture f = begin();
+        rig r = rig_new(f.arena, 3, 4, 0);
+        fw_device_temperature warm = {
+            .change_K = 1, .substrate_expansion_per_K = -0.3, .law = &ramp};
+        rig_body(&r, "left", 1, 0.4, 0, 1, 0);
+        rig_body(&r, "beam", 2, 1.7, 1.5, 2, 0);
+        rig_body(&r, "right", 1, 0.4, 3, 1, 0);
+        rig_pin(&r, "A", FW_GROUND, 0, 0, 0, 5, 0.5);
+        rig_pin(&r, "B", 0, 1, 0, 2, 5, 0.5);
+        rig_pin(&r, "C", 1, 2, 3, 2, 5, 0.5);
+        rig_pin(&r, "D", 2, FW_GROUND, 3, 0, 5, 0.5);
+        rig_force(&r, 1, 0, -5);
+        rig_force(&r, 1, 0, -1e-9);
+        r.scene.temperature = &warm, r.scene.ntemperature = 1;
+        r.scene.duration_s = 15;
+        if (i > 0) r.scene.force[1].law = &later;
+        assert_null(find(&f, &r, 101));
+        if (i == 0) alone = left;
+        assert_relative(left, alone, 1e-6);
+        assert_true(left > 0.1 && left < 0.9);
+        fw_arena_free(f.arena);
+    }
+}
+
 /* a lever on a slider that a spring holds: the load makes it swing along the guide, and topples the
    lever only where it stands beside its line */
 static void it_moves_along_the_symmetry(void **state) {
@@ -254,6 +288,7 @@ int main(void) {
         cmocka_unit_test(which_way_is_chance),
         cmocka_unit_test(too_short_to_grow),
         cmocka_unit_test(rising_load),
+        cmocka_unit_test(a_ramp_of_heat_ends),
         cmocka_unit_test(it_moves_along_the_symmetry),
         cmocka_unit_test(column),
         cmocka_unit_test(between_electrodes),
