@@ -574,7 +574,7 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
 /* a row of equilibria has no integrator to be found again by, and where it ends the device has snapped */
 void fw_statics_move_like(const fw_dynamics_motion *like, fw_dynamics_motion_options *o) {
     const bool row = like->loads->quasi_static;
-    o->unsettled = NULL, o->other = NULL, o->like = NULL;
+    o->glance = NULL, o->unsettled = NULL, o->other = NULL, o->like = NULL;
     o->tapes = NULL, o->late_rows = false, o->trace_both = false;
     if (!row) o->rtol = like->stats.rtol, o->alone = o->rtol > 0;
     if (!row && o->alone) o->integrator = like->integrator; /* found by trying */

@@ -444,8 +444,8 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
                                 const fw_device_scene *scene,
                                 const fw_dynamics_motion_options *options, fw_diags *diags,
                                 const fw_dynamics_motion **motion);
-/* the options of a motion that is found once more, by the hinges and the tolerance of `like`, which is of the same scene; who observes
-   is the caller's. A row of equilibria that ends then, as at a fold, is none: FW_SOLVER */
+/* the options of a motion that is found once more, by the hinges and the tolerance of `like`, which is of the same scene; nobody
+   glances at it. A row of equilibria that ends then, as at a fold, is none: FW_SOLVER */
 void fw_statics_move_like(const fw_dynamics_motion *like, fw_dynamics_motion_options *options);
 /* Likewise, with all flexures 1 + by times as stiff, and as the options' effects.along says; observe, trace and context of the
    options look on. *motion NULL: none was found */

@@ -267,6 +267,7 @@ static fw_status move_it(fw_arena *arena, const fw_mechanism *m, const fw_device
     const bool probes = to->saw.probe != NULL;
     fw_statics_move_like(like, &o);
     fw_verdict_strain_monitor_watch(&to->saw, &o);
+    if (like->loads->quasi_static) o.glance = NULL; /* thirds of its steps are far apart */
     o.trace = probes ? fw_verdict_clearance_trace : NULL, o.whole = probes;
     o.most_angle_rad = FW_TURN, o.effects.like = NULL;
     const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, &x);

@@ -142,9 +142,6 @@ static fw_status at_the_fold(fw_arena *arena, const fw_statics_modes *is,
     return FW_OK;
 }
 
-static const char no_motion[] =
-    "no motion of its scene was found, so that nothing says which equilibrium the device comes to";
-
 fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *of,
                                  int scene, const fw_statics_mode_options *given,
                                  const fw_statics_modes *modes, const fw_verdict_variant_verdict *v,
@@ -155,7 +152,6 @@ fw_status fw_verdict_small_again(fw_arena *arena, const fw_mechanism *m, const f
     const ways w = ways_of(m, scene, modes, v);
     const double missing = fw_verdict_pull_missing(v, scene);
     if (!isfinite(w.off)) return FW_OK; /* bands have no ends then */
-    if (v->motion && !v->motion[scene] && !(v->pull_in && v->pull_in[scene])) to->lost = no_motion;
     const int pulls = !(missing > 0) ? 1 : fw_effects_levitation_may_be(m) ? 3 : 2;
     fw_device_scene now[3] = {*of, *of, *of}; /* as it is, more, less */
     FW_TRY(pull_times(arena, 1 + missing, &now[1]));

@@ -544,14 +544,6 @@ class Forks(unittest.TestCase):
             self.assertIn("add nonlinear-hinge to the list of --effects", said)
             self.assertNotIn("driver", said)
 
-    def test_where_no_motion_is_known_no_equilibrium_is(self):
-        """exact beams are not followed from so much stress on: x is not known, and what swings about where it comes to neither"""
-        said = self.judged('<residual-stress mean="-100 MPa"/>')
-        x, frequency = said["requirements"][:2]
-        self.assertEqual((x["verdict"], x["value"]), ("inconclusive", None))
-        self.assertEqual(frequency["verdict"], "inconclusive")
-        self.assertIn("no motion of its scene", json.dumps(said["reasons"]))
-
 
 def on_its_side(row, band):
     """a band of a requirement on the right side of its bounds; None: not known there, or no bound"""
