@@ -18,75 +18,19 @@
 #define FW_W 1
 #endif
 #include "flexure/finite.h"
-#include <stdint.h>
-#include <string.h>
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
+#include "maths/lanes.h"
 
-#define INLINE     static inline __attribute__((always_inline))
 #define UNROLL     _Pragma("GCC unroll 8")
 #define JOIN(a, b) a##b
 #define NAME(a, b) JOIN(a, b)
 
-/* ---- FW_W numbers ---- */
-
-#if FW_W == 1
-typedef double real;
-typedef int64_t bits;
-#define MASK(comparison) (-(bits)(comparison))
-#define LANE(x, lane)    (x)
-INLINE bits bits_of(real a) {
-    bits b;
-    memcpy(&b, &a, sizeof b);
-    return b;
-}
-INLINE real real_from(bits b) {
-    real a;
-    memcpy(&a, &b, sizeof a);
-    return a;
-}
-#else
-typedef double real __attribute__((vector_size(8 * FW_W)));
-typedef int64_t bits __attribute__((vector_size(8 * FW_W)));
-#define MASK(comparison) ((bits)(comparison))
-#define LANE(x, lane)    ((x)[lane])
-INLINE bits bits_of(real a) {
-    return (bits)a;
-}
-INLINE real real_from(bits b) {
-    return (real)b;
-}
-#endif
-INLINE real every(double a) {
-    return a - (real){0};
-}
-INLINE real load(const double *from) {
+FW_INLINE real load(const double *from) {
     real a;
     memcpy(&a, from, sizeof a);
     return a;
 }
-/* of a mask, whose lanes are all ones or all zeros: bit i where lane i is one */
-INLINE unsigned lanes_of(bits mask) {
-#if FW_W == 8
-    return _mm512_movepi64_mask((__m512i)mask);
-#elif FW_W == 4
-    return (unsigned)_mm256_movemask_pd((__m256d)mask);
-#else
-    unsigned all = 0;
-    for (int i = 0; i < FW_W; i++)
-        all |= (unsigned)(LANE(mask, i) & 1) << i;
-    return all;
-#endif
-}
-INLINE real size_of(real a) {
-    return real_from(bits_of(a) & INT64_MAX);
-}
-INLINE real choose(bits mask, real a, real b) {
-    return real_from((mask & bits_of(a)) | (~mask & bits_of(b)));
-}
-INLINE real larger(real a, real b) {
-    return choose(MASK(a > b), a, b);
+FW_INLINE real larger(real a, real b) {
+    return real_select(MASK(a > b), a, b);
 }
 
 typedef struct curve { /* a function with its first two derivatives */
@@ -104,7 +48,7 @@ typedef struct shape { /* sinc, z = sinc(2x), g and h of x, with derivatives */
 } shape;
 
 /* p(t) of eight terms and its slope, by Estrin's scheme: what waits for one another is a third of Horner's */
-INLINE line polynomial(const double *c, real t) {
+FW_INLINE line polynomial(const double *c, real t) {
     const real t2 = t * t, t4 = t2 * t2;
     return (line){((c[0] + c[1] * t) + t2 * (c[2] + c[3] * t)) +
                       t4 * ((c[4] + c[5] * t) + t2 * (c[6] + c[7] * t)),
@@ -112,7 +56,7 @@ INLINE line polynomial(const double *c, real t) {
                       t4 * ((5 * c[5] + 6 * c[6] * t) + t2 * (7 * c[7]))};
 }
 
-INLINE void shape_near(real x, shape *at) {
+FW_INLINE void shape_near(real x, shape *at) {
     const real t = x * x, twice = 2 * x;
     const line s = polynomial(fw_flexure_sinc_of, t), g = polynomial(fw_flexure_g_of, t);
     const line h = polynomial(fw_flexure_h_of, t);
@@ -122,7 +66,7 @@ INLINE void shape_near(real x, shape *at) {
     at->z = 1 - t * g.v, at->z1 = -twice * g.v - t * at->g1;
 }
 
-INLINE void shape_far(real x, real sine, real cosine, shape *at) {
+FW_INLINE void shape_far(real x, real sine, real cosine, shape *at) {
     const real over = 1 / x, square = over * over, twice = 2 * over;
     at->s = sine * over, at->s1 = (cosine - at->s) * over, at->s2 = -at->s - twice * at->s1;
     at->z = at->s * cosine, at->z1 = at->s1 * cosine - at->s * sine;
@@ -131,9 +75,9 @@ INLINE void shape_far(real x, real sine, real cosine, shape *at) {
     at->h1 = (at->z1 - 4 * at->s * at->s1) * square - twice * at->h;
 }
 
-INLINE void shape_at(real x, real sine, real cosine, shape *at) {
-    const bits near = MASK(size_of(x) < 1);
-    const unsigned which = lanes_of(near);
+FW_INLINE void shape_at(real x, real sine, real cosine, shape *at) {
+    const bits near = MASK(real_abs(x) < 1);
+    const unsigned which = bits_lanes(near);
     if (which == (1u << FW_W) - 1) {
         shape_near(x, at);
         return;
@@ -142,15 +86,15 @@ INLINE void shape_at(real x, real sine, real cosine, shape *at) {
     if (which == 0) return;
     shape n;
     shape_near(x, &n);
-    at->s = choose(near, n.s, at->s), at->s1 = choose(near, n.s1, at->s1);
-    at->s2 = choose(near, n.s2, at->s2);
-    at->z = choose(near, n.z, at->z), at->z1 = choose(near, n.z1, at->z1);
-    at->g = choose(near, n.g, at->g), at->g1 = choose(near, n.g1, at->g1);
-    at->h = choose(near, n.h, at->h), at->h1 = choose(near, n.h1, at->h1);
+    at->s = real_select(near, n.s, at->s), at->s1 = real_select(near, n.s1, at->s1);
+    at->s2 = real_select(near, n.s2, at->s2);
+    at->z = real_select(near, n.z, at->z), at->z1 = real_select(near, n.z1, at->z1);
+    at->g = real_select(near, n.g, at->g), at->g1 = real_select(near, n.g1, at->g1);
+    at->h = real_select(near, n.h, at->h), at->h1 = real_select(near, n.h1, at->h1);
 }
 
 /* sine and cosine below 0.8, as in finite.c */
-INLINE void turn(real angle, real *sine, real *cosine) {
+FW_INLINE void turn(real angle, real *sine, real *cosine) {
     const real t = angle * angle, t2 = t * t, t4 = t2 * t2;
     const real s = (1 - t * (1 / 6.0)) + t2 * (1 / 120.0 - t * (1 / 5040.0)) +
                    t4 * ((1 / 362880.0 - t * (1 / 39916800.0)) +
@@ -169,7 +113,7 @@ typedef struct soft { /* compliances and drift by the rotation, over L^3/EI and 
 /* hinge: field k of the first lane's is at k stride */
 #define OF(field) load(hinge + (size_t)(field)*stride)
 
-INLINE void soften(const double *hinge, size_t stride, real th, real x, soft *c) {
+FW_INLINE void soften(const double *hinge, size_t stride, real th, real x, soft *c) {
     const real q = OF(FW_HINGE_Q), sa = OF(FW_HINGE_SINE), ca = OF(FW_HINGE_COSINE);
     const real along = OF(FW_HINGE_ALONG), across = OF(FW_HINGE_ACROSS), root = OF(FW_HINGE_ROOT);
     const real share = OF(FW_HINGE_ROOT_ACROSS), both = OF(FW_HINGE_BOTH);
@@ -193,13 +137,13 @@ typedef struct wound { /* px and py over L^2/EI */
     line px, py, g4, h4, a4, n4;
 } wound;
 
-INLINE line winding(int row, real x, real slope) {
+FW_INLINE line winding(int row, real x, real slope) {
     line p = polynomial(fw_flexure_winding[row], x * x);
     p.d = slope * p.d;
     return p;
 }
 
-INLINE void wind(real q, real x, wound *at) {
+FW_INLINE void wind(real q, real x, wound *at) {
     const real slope = q * (2 * x);
     at->px = winding(0, x, slope), at->py = winding(1, x, slope);
     at->g4 = winding(2, x, slope), at->h4 = winding(3, x, slope);
@@ -216,22 +160,22 @@ static const double a_of[7] = {1,
                                1.6060331664955763e-10};
 
 /* polynomials of degree 6 that are 1 at 0, by the coefficients of them, their slopes and second derivatives */
-INLINE curve series(real y, const real c[6], const real d[5], const real dd[4]) {
+FW_INLINE curve series(real y, const real c[6], const real d[5], const real dd[4]) {
     const real y2 = y * y, y4 = y2 * y2;
     return (curve){((1 + c[0] * y) + y2 * (c[1] + c[2] * y)) + y4 * ((c[3] + c[4] * y) + y2 * c[5]),
                    ((c[0] + d[0] * y) + y2 * (d[1] + d[2] * y)) + y4 * (d[3] + d[4] * y),
                    ((d[0] + dd[0] * y) + y2 * (dd[1] + dd[2] * y)) + y4 * dd[3]};
 }
 
-INLINE curve a_at(real y) {
+FW_INLINE curve a_at(real y) {
     real c[6], d[5], dd[4];
-    UNROLL for (int k = 0; k < 6; k++) c[k] = every(a_of[k + 1]);
-    UNROLL for (int k = 0; k < 5; k++) d[k] = every((k + 2) * a_of[k + 2]);
-    UNROLL for (int k = 0; k < 4; k++) dd[k] = every((k + 2) * (k + 3) * a_of[k + 3]);
+    UNROLL for (int k = 0; k < 6; k++) c[k] = real_of(a_of[k + 1]);
+    UNROLL for (int k = 0; k < 5; k++) d[k] = real_of((k + 2) * a_of[k + 2]);
+    UNROLL for (int k = 0; k < 4; k++) dd[k] = real_of((k + 2) * (k + 3) * a_of[k + 3]);
     return series(y, c, d, dd);
 }
 
-INLINE curve n_at(const double *hinge, size_t stride, real y) {
+FW_INLINE curve n_at(const double *hinge, size_t stride, real y) {
     real c[6], d[5], dd[4];
     UNROLL for (int k = 0; k < 6; k++) c[k] = OF(FW_HINGE_N + k);
     UNROLL for (int k = 0; k < 5; k++) d[k] = OF(FW_HINGE_N_SLOPE + k);
@@ -240,7 +184,7 @@ INLINE curve n_at(const double *hinge, size_t stride, real y) {
 }
 
 /* q(y; b, e), e2 = e^2 */
-INLINE curve fourth(real y, double b, double e2) {
+FW_INLINE curve fourth(real y, double b, double e2) {
     const real ye = y * e2, over = 1 / (1 + y * (b + ye)), root = y * over, flat = 1 - y * ye;
     const real once = flat * over, d = once * over;
     const real dd = -2 * ((ye + once * (b + 2 * ye)) * (over * over));
@@ -255,9 +199,9 @@ typedef struct shortened {
     real over, z, z2, z4, h, h_l, g, g_l;
 } shortened;
 
-INLINE shortened shorten(const wound *x, real w, real l, bool stretched) {
+FW_INLINE shortened shorten(const wound *x, real w, real l, bool stretched) {
     shortened s;
-    s.over = stretched ? 1 / l : every(1), s.z = w * s.over, s.z2 = s.z * s.z, s.z4 = s.z2 * s.z2;
+    s.over = stretched ? 1 / l : real_of(1), s.z = w * s.over, s.z2 = s.z * s.z, s.z4 = s.z2 * s.z2;
     const real h4 = x->h4.v * s.z4, g4 = x->g4.v * s.z4;
     s.h = 0.5 * l * (s.z2 + h4), s.h_l = -0.5 * s.z2 - 1.5 * h4;
     s.g = s.z2 + g4, s.g_l = -(2 * s.z2 + 4 * g4) * s.over;
@@ -269,10 +213,10 @@ typedef struct slope { /* dPhi/dy and its derivative */
 } slope;
 
 /* A and N at one y; loaded: y is not 0 */
-INLINE slope slope_at(const soft *c, const wound *x, real w, real free, real y, bool loaded,
-                      const curve *A, const curve *N) {
+FW_INLINE slope slope_at(const soft *c, const wound *x, real w, real free, real y, bool loaded,
+                         const curve *A, const curve *N) {
     const real ry = c->rest_y.v, by = c->bend_y.v;
-    const shortened s = shorten(x, w, loaded ? 1 + ry * y : every(1), loaded);
+    const shortened s = shorten(x, w, loaded ? 1 + ry * y : real_of(1), loaded);
     const real k = 1 / (c->bend_x.v * A->v + c->rest_x.v), k2 = k * k;
     const real c1 = c->bend_x.v * A->d, c2 = c->bend_x.v * A->dd;
     const real kd = -(c1 * k2), kdd = (2 * c1 * c1 * k - c2) * k2;
@@ -287,19 +231,19 @@ INLINE slope slope_at(const soft *c, const wound *x, real w, real free, real y, 
 }
 
 /* f(p y) + four q */
-INLINE curve with_fourth(const curve *f, real p, const curve *q, real four) {
+FW_INLINE curve with_fourth(const curve *f, real p, const curve *q, real four) {
     return (curve){f->v + four * q->v, p * f->d + four * q->d, p * p * f->dd + four * q->dd};
 }
 
 /* first guess: all functions are known at no force */
-INLINE slope unloaded(const double *hinge, size_t stride, const soft *c, const wound *x, real w,
-                      real free) {
-    const curve a = {every(1), every(a_of[1]), every(2 * a_of[2])},
-                q = {every(0), every(0), every(2)};
-    const curve n = {every(1), OF(FW_HINGE_N), OF(FW_HINGE_N_SLOPE)};
+FW_INLINE slope unloaded(const double *hinge, size_t stride, const soft *c, const wound *x, real w,
+                         real free) {
+    const curve a = {real_of(1), real_of(a_of[1]), real_of(2 * a_of[2])},
+                q = {real_of(0), real_of(0), real_of(2)};
+    const curve n = {real_of(1), OF(FW_HINGE_N), OF(FW_HINGE_N_SLOPE)};
     const curve A = with_fourth(&a, x->px.v, &q, x->a4.v),
                 N = with_fourth(&n, x->py.v, &q, x->n4.v);
-    return slope_at(c, x, w, free, every(0), false, &A, &N);
+    return slope_at(c, x, w, free, real_of(0), false, &A, &N);
 }
 
 typedef struct state { /* at one y: a(px y), n(py y), what is of fourth order */
@@ -307,7 +251,7 @@ typedef struct state { /* at one y: a(px y), n(py y), what is of fourth order */
 } state;
 
 /* the same at y + more: values to the third order, slopes to the second */
-INLINE void advance(curve *f, real more) {
+FW_INLINE void advance(curve *f, real more) {
     f->v += more * (f->d + 0.5 * more * f->dd), f->d += more * f->dd;
 }
 
@@ -316,24 +260,24 @@ static const double far = 2e-3, most = 5e-9, little = 2e-4;
 
 /* y where Phi is stationary, with the state there. A lane of `good` stays where Newton's step from the first guess and what it
    leaves out (finite_force.c hermite_step) are small enough */
-INLINE real solve(const double *hinge, size_t stride, const soft *c, const wound *x, real w,
-                  real free, state *s, bits *good) {
+FW_INLINE real solve(const double *hinge, size_t stride, const soft *c, const wound *x, real w,
+                     real free, state *s, bits *good) {
     const slope at0 = unloaded(hinge, stride, c, x, w, free);
     const real range = OF(FW_HINGE_RANGE), one0 = 1 / at0.q, y = -(at0.p * one0);
-    const real pressed = larger(larger(size_of(x->px.v), x->py.v), every(1));
-    const bits within = MASK(at0.q < 0) & MASK(size_of(y) * pressed <= range) & *good;
-    if (!lanes_of(*good = within)) return y;
+    const real pressed = larger(larger(real_abs(x->px.v), x->py.v), real_of(1));
+    const bits within = MASK(at0.q < 0) & MASK(real_abs(y) * pressed <= range) & *good;
+    if (!bits_lanes(*good = within)) return y;
     s->a = a_at(x->px.v * y), s->n = n_at(hinge, stride, x->py.v * y);
     s->qa = fourth(y, 2 / 47.0, 1 / (47.0 * 47)), s->qn = fourth(y, 1 / 60.0, 1 / (55.0 * 55));
     const curve A = with_fourth(&s->a, x->px.v, &s->qa, x->a4.v);
     const curve N = with_fourth(&s->n, x->py.v, &s->qn, x->n4.v);
     const slope at = slope_at(c, x, w, free, y, true, &A, &N);
-    const real between = at0.p - at.p, apart = choose(MASK(between == 0), every(1), between);
+    const real between = at0.p - at.p, apart = real_select(MASK(between == 0), real_of(1), between);
     const real over = 1 / apart, D = -(y * over), one = 1 / at.q, step = -(at.p * one);
     const real more = at.p * at.p * over * (D - one - at0.p * over * (one0 - 2 * D + one));
-    const real size = size_of(y), moved = size_of(step);
+    const real size = real_abs(y), moved = real_abs(step);
     *good = within & MASK(at.q < 0) & MASK(moved <= far * size) &
-            MASK(size_of(more) <= most * size) & MASK(pressed * moved <= little);
+            MASK(real_abs(more) <= most * size) & MASK(pressed * moved <= little);
     const real rest = step + more;
     advance(&s->a, x->px.v * rest), advance(&s->n, x->py.v * rest);
     s->qa.v += rest * (s->qa.d + 0.5 * rest * s->qa.dd);
@@ -347,8 +291,8 @@ typedef struct answer {
     real energy, pull, gradient[3], kx, ky, drift_slope;
 } answer;
 
-INLINE void answer_at(const double *hinge, size_t stride, real th, const soft *c, const wound *x,
-                      real w, real free, real y, const state *s, answer *out) {
+FW_INLINE void answer_at(const double *hinge, size_t stride, real th, const soft *c, const wound *x,
+                         real w, real free, real y, const state *s, answer *out) {
     const real ry = c->rest_y.v, A = s->a.v + x->a4.v * s->qa.v, N = s->n.v + x->n4.v * s->qn.v;
     const real k = 1 / (c->bend_x.v * A + c->rest_x.v), half = 0.5 * k;
     const shortened z = shorten(x, w, 1 + ry * y, true);
@@ -373,11 +317,11 @@ INLINE void answer_at(const double *hinge, size_t stride, real th, const soft *c
 }
 
 /* what they know of a rotation only; a lane where it is not small enough is not good */
-INLINE bits rotated(const double *hinge, size_t stride, real th, soft *c, wound *x) {
+FW_INLINE bits rotated(const double *hinge, size_t stride, real th, soft *c, wound *x) {
     const real q = OF(FW_HINGE_Q), at = OF(FW_HINGE_HALF_ANGLE) + q * th;
     soften(hinge, stride, th, at, c);
     wind(q, at, x);
-    return MASK(size_of(th) < 1.6) & MASK(size_of(at) < 3.14);
+    return MASK(real_abs(th) < 1.6) & MASK(real_abs(at) < 3.14);
 }
 
 /* of `count` hinges, at most FW_W; at: th, w and v of all */
@@ -392,7 +336,7 @@ unsigned NAME(fw_flexure_lanes_bend_, FW_W)(const double *hinge, size_t stride, 
     bits good = rotated(hinge, stride, th, &c, &x);
     const real free = (v - L * c.drift.v) * per;
     const real y = solve(hinge, stride, &c, &x, w, free, &s, &good);
-    const unsigned known = lanes_of(good), holds = lanes_of(MASK(size_of(w) < 0.4));
+    const unsigned known = bits_lanes(good), holds = bits_lanes(MASK(real_abs(w) < 0.4));
     if (!known) return 0;
     answer_at(hinge, stride, th, &c, &x, w, free, y, &s, &a);
     for (int i = 0; i < count; i++) {

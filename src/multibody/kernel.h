@@ -183,7 +183,7 @@ bool fw_multibody_core_plain(const fw_multibody_model *model);
 extern const fw_multibody_core_ops fw_multibody_core_single;
 extern const fw_multibody_core_ops fw_multibody_core_avx2, fw_multibody_core_avx512;
 
-/* sine and cosine of one angle, as the kernel of one design takes them (kernel_vector.h) */
+/* sine and cosine of one angle, as the kernel of one design takes them (maths/lanes.h) */
 void fw_multibody_kernel_sincos(double angle_rad, double *sine, double *cosine);
 
 #endif

@@ -3,7 +3,7 @@
    and by cmake/rooms.cmake for four and eight, which define
 
      FW_W          designs, one per lane of a register
-     FW_BRIEF      1: shorter sines (kernel_vector.h)
+     FW_BRIEF      1: shorter sines (maths/lanes.h)
      FW_CORE       name of the row of functions
      FW_CORE_NAME  as users read it
 
@@ -22,7 +22,7 @@
 #define FW_CORE_NAME "portable"
 #endif
 #include "multibody/kernel.h"
-#include "multibody/kernel_vector.h"
+#include "maths/lanes.h"
 #include <float.h>
 #include <math.h>
 

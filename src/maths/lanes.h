@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* FW_W doubles in one register, one per design: a number for FW_W = 1, a vector for FW_W = 4 or 8.
-   To be included once in a translation unit that defines FW_W. Private to the kernels.
+/* FW_W doubles in one register, one per design or per hinge: a number for FW_W = 1, a vector for FW_W = 2, 4 or 8.
+   To be included once in a translation unit that defines FW_W.
 
    FW_BRIEF 1, for the lanes alone: sines to 1.6 ulp in place of 0.9. */
-#ifndef FW_MULTIBODY_KERNEL_VECTOR_H
-#define FW_MULTIBODY_KERNEL_VECTOR_H
+#ifndef FW_MATHS_LANES_H
+#define FW_MATHS_LANES_H
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -34,9 +34,6 @@ FW_INLINE real real_from(bits b) {
 FW_INLINE real real_of(double x) {
     return x;
 }
-FW_INLINE bool bits_any(bits mask) {
-    return mask != 0;
-}
 #else
 typedef double real __attribute__((vector_size(8 * FW_W)));
 #define LANE(number, lane) ((number)[lane])
@@ -52,15 +49,24 @@ FW_INLINE real real_from(bits b) {
 FW_INLINE real real_of(double x) {
     return x - (real){0};
 }
-/* of masks: every lane is all ones or all zeros */
-FW_INLINE bool bits_any(bits mask) {
+#endif
+
+/* of masks, whose lanes are all ones or all zeros: bit i where lane i is one */
+FW_INLINE unsigned bits_lanes(bits mask) {
 #if FW_W == 8
-    return _mm512_movepi64_mask((__m512i)mask) != 0;
+    return _mm512_movepi64_mask((__m512i)mask);
+#elif FW_W == 4
+    return (unsigned)_mm256_movemask_pd((__m256d)mask);
 #else
-    return _mm256_movemask_pd((__m256d)mask) != 0;
+    unsigned all = 0;
+    for (int i = 0; i < FW_W; i++)
+        all |= (unsigned)(LANE(mask, i) & 1) << i;
+    return all;
 #endif
 }
-#endif
+FW_INLINE bool bits_any(bits mask) {
+    return bits_lanes(mask) != 0;
+}
 
 FW_INLINE real real_abs(real a) {
     return real_from(bits_of(a) & INT64_MAX);
