@@ -28,6 +28,7 @@ typedef struct fw_plan_lab_text { /* a laboratory pack in memory; messages name 
     size_t n;
 } fw_plan_lab_text;
 
+enum { FW_PLAN_CORNER = 96 }; /* bytes of a corner's text (fw_plan_corner_text) */
 typedef struct fw_plan_options {
     const char *data_directory; /* packs and layer tables; NULL: installed, else source tree */
     const char *flow;           /* only this flow; NULL: all of the device */
@@ -59,6 +60,9 @@ typedef struct fw_plan_options {
     const char *layers; /* file of the laboratory's layer numbers (mask/mask_table.h); NULL: none */
     const char *directory; /* of drawings, for fw_plan_load_memory; NULL: none are opened */
     fw_json_wanted wanted; /* of the verdict's JSON, what somebody reads; member NULL: all */
+    /* (nwatched) the only corners that devices as made are judged at (fw_plan_corner_text); 0: as verdict.corners says */
+    const char (*watched)[FW_PLAN_CORNER];
+    int nwatched;
 } fw_plan_options;
 fw_plan_options fw_plan_options_default(void);
 
@@ -161,6 +165,8 @@ fw_status fw_plan_load_memory(fw_plan *plan, const char *file, const char *xml, 
 /* layout, mechanism, motion, workspace, verdict (and advice); times and judgement of the flows, with what the masks of a
    design that is not rejected refuse */
 fw_status fw_plan_judge(fw_plan *plan);
+/* the corner that governs what each flow makes of the device, for options.watched; "": of some flow none was looked at */
+void fw_plan_corner_text(const fw_plan *plan, char text[FW_PLAN_CORNER]);
 /* for a picture of the motion: as drawn, what hinges use in the scene that is shown, in the first flow that it holds
    in, and nothing else. One variant of plan->verdict, which decides nothing; none where no scene is to be moved */
 fw_status fw_plan_judge_shown(fw_plan *plan);

@@ -10,18 +10,78 @@
 #include <math.h>
 #include <string.h>
 
+/* ---- corners as text ----
+   A corner of all flows of a device, in a form that holds for other devices of the same flows, whose ranges may be others: for
+   each flow a letter for each of its inputs, l at its lower end, h at its upper one, n between, and ';' between flows.
+   "": of some flow no corner was looked at, or there are too many inputs to say it. Test: tests/cli/test_sizing.py, AsMade */
+
+void fw_plan_corner_text(const fw_plan *plan, char text[FW_PLAN_CORNER]) {
+    size_t at = 0;
+    text[0] = '\0';
+    for (int i = 0; i < plan->verdict.nvariant; i++) {
+        const fw_verdict_variant_verdict *v = &plan->verdict.variant[i];
+        const size_t more = (size_t)v->ninput + 1;
+        if ((v->ninput > 0 && !v->fabricated) || at + more + 1 > FW_PLAN_CORNER) {
+            text[0] = '\0';
+            return;
+        }
+        if (i > 0) text[at++] = ';';
+        for (int k = 0; k < v->ninput; k++) {
+            const fw_verdict_fabrication_input *in = &v->input[k];
+            const double x = v->fabricated->corner[v->fabricated->at].x[k];
+            text[at++] = x <= in->low && in->low < in->nominal     ? 'l'
+                         : x >= in->high && in->high > in->nominal ? 'h'
+                                                                   : 'n';
+        }
+        text[at] = '\0';
+    }
+}
+
+/* the letters of flow i; NULL: it has none */
+static const char *letters_of(const char *text, int i) {
+    while (i > 0 && text)
+        text = strchr(text, ';'), text = text ? text + 1 : NULL, i--;
+    return text && *text && *text != ';' ? text : NULL;
+}
+
+/* the corners of the options in the ranges that flow i has for this device, each once */
+static fw_status watch_corners(const fw_plan_options *o, fw_arena *arena, int i,
+                               fw_verdict_variant_verdict *v) {
+    const size_t n = (size_t)v->ninput;
+    double *x = fw_arena_array(arena, double, (size_t)o->nwatched *n + 1);
+    FW_NEED(x);
+    v->suspect = x, v->nsuspect = 0;
+    for (int j = 0; j < o->nwatched; j++) {
+        const char *letter = letters_of(o->watched[j], i);
+        bool there = !letter || strcspn(letter, ";") != n;
+        for (int k = 0; k < j && !there; k++) {
+            const char *other = letters_of(o->watched[k], i);
+            there = other && strncmp(other, letter, n) == 0;
+        }
+        if (there) continue;
+        double *to = x + (size_t)v->nsuspect++ * n;
+        for (size_t k = 0; k < n; k++)
+            to[k] = letter[k] == 'l'   ? v->input[k].low
+                    : letter[k] == 'h' ? v->input[k].high
+                                       : v->input[k].nominal;
+    }
+    return FW_OK;
+}
+
 /* ---- the verdict and motions ---- */
 
 /* the same with the gaps of the drawing: the facts that fw_plan_compute_flows has, hence the same
    edges as mask and recipe. The variant may be one of a description read again. */
 static fw_status fabricated_of(void *context, fw_arena *arena, const fw_device *device,
                                const fw_layout *layout, int i, fw_verdict_variant_verdict *v) {
-    const fw_plan_flow *pf = &((const fw_plan *)context)->flow[i];
+    const fw_plan *plan = context;
+    const fw_plan_flow *pf = &plan->flow[i];
     fw_process_mask_facts facts;
     if (!pf->flow || !layout || !layout->drawn) return FW_OK;
     FW_TRY(fw_plan_edge_facts(arena, device, layout, pf, v->variant, &facts));
-    FW_TRY(fw_plan_join_swept(context, arena, i, &facts));
-    return fw_process_flow_fabricated(arena, pf->flow, &facts, v->variant, &v->input, &v->ninput);
+    FW_TRY(fw_plan_join_swept(plan, arena, i, &facts));
+    FW_TRY(fw_process_flow_fabricated(arena, pf->flow, &facts, v->variant, &v->input, &v->ninput));
+    return plan->options.nwatched > 0 ? watch_corners(&plan->options, arena, i, v) : FW_OK;
 }
 
 static fw_status restated(void *plan, fw_arena *arena, const fw_device_set *set, int nset,

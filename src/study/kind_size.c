@@ -47,6 +47,8 @@ typedef struct sizing {
     long nend;             /* devices at ends of ranges */
     int for_ends;          /* devices kept for the ends */
     bool ranged;           /* an input is of a range */
+    fw_study_watch watch;  /* corners that devices as made are looked at in (study_made.c) */
+    long nwhole;           /* devices that were looked at in all corners once more */
     int levels, held_most; /* of two goals: levels of the second, devices of a search at one */
 } sizing;
 
@@ -114,8 +116,9 @@ static fw_status fill(void *context, long k, fw_study_sample *sample, bool *want
     sizing *s = context;
     const fw_study *study = s->study;
     long point = k / s->lists;
-    *wanted = true;
+    *wanted = s->nkept == 0 || k > 0; /* the first one may have been judged alone */
     sample->i = k;
+    sample->watch = s->watch.n > 0 ? &s->watch : NULL;
     FW_TRY(listed_texts(study, k % s->lists, sample));
     for (int v = 0; v < study->nvary; v++) {
         const fw_study_input *in = &study->input[v];
@@ -162,12 +165,56 @@ static int best_for(const sizing *s, const aim *a) {
     return best;
 }
 
-static int best_of(const sizing *s, const goal *g) {
-    const aim a = {.s = s, .goal = g};
-    return best_for(s, &a);
+typedef struct at_ends {
+    sizing *s;
+    const fw_study_sample *from;
+    long first; /* number of the first one */
+    /* (n) the input, and 1 for the upper end of its range, 0 for the lower; NULL: it is judged as it is, at all corners */
+    const int (*move)[2];
+} at_ends;
+
+static fw_status fill_end(void *context, long k, fw_study_sample *sample, bool *wanted) {
+    const at_ends *e = context;
+    const fw_study *study = e->s->study;
+    *wanted = true;
+    sample->i = e->first + k;
+    sample->watch = e->move && e->s->watch.n > 0 ? &e->s->watch : NULL;
+    for (int v = 0; v < study->nvary; v++) {
+        memcpy(sample->text[v], e->from->text[v], FW_STUDY_TEXT);
+        sample->value[v] = e->from->value[v];
+    }
+    if (!e->move) return FW_OK;
+    const int moved = e->move[k][0];
+    return fw_study_input_at(&study->input[moved], e->move[k][1], DIGITS, sample->text[moved],
+                             &sample->value[moved]);
+}
+
+static fw_status take_end(void *context, const fw_study_sample *sample) {
+    const at_ends *e = context;
+    bool wanted;
+    fw_study_sample *to = &e->s->kept[e->s->nkept++];
+    FW_TRY(fw_study_sample_new(e->s->study->arena, e->s->study, to));
+    fw_study_sample_copy(e->s->study, sample, to);
+    return fill_end(context, sample->i - e->first, to, &wanted);
+}
+
+/* The best for an aim. Where it was accepted at the corners that were watched it is judged at all of them first, and where it is
+   not the best any more, the next one is. */
+static fw_status best_whole(sizing *s, const aim *a, int *best) {
+    while ((*best = best_for(s, a)) != FW_NONE && fw_study_is_partly(&s->kept[*best])) {
+        at_ends e = {.s = s, .from = &s->kept[*best]};
+        e.first = FW_STUDY_SEARCH_PART / 4 + s->nwhole++;
+        const fw_study_work work = {.n = 1, .fill = fill_end, .take = take_end, .context = &e};
+        FW_TRY(fw_study_pool_run(s->study, &work));
+        s->kept[*best] = s->kept[--s->nkept]; /* in its place */
+        fw_study_watch_add(&s->watch, s->kept[*best].corner);
+    }
+    return FW_OK;
 }
 
 static fw_study_search search_of(const aim *a, int most, long *first) {
+    const int best = best_for(a->s, a);
+    const fw_study_sample *than = best == FW_NONE ? NULL : &a->s->kept[best];
     *first += FW_STUDY_SEARCH_PART;
     return (fw_study_search){.objective = objective,
                              .nconstraint = constraints_of(a),
@@ -176,6 +223,9 @@ static fw_study_search search_of(const aim *a, int most, long *first) {
                              .most = most,
                              .digits = DIGITS,
                              .first = *first - FW_STUDY_SEARCH_PART,
+                             .watch = a->s->watch,
+                             .than_f = than ? objective(a, than) : (double)NAN,
+                             .than_c = than ? constraint(a, than) : (double)NAN,
                              .keeps_all = true};
 }
 
@@ -184,6 +234,8 @@ static fw_study_search search_of(const aim *a, int most, long *first) {
 static void join(sizing *s, const fw_study_search *search) {
     for (int k = 0; k < search->used; k++)
         s->kept[s->nkept++] = search->all[k];
+    for (int k = search->watch.n; k-- > 0;)
+        fw_study_watch_add(&s->watch, search->watch.text[k]);
 }
 
 static const double apart_by = 0.1; /* of a range */
@@ -248,14 +300,16 @@ static fw_status look_again(sizing *s, const aim *a, const fw_study_search *ende
     fw_study_sort_samples(&s->kept[since], s->nkept - since);
     s->more_n += look, *left -= look;
     /* so few that each comes near its end: the last search goes on from the best of all */
-    const int each = (int)fmin(2 * worth_it(s->study), half / STARTS);
+    int best, each = (int)fmin(2 * worth_it(s->study), half / STARTS);
+    FW_TRY(best_whole(s, a, &best));
     FW_TRY(starts(s, a, since, ended, n, search, &n, each, first));
     return run_all(s, search, n, left);
 }
 
 /* one more search, from all that was judged, with the devices that the others left */
 static fw_status go_on(sizing *s, const aim *a, int left, long *first) {
-    int from = best_for(s, a);
+    int from;
+    FW_TRY(best_whole(s, a, &from));
     if (from == FW_NONE || left <= 0) return FW_OK;
     fw_study_search one = search_of(a, left, first);
     FW_TRY(fw_study_search_from(s->study, &s->kept[from], &one));
@@ -268,36 +322,6 @@ static fw_status go_on(sizing *s, const aim *a, int left, long *first) {
 
 /* ---- the ends of the ranges ---- */
 
-typedef struct at_ends {
-    sizing *s;
-    const fw_study_sample *from;
-    long first;           /* number of the first one */
-    const int (*move)[2]; /* (n) the input, and 1 for the upper end of its range, 0 for the lower */
-} at_ends;
-
-static fw_status fill_end(void *context, long k, fw_study_sample *sample, bool *wanted) {
-    const at_ends *e = context;
-    const fw_study *study = e->s->study;
-    const int moved = e->move[k][0];
-    *wanted = true;
-    sample->i = e->first + k;
-    for (int v = 0; v < study->nvary; v++) {
-        memcpy(sample->text[v], e->from->text[v], FW_STUDY_TEXT);
-        sample->value[v] = e->from->value[v];
-    }
-    return fw_study_input_at(&study->input[moved], e->move[k][1], DIGITS, sample->text[moved],
-                             &sample->value[moved]);
-}
-
-static fw_status take_end(void *context, const fw_study_sample *sample) {
-    const at_ends *e = context;
-    bool wanted;
-    fw_study_sample *to = &e->s->kept[e->s->nkept++];
-    FW_TRY(fw_study_sample_new(e->s->study->arena, e->s->study, to));
-    fw_study_sample_copy(e->s->study, sample, to);
-    return fill_end(context, sample->i - e->first, to, &wanted);
-}
-
 /* The best for an aim with one of its inputs at an end of its range, each in turn; then the best of these, until none is
    better. A search of few devices ends before the end of a range that its goal leads to, and where several do, in no corner.
    *left: devices that there are for it. Test: tests/cli/test_sizing.py, Ends */
@@ -306,8 +330,9 @@ static fw_status try_ends(sizing *s, const aim *a, int *left) {
     int(*move)[2] = fw_arena_alloc(study->arena, 2 * (size_t)study->nvary + 1, sizeof *move);
     FW_NEED(move);
     for (int round = 0, was = FW_NONE; round <= study->nvary; round++) {
-        const int from = best_for(s, a), before = s->nkept;
-        int n = 0;
+        int from, n = 0;
+        FW_TRY(best_whole(s, a, &from));
+        const int before = s->nkept;
         if (from == FW_NONE || from == was) return FW_OK;
         was = from;
         for (int v = 0; v < study->nvary; v++) {
@@ -328,10 +353,11 @@ static fw_status try_ends(sizing *s, const aim *a, int *left) {
 }
 
 /* searches for one aim; all that they judged joins what was judged */
-static fw_status seek(sizing *s, aim *a, int most, long *first) {
+static fw_status seek(sizing *s, const aim *a, int most, long *first) {
     fw_study_search *search = fw_arena_array(s->study->arena, fw_study_search, STARTS);
     int n, left = SEARCHES * most;
     FW_NEED(search);
+    FW_TRY(best_whole(s, a, &n));
     FW_TRY(starts(s, a, 0, NULL, 0, search, &n, most, first));
     if (most < worth_it(s->study)) n = 0;
     FW_TRY(run_all(s, search, n, &left));
@@ -365,7 +391,9 @@ static fw_status front(sizing *s) {
 
 static fw_status finish(sizing *s) {
     fw_study_result *r = s->result;
-    int best = best_of(s, &s->goal[0]);
+    const aim a = {.s = s, .goal = &s->goal[0]};
+    int best;
+    FW_TRY(best_whole(s, &a, &best));
     if (best == FW_NONE) return FW_OK;
     double c = constraint_of(s->study, &s->kept[best]);
     if (!(c <= 0)) return fw_study_keep_found(s->study, &s->kept[best], c, &r->nearest);
@@ -373,18 +401,6 @@ static fw_status finish(sizing *s) {
     FW_NEED(r->found = fw_arena_one(s->study->arena, fw_study_found));
     r->nfound = 1;
     return fw_study_keep_found(s->study, &s->kept[best], c, r->found);
-}
-
-static fw_status tell_what_limits(sizing *s) {
-    fw_study_result *r = s->result;
-    if (r->nearest.text) return fw_study_tell_limits(s->study, &r->nearest);
-    return r->nfound == 1 && s->ngoal == 1 ? fw_study_tell_limits(s->study, r->found) : FW_OK;
-}
-
-/* Devices of each search for a goal alone, where two share the budget: as many as without a budget, up to half of what
-   there is, since a front reaches no farther than its ends. */
-static int for_its_ends(const fw_study *study, long budget, int most) {
-    return (int)fmax(most, fmin(EACH * (study->nvary + 1), (double)(budget / 4) / SEARCHES));
 }
 
 /* devices that are left of the budget, but for those that the ends have at last */
@@ -395,10 +411,8 @@ static int left_of(const sizing *s) {
 /* The ends once more, from all that was judged by now: of a budget that was asked for an eighth is kept for it */
 static fw_status ends_again(sizing *s, long *first) {
     for (int g = 0; g < 2; g++) {
-        aim *a = fw_arena_one(s->study->arena, aim);
-        FW_NEED(a);
-        *a = (aim){.s = s, .goal = &s->goal[g]};
-        FW_TRY(go_on(s, a, left_of(s) / (2 - g), first));
+        const aim a = {.s = s, .goal = &s->goal[g]};
+        FW_TRY(go_on(s, &a, left_of(s) / (2 - g), first));
     }
     return FW_OK;
 }
@@ -407,12 +421,10 @@ static fw_status ends_again(sizing *s, long *first) {
 static fw_status hold(sizing *s, double from, double to, double shift, long *first) {
     for (int k = 1; k <= s->levels; k++) {
         const int most = left_of(s) / ((s->levels - k + 1) * SEARCHES);
-        aim *held = fw_arena_one(s->study->arena, aim);
-        FW_NEED(held);
-        *held = (aim){.s = s, .goal = &s->goal[0], .held = &s->goal[1], .scale = to - from};
-        held->level = from + (to - from) * (k - shift) / (s->levels + 1.0 - 2 * shift);
+        const double share = (k - shift) / (s->levels + 1.0 - 2 * shift), wide = to - from;
+        const aim held = {s, &s->goal[0], &s->goal[1], .level = from + wide * share, .scale = wide};
         if (most > s->held_most) s->held_most = most;
-        FW_TRY(seek(s, held, most, first));
+        FW_TRY(seek(s, &held, most, first));
     }
     return FW_OK;
 }
@@ -423,7 +435,7 @@ static fw_status two_goals(sizing *s, long *first) {
     static const double shift[] = {0, 0.5, 0.25, 0.75, 0.125};
     enum { PASSES = sizeof shift / sizeof *shift };
     const goal *a = &s->goal[0], *b = &s->goal[1];
-    int low = best_of(s, b), high = best_of(s, a);
+    int low = best_for(s, &(aim){.s = s, .goal = b}), high = best_for(s, &(aim){.s = s, .goal = a});
     if (low == FW_NONE || high == FW_NONE) return FW_OK;
     double from = goal_of(&s->kept[low], b), to = goal_of(&s->kept[high], b);
     if (!(to > from)) return FW_OK; /* one device is best for both */
@@ -442,14 +454,27 @@ static fw_status two_goals(sizing *s, long *first) {
 
 /* what a person is told of the searches */
 static const char *said_of(const sizing *s, int single) {
-    const char *few = single < worth_it(s->study) ? " (too few: left out)" : "";
-    if (s->levels == 0) return fw_arena_printf(s->study->arena, "%d devices each%s", single, few);
-    return fw_arena_printf(s->study->arena,
-                           "%d devices each%s for a goal alone and %d%s with the second one held "
-                           "at one of %d levels",
-                           single, few, s->held_most,
-                           s->held_most < worth_it(s->study) ? " (too few: left out)" : "",
-                           s->levels);
+    const int few = worth_it(s->study);
+    const char *held = "",
+               *beside = s->study->asked->yield > 0
+                             ? ", the last ones with the dies that are worst for the best device"
+                         : s->watch.n > 0 ? ", at the corners that governed before, and at all of "
+                                            "them only of what would be the best"
+                                          : "";
+    if (s->levels > 0 &&
+        !(held = fw_arena_printf(
+              s->study->arena,
+              " for a goal alone and %d%s with the second one held at one of %d levels",
+              s->held_most, s->held_most < few ? " (too few: left out)" : "", s->levels)))
+        return NULL;
+    return fw_arena_printf(
+        s->study->arena,
+        "%ld devices over the ranges, then local searches (quadratic models) from the best of "
+        "them, at "
+        "most %d devices each%s%s, the same from further devices over the ranges, the best at ends "
+        "of the "
+        "ranges, and one search from all of them%s; a better one may be where none was tried",
+        s->first_n, single, single < few ? " (too few: left out)" : "", held, beside);
 }
 
 /* combinations of listed values; *at: the input by which they are too many, else FW_NONE */
@@ -508,7 +533,7 @@ static fw_status prepare(sizing *s, int *most) {
     if (s->first_n > budget) s->first_n = budget;
     s->ranged = n > 0;
     *most = n == 0 ? 0 : (int)((budget - s->first_n) / searches);
-    FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, (size_t)budget + 1));
+    FW_NEED(s->kept = fw_arena_array(study->arena, fw_study_sample, (size_t)budget + 2));
     for (long i = 0; i < s->first_n; i++)
         FW_TRY(fw_study_sample_new(study->arena, study, &s->kept[i]));
     return fw_chance_sobol_new(study->arena, (size_t)study->nvary, (uint64_t)study->asked->seed,
@@ -525,10 +550,21 @@ static fw_status at_yield(sizing *s, int most, long *first) {
     for (int i = 0; i < s->nkept; i++)
         judged[i] = &s->kept[i];
     FW_TRY(fw_study_at_yield(s->study, &like, judged, s->nkept, s->result));
-    const int best = best_of(s, &s->goal[0]);
+    const int best = best_for(s, &a);
     if (s->result->nfound > 0 || s->result->nearest.text || best == FW_NONE) return FW_OK;
     const double missed = constraint_of(s->study, &s->kept[best]);
     return fw_study_keep_found(s->study, &s->kept[best], fmax(missed, 1e-6), &s->result->nearest);
+}
+
+/* where corners are watched the first device says which */
+static fw_status first_look(sizing *s) {
+    fw_study_work work = {.n = 1, .fill = fill, .take = take, .context = s};
+    if (s->study->watches) FW_TRY(fw_study_pool_run(s->study, &work));
+    if (s->nkept > 0) fw_study_watch_add(&s->watch, s->kept[0].corner);
+    work.n = s->first_n;
+    FW_TRY(fw_study_pool_run(s->study, &work));
+    fw_study_sort_samples(s->kept, s->nkept); /* they came in any order */
+    return FW_OK;
 }
 
 static fw_status size(fw_study *study, fw_study_result *result) {
@@ -536,33 +572,20 @@ static fw_status size(fw_study *study, fw_study_result *result) {
     int most;
     long first = FW_STUDY_SEARCH_PART;
     FW_TRY(prepare(&s, &most));
-    const fw_study_work work = {.n = s.first_n, .fill = fill, .take = take, .context = &s};
-    FW_TRY(fw_study_pool_run(study, &work));
-    fw_study_sort_samples(s.kept, s.nkept); /* they came in any order */
+    FW_TRY(first_look(&s));
     const long left = fw_study_count_size(study) - s.first_n;
-    const int single = s.ngoal == 2 && s.ranged ? for_its_ends(study, left, most) : most;
+    /* of two goals each alone has as many as without a budget, up to half of it: a front reaches no farther than its ends */
+    const int ends = (int)fmin(EACH * (study->nvary + 1), (double)(left / 4) / SEARCHES),
+              single = s.ngoal == 2 && s.ranged && ends > most ? ends : most;
     for (int g = 0; g < s.ngoal && single > 0; g++) {
-        aim *a = fw_arena_one(study->arena, aim);
-        FW_NEED(a);
-        *a = (aim){.s = &s, .goal = &s.goal[g]};
-        FW_TRY(seek(&s, a, single, &first));
+        const aim a = {.s = &s, .goal = &s.goal[g]};
+        FW_TRY(seek(&s, &a, single, &first));
     }
     if (s.ngoal == 2 && single > 0) FW_TRY(two_goals(&s, &first));
-    const char *searches = said_of(&s, single);
-    FW_NEED(searches);
-    FW_NEED(result->how = fw_arena_printf(
-                study->arena,
-                "%ld devices over the ranges, then local searches (quadratic models) from the best "
-                "of them, at "
-                "most %s, the same from further devices over the ranges, the best at ends of the "
-                "ranges, and one search from all of "
-                "them%s; a better one may be where none was tried",
-                s.first_n, searches,
-                study->asked->yield > 0
-                    ? ", the last ones with the dies that are worst for the best device"
-                    : ""));
+    FW_NEED(result->how = said_of(&s, single));
     FW_TRY(study->asked->yield > 0 ? at_yield(&s, most, &first) : finish(&s));
-    return tell_what_limits(&s);
+    if (result->nearest.text) return fw_study_tell_limits(study, &result->nearest);
+    return result->nfound == 1 && s.ngoal == 1 ? fw_study_tell_limits(study, result->found) : FW_OK;
 }
 
 /* At a wanted yield nobody knows how many dies will be asked for; else no more is judged than the budget */

@@ -242,7 +242,6 @@ static fw_status take_responses(fw_study *study) {
     for (int k = 0; k < asked->nrespond; k++) {
         fw_status one = fw_study_response_parse(study->arena, &asked->respond[k], &study->diags,
                                                 &study->response[k]);
-        if (one != FW_OK) status = one;
         const bool hinges = asked->judge == FW_JUDGE_HINGES || asked->judge == FW_JUDGE_DIE;
         if (one == FW_OK && hinges && !fw_study_response_of_hinges(&study->response[k]))
             status = fw_diag_error(&study->diags, 576, asked->respond[k].place,
@@ -257,6 +256,7 @@ static fw_status take_responses(fw_study *study) {
         if (one != FW_OK) status = one;
         if (one == FW_OK) study->stages |= fw_study_documents[study->response[k].document].stages;
     }
+    study->watches = fw_study_may_watch(study);
     /* a yield and a size ask what check says */
     if (asked->kind == FW_STUDY_IS_yield || asked->kind == FW_STUDY_IS_size || asked->nrespond == 0)
         study->stages |= FW_STUDY_STAGE_JUDGE;
@@ -482,9 +482,9 @@ void fw_study_free(fw_study *study) {
 }
 
 static void count(fw_study_result *result, const fw_study_sample *sample) {
-    result->run += sample->run;
-    result->failed += !sample->run;
-    result->accepted += sample->run && sample->decision == 0;
+    result->run += sample->run, result->failed += !sample->run;
+    result->partly += fw_study_is_partly(sample);
+    result->accepted += sample->run && sample->decision == 0 && !fw_study_is_partly(sample);
     result->rejected += sample->run && sample->decision == 1;
     result->inconclusive += sample->run && sample->decision == 4;
 }

@@ -97,7 +97,21 @@ typedef struct fw_study_sample {
     uint64_t way;                /* fw_study.way; 0: nobody asked, or nothing was judged */
     bool run;                    /* false: `why` says why not */
     char why[FW_STUDY_WHY];
+    /* in: as made it is looked at in these corners alone, and `why` says so where it is accepted (fw_study_partly); NULL: in all */
+    const struct fw_study_watch *watch;
+    char corner
+        [FW_PLAN_CORNER]; /* of a size that watches corners: the one that governs, of a device that was looked at in all */
 } fw_study_sample;
+
+/* Corners that governed devices of a size, the last one first (study_made.c, study_descent.c) */
+enum { FW_STUDY_WATCHED = 2 };
+typedef struct fw_study_watch {
+    char text[FW_STUDY_WATCHED][FW_PLAN_CORNER];
+    int n;
+} fw_study_watch;
+void fw_study_watch_add(fw_study_watch *watch, const char *corner); /* "": nothing is added */
+/* was it accepted at the corners that were watched, and the others were not judged? */
+bool fw_study_is_partly(const fw_study_sample *sample);
 
 typedef struct fw_study_without { /* devices that have no value of a response, by what they are */
     long accepted, rejected, inconclusive, failed, n; /* n: all of them, also those only run */
@@ -146,6 +160,7 @@ typedef struct fw_study {
     unsigned stages; /* FW_STUDY_STAGE_..., what the responses need */
     /* what a verdict says in words and whole numbers, as one number, for samples that say it; NULL: none does */
     uint64_t (*way)(const struct fw_verdict *verdict, int scenes);
+    bool watches; /* fw_study_may_watch */
     bool
         explored; /* of points that somebody looks at: a device that no flow can make says why, too */
     /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
@@ -183,6 +198,11 @@ typedef struct fw_study {
    NULL only when memory is short. */
 fw_status fw_study_open(const fw_study_options *options, fw_study **study);
 void fw_study_free(fw_study *study); /* NULL allowed */
+/* may it judge devices at a few corners, and at all of them only what is better than the best so far? */
+bool fw_study_may_watch(const fw_study *study);
+/* options of a design for a sample of such a study, and what of its corners the sample says */
+void fw_study_look(const fw_study *study, const fw_study_sample *sample, fw_plan_options *options);
+void fw_study_say_corner(const fw_study *study, const fw_plan *plan, fw_study_sample *sample);
 /* runs what is not in the store yet, and computes study->result */
 fw_status fw_study_run(fw_study *study);
 /* devices that it will run, at most */

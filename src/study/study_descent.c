@@ -563,3 +563,17 @@ int fw_study_front_thinned(fw_study_on_front *p, int n, int most) {
     }
     return n;
 }
+
+/* ---- at which corners it is judged (study_made.c) ---- */
+
+void fw_study_watch_add(fw_study_watch *watch, const char *corner) {
+    int at = 0;
+    if (!corner[0]) return;
+    while (at < watch->n && strcmp(watch->text[at], corner) != 0)
+        at++;
+    if (at == watch->n && watch->n < FW_STUDY_WATCHED) watch->n++;
+    if (at == FW_STUDY_WATCHED) at--; /* the one that governed longest ago goes */
+    for (int i = at; i > 0; i--)
+        memcpy(watch->text[i], watch->text[i - 1], FW_PLAN_CORNER);
+    if (corner != watch->text[0]) snprintf(watch->text[0], FW_PLAN_CORNER, "%s", corner);
+}

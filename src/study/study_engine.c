@@ -250,6 +250,7 @@ static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     options->without_masks = die || (options->verdict.bounded && options->verdict.hinges_only &&
                                      study->asked->kind != FW_STUDY_IS_size);
     options->without_changes = asks_for_no_clearance(study);
+    fw_study_look(study, sample, options);
     fw_status status = FW_OK;
     if (e->one_drawing) {
         status = (fw_status)fw_study_stages_run(e->design, study->stages);

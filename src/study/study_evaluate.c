@@ -176,36 +176,35 @@ void fw_study_sort_samples(fw_study_sample *sample, int n) {
     if (n > 1) qsort(sample, (size_t)n, sizeof *sample, by_number);
 }
 
-/* relative to the limit where that is not 0 */
-static double missed(double by, double limit) {
-    return by / (limit != 0 ? fabs(limit) : 1);
+/* ---- corners that a size watches (study_made.c) ---- */
+
+static const char partly[] =
+    "not the best: accepted at the corners that governed before, the others were not judged";
+
+/* of a device that is looked at in few corners clearances are bounded, where no response is about them, and nobody asks for masks */
+void fw_study_look(const fw_study *study, const fw_study_sample *sample, fw_plan_options *options) {
+    const fw_study_watch *watch = sample->watch && sample->watch->n > 0 ? sample->watch : NULL;
+    bool hinges = true;
+    if (!study->watches) return;
+    for (int k = 0; k < study->nresponse; k++)
+        hinges = hinges && fw_study_response_of_hinges(&study->response[k]);
+    options->watched = watch ? watch->text : NULL;
+    options->nwatched = watch ? watch->n : 0;
+    options->verdict.corners = watch ? FW_CORNERS_SUSPECT : FW_CORNERS_AUTO;
+    options->verdict.bounded = watch && hinges;
+    options->without_masks = watch && hinges;
 }
 
-int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double *c) {
-    int n = 0;
-    for (int k = 0; k < study->nresponse; k++) {
-        const fw_study_response *q = &study->response[k];
-        const double value = sample ? sample->response[k] : (double)NAN;
-        if (!isnan(q->min) && c) c[n] = missed(q->min - value, q->min);
-        n += !isnan(q->min);
-        if (!isnan(q->max) && c) c[n] = missed(value - q->max, q->max);
-        n += !isnan(q->max);
-    }
-    return n;
+void fw_study_say_corner(const fw_study *study, const fw_plan *plan, fw_study_sample *sample) {
+    if (!study->watches) return;
+    if (!sample->watch)
+        fw_plan_corner_text(plan, sample->corner);
+    else if (sample->decision == 0)
+        snprintf(sample->why, FW_STUDY_WHY, "%s", partly);
 }
 
-double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
-    double most = -HUGE_VAL;
-    if (!sample->run) return (double)NAN;
-    for (int k = 0; k < study->nresponse; k++) {
-        const fw_study_response *q = &study->response[k];
-        double value = sample->response[k];
-        if (isnan(q->min) && isnan(q->max)) continue;
-        if (isnan(value)) return (double)NAN;
-        if (!isnan(q->min)) most = fmax(most, missed(q->min - value, q->min));
-        if (!isnan(q->max)) most = fmax(most, missed(value - q->max, q->max));
-    }
-    return most;
+bool fw_study_is_partly(const fw_study_sample *sample) {
+    return sample->run && strcmp(sample->why, partly) == 0;
 }
 
 /* ---- one device ---- */
@@ -258,6 +257,7 @@ void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw
     to->i = from->i, to->decision = from->decision, to->run = from->run, to->used = from->used;
     to->used_low = from->used_low, to->used_high = from->used_high, to->way = from->way;
     memcpy(to->why, from->why, FW_STUDY_WHY);
+    memcpy(to->corner, from->corner, FW_PLAN_CORNER);
     memcpy(to->text, from->text, (size_t)study->ninput * sizeof *to->text);
     memcpy(to->value, from->value, (size_t)study->ninput * sizeof *to->value);
     memcpy(to->response, from->response, (size_t)study->nresponse * sizeof *to->response);
@@ -527,7 +527,7 @@ bool fw_study_same_files(const fw_study *study, fw_design *design) {
 }
 
 static void blank(const fw_study *study, fw_study_sample *sample) {
-    sample->run = false, sample->decision = -1, sample->why[0] = '\0';
+    sample->run = false, sample->decision = -1, sample->why[0] = sample->corner[0] = '\0';
     sample->used = sample->used_low = sample->used_high = (double)NAN;
     sample->nlook = 0, sample->way = 0;
     for (int k = 0; k < study->nresponse; k++)
@@ -574,6 +574,7 @@ int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sam
         if (sample->decision >= 0 && study->way)
             sample->way = study->way(&plan->verdict, plan->device->nscene);
         if (sample->decision > 0 && study->explored) say_unmade(plan, sample->why);
+        fw_study_say_corner(study, plan, sample);
     }
     return status;
 }
@@ -586,6 +587,7 @@ fw_status fw_study_evaluate_alone(const fw_study *study, const fw_cancel *cancel
         fw_study_design(study, cancel, (const char(*)[FW_STUDY_TEXT])sample->text, &status);
     FW_NEED(design);
     if (status == FW_STATUS_OK && !fw_study_same_files(study, design)) *changed = true;
+    fw_study_look(study, sample, &fw_plan_design_plan(design)->options);
     if (status == FW_STATUS_OK)
         status = fw_study_answers_take(study, design, sample);
     else

@@ -127,6 +127,40 @@ fw_status fw_study_tell_limits(fw_study *study, fw_study_found *f) {
     return f->decision == FW_ACCEPT ? tell_ranges(study, f) : FW_OK;
 }
 
+/* ---- limits of responses ---- */
+
+/* relative to the limit where that is not 0 */
+static double missed(double by, double limit) {
+    return by / (limit != 0 ? fabs(limit) : 1);
+}
+
+int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double *c) {
+    int n = 0;
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_study_response *q = &study->response[k];
+        const double value = sample ? sample->response[k] : (double)NAN;
+        if (!isnan(q->min) && c) c[n] = missed(q->min - value, q->min);
+        n += !isnan(q->min);
+        if (!isnan(q->max) && c) c[n] = missed(value - q->max, q->max);
+        n += !isnan(q->max);
+    }
+    return n;
+}
+
+double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
+    double most = -HUGE_VAL;
+    if (!sample->run) return (double)NAN;
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_study_response *q = &study->response[k];
+        double value = sample->response[k];
+        if (isnan(q->min) && isnan(q->max)) continue;
+        if (isnan(value)) return (double)NAN;
+        if (!isnan(q->min)) most = fmax(most, missed(q->min - value, q->min));
+        if (!isnan(q->max)) most = fmax(most, missed(value - q->max, q->max));
+    }
+    return most;
+}
+
 /* ---- devices without a value of a response ---- */
 
 enum { FIRST_DIGITS = 13 /* of the settings of the device that is named: it can be asked for */ };

@@ -14,7 +14,6 @@
 /* stages of a design, by what responses ask for */
 enum { FW_STUDY_STAGE_JUDGE = 1, FW_STUDY_STAGE_FABRICATE = 2, FW_STUDY_STAGE_SIMULATE = 4 };
 enum { FW_STUDY_STAGE_STATICS = 8, FW_STUDY_STAGE_MODES = 16, FW_STUDY_STAGE_WORKSPACE = 32 };
-
 /* ---- study_response.c: numbers of documents ---- */
 typedef struct fw_study_document {
     const char *name;
@@ -150,7 +149,6 @@ fw_status fw_study_keep_found(fw_study *study, const fw_study_sample *sample, do
 
 fw_status fw_study_tell_limits(fw_study *study, struct fw_study_found *found); /* study_limits.c */
 /* study_descent.c: what is judged next */
-
 typedef struct fw_study_tried { /* a device that was judged, as a search sees it */
     double *x;                  /* shares of the ranged inputs */
     double f, *c;               /* objective, constraints; NaN: none */
@@ -213,6 +211,8 @@ typedef struct fw_study_search {
     double f, c;           /* c: the largest constraint */
     fw_study_tried *tried; /* (used) in their order */
     int used;
+    fw_study_watch watch; /* at the corners of these, but for what is better than_f, than_c */
+    double than_f, than_c;
     bool keeps_all;       /* in: `all` is wanted */
     fw_study_sample *all; /* (used) */
 } fw_study_search;
@@ -487,7 +487,7 @@ fw_status fw_study_yield_pictures(fw_study_sheet *s);
 fw_status fw_study_html(const fw_study *study, const fw_study_picture *picture, int n,
                         fw_text *out);
 
-/* ---- the kinds ---- */
+/* the kinds */
 #define FW_STUDY(name, word, sentence)                                                             \
     /* what is wrong with it is said before anything is run or written (FW-D490) */                \
     fw_status fw_study_check_##name(fw_study *study);                                              \
@@ -495,7 +495,6 @@ fw_status fw_study_html(const fw_study *study, const fw_study_picture *picture, 
     long fw_study_count_##name(const fw_study *study); /* devices, at most */
 #include "device/studies.def"
 #undef FW_STUDY
-
 /* ---- what the samples of a study say together, by kind ----
    Numbers are in SI; NaN: none. */
 
@@ -577,6 +576,7 @@ typedef struct fw_study_fitted { /* a sweep of which response surfaces told the 
 typedef struct fw_study_result {
     const fw_study_fitted *fitted;                      /* NULL: every device was judged */
     long run, accepted, rejected, inconclusive, failed; /* samples */
+    long partly;                                        /* fw_study_is_partly */
     fw_study_extreme *extreme;                          /* (nresponse) */
     const char *example_why; /* of a sample that could not be run; NULL */
     long example_at;

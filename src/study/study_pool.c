@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Devices in threads. */
+/* Devices in threads, and searches, each of which judges one device after the other. */
 #include "plan/design.h"
 #include "study/study_parts.h"
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 fw_status fw_study_keep(fw_study *study, const fw_study_sample *sample) {
@@ -351,4 +353,238 @@ fw_status fw_study_check_apart(fw_study *study) {
         "a study on each "
         "with a part of the ranges, of which the best is the answer",
         fw_device_study_kind_text(study->asked->kind));
+}
+
+/* ---- local searches (study_descent.c), several at once ----
+   For the least value of an objective where constraints are at most 0. In: shares of the ranges as starts; every candidate
+   is written with few digits, read, drawn and judged as that text says, so that what is found is a design and no rounding
+   of one. The best of all that was tried counts, not the last. Each gives the same whatever runs beside it. Of a size that
+   watches corners (study_made.c) a device is looked at in all of them only where it would be the best. Cost: `most`
+   devices each. */
+
+typedef struct board { /* of all searches of one run */
+    fw_study *study;
+    fw_study_search *search;
+    pthread_mutex_t lock; /* of status and the store */
+    fw_status status;
+} board;
+
+typedef struct one { /* of one search */
+    board *board;
+    fw_study_search *s;
+    fw_study_sample now;
+    fw_study_tried *tried; /* what the search sees of it */
+} one;
+
+static int ranged(const fw_study *study) {
+    int n = 0;
+    for (int k = 0; k < study->nvary; k++)
+        n += study->input[k].ntext == 0;
+    return n;
+}
+
+static fw_status fill(const fw_study *study, const fw_study_search *s, const double *share,
+                      fw_study_sample *sample) {
+    int at = 0;
+    for (int k = 0; k < study->ninput; k++)
+        if (k < study->nvary && study->input[k].ntext == 0)
+            FW_TRY(fw_study_input_at(&study->input[k], share[at++], s->digits, sample->text[k],
+                                     &sample->value[k]));
+        else
+            memcpy(sample->text[k], s->from->text[k], FW_STUDY_TEXT),
+                sample->value[k] = s->from->value[k];
+    return FW_OK;
+}
+
+/* what was judged, as the search sees it */
+static void see(const fw_study_search *s, const fw_study_sample *sample, fw_study_tried *t) {
+    t->f = sample->run ? s->objective(s->context, sample) : (double)NAN;
+    t->untold = true;
+    for (int k = 0; k < s->nconstraint; k++)
+        t->c[k] = (double)NAN;
+    if (!isnan(t->f)) s->constraint(s->context, sample, t->c, &t->untold);
+}
+
+/* would it be the best of those that were looked at in all corners? */
+static bool is_better(const one *o) {
+    const fw_study_search *s = o->s;
+    see(s, &o->now, o->tried);
+    return fw_study_search_better(o->tried->f, fw_study_tried_worst(o->tried, s->nconstraint),
+                                  s->than_f, s->than_c);
+}
+
+/* what a device that was looked at in all corners says of those that come later */
+static void learn(const one *o, double c) {
+    fw_study_search *s = o->s;
+    if (s->watch.n == 0 || fw_study_is_partly(&o->now)) return;
+    fw_study_watch_add(&s->watch, o->now.corner);
+    if (fw_study_search_better(o->tried->f, c, s->than_f, s->than_c))
+        s->than_f = o->tried->f, s->than_c = c;
+}
+
+/* from the store, or run and kept */
+static fw_status evaluate(one *o) {
+    board *b = o->board;
+    bool there = false, changed = false;
+    fw_status status = FW_OK;
+    pthread_mutex_lock(&b->lock);
+    if (b->status != FW_OK) status = b->status;
+    if (status == FW_OK && b->study->store)
+        status = fw_study_store_get(b->study->store, o->now.i, &o->now, &there);
+    if (status == FW_OK && !there && b->study->stored_only)
+        status = fw_diag_error(&b->study->diags, 497, (fw_place){.file = b->study->options.file},
+                               "sample %ld is in none of the shards; run the shard that has it to "
+                               "its end with --resume",
+                               o->now.i);
+    pthread_mutex_unlock(&b->lock);
+    if (status != FW_OK || there) return status;
+    FW_TRY(fw_study_evaluate(b->study, b->study->options.cancel, &o->now, &changed));
+    if (fw_study_is_partly(&o->now) && is_better(o)) {
+        o->now.watch = NULL;
+        FW_TRY(fw_study_evaluate(b->study, b->study->options.cancel, &o->now, &changed));
+    }
+    if (o->s->besides && o->now.run) FW_TRY(o->s->besides(o->s->beside, &o->now));
+    pthread_mutex_lock(&b->lock);
+    status = fw_study_keep(b->study, &o->now);
+    pthread_mutex_unlock(&b->lock);
+    fw_study_tell(b->study);
+    return status;
+}
+
+/* the best is kept */
+static void numbers(one *o) {
+    fw_study_search *s = o->s;
+    const fw_study_tried *t = o->tried;
+    see(s, &o->now, o->tried);
+    const double c = fw_study_tried_worst(t, s->nconstraint);
+    learn(o, c);
+    if (s->keeps_all) fw_study_sample_copy(o->board->study, &o->now, &s->all[s->used - 1]);
+    if (s->used > 1 && !fw_study_search_better(t->f, c, s->f, s->c)) return;
+    s->f = t->f, s->c = c;
+    fw_study_sample_copy(o->board->study, &o->now, &s->best);
+}
+
+static bool judge(void *context, fw_study_tried *t) {
+    one *o = context;
+    board *b = o->board;
+    o->tried = t;
+    o->now.i = o->s->first + o->s->used++;
+    o->now.watch = o->s->watch.n > 0 ? &o->s->watch : NULL;
+    if (b->study->told) atomic_fetch_add(&b->study->told->done, 1);
+    fw_status status = fill(b->study, o->s, t->x, &o->now);
+    if (status == FW_OK) status = evaluate(o);
+    if (status == FW_OK) status = fill(b->study, o->s, t->x, &o->now); /* texts, after the store */
+    if (status != FW_OK) {
+        pthread_mutex_lock(&b->lock);
+        if (b->status == FW_OK) b->status = status;
+        pthread_mutex_unlock(&b->lock);
+        o->now.run = false;
+    }
+    numbers(o);
+    return status == FW_OK;
+}
+
+static fw_status search(board *b, fw_study_search *s, fw_arena *arena) {
+    one o = {.board = b, .s = s};
+    fw_study_descent d = {.n = ranged(b->study),
+                          .m = s->nconstraint,
+                          .most = s->most,
+                          .judge = judge,
+                          .context = &o,
+                          .tried = s->tried};
+    FW_TRY(fw_study_sample_new(arena, b->study, &o.now));
+    s->used = 0;
+    if (d.n == 0) {
+        judge(&o, s->tried);
+        return FW_OK;
+    }
+    if (s->descend) return s->descend(&d, s->start, arena);
+    if (s->known && s->begin != FW_NONE) d.from = &s->known[s->begin];
+    return s->known ? fw_study_descent_models(&d, s->known, s->nknown, arena)
+                    : fw_study_descent_cobyla(&d, s->start, arena);
+}
+
+static fw_status search_one(void *context, long i) {
+    board *b = context;
+    fw_arena *arena = fw_arena_new(0);
+    FW_NEED(arena);
+    fw_status status = search(b, &b->search[i], arena);
+    fw_arena_free(arena);
+    return status == FW_OK ? b->status : status;
+}
+
+fw_status fw_study_search_from(const fw_study *study, const fw_study_sample *from,
+                               fw_study_search *s) {
+    int at = 0;
+    s->from = from;
+    FW_NEED(s->start = fw_arena_array(study->arena, double, (size_t)study->nvary + 1));
+    for (int k = 0; k < study->nvary; k++)
+        if (study->input[k].ntext == 0)
+            s->start[at++] = fw_study_input_share(&study->input[k], from->value[k]);
+    return FW_OK;
+}
+
+static bool same_lists(const fw_study *study, const fw_study_sample *a, const fw_study_sample *b) {
+    for (int k = 0; k < study->nvary; k++)
+        if (study->input[k].ntext > 0 && strcmp(a->text[k], b->text[k]) != 0) return false;
+    return true;
+}
+
+double fw_study_search_apart(const fw_study *study, const fw_study_sample *a,
+                             const fw_study_sample *b) {
+    double most = 0;
+    for (int k = 0; k < study->nvary; k++) {
+        const fw_study_input *in = &study->input[k];
+        if (in->ntext > 0)
+            most = strcmp(a->text[k], b->text[k]) != 0 ? 1 : most;
+        else
+            most = fmax(most, fabs(a->value[k] - b->value[k]) / (in->to - in->from));
+    }
+    return most;
+}
+
+fw_status fw_study_search_knows(const fw_study *study, fw_study_search *s,
+                                const fw_study_sample *sample, int nsample) {
+    fw_study_tried *known;
+    FW_NEED(known = fw_arena_array(study->arena, fw_study_tried, (size_t)nsample + 1));
+    s->known = known, s->begin = FW_NONE;
+    for (int i = 0; i < nsample; i++) {
+        fw_study_search shares;
+        if (!same_lists(study, &sample[i], s->from)) continue;
+        if (&sample[i] == s->from) s->begin = s->nknown;
+        fw_study_tried *t = &known[s->nknown++];
+        FW_NEED(t->c = fw_arena_array(study->arena, double, (size_t)s->nconstraint));
+        FW_TRY(fw_study_search_from(study, &sample[i], &shares));
+        t->x = shares.start;
+        see(s, &sample[i], t);
+    }
+    return FW_OK;
+}
+
+static fw_status room_for_tried(const fw_study *study, fw_study_search *s) {
+    const size_t n = (size_t)ranged(study), most = (size_t)(s->most > 0 ? s->most : 1);
+    double *x = fw_arena_array(study->arena, double, most *n + 1),
+           *c = fw_arena_array(study->arena, double, most *(size_t)s->nconstraint + 1);
+    FW_NEED(x && c ? x : NULL);
+    FW_NEED(s->tried = fw_arena_array(study->arena, fw_study_tried, most));
+    for (size_t i = 0; i < most; i++)
+        s->tried[i].x = x + i * n, s->tried[i].c = c + i * (size_t)s->nconstraint;
+    if (!s->keeps_all) return FW_OK;
+    FW_NEED(s->all = fw_arena_array(study->arena, fw_study_sample, most));
+    for (size_t i = 0; i < most; i++)
+        FW_TRY(fw_study_sample_new(study->arena, study, &s->all[i]));
+    return FW_OK;
+}
+
+fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n) {
+    board b = {.study = study, .search = search};
+    for (int i = 0; i < n; i++) {
+        search[i].f = search[i].c = (double)NAN;
+        FW_TRY(fw_study_sample_new(study->arena, study, &search[i].best));
+        FW_TRY(room_for_tried(study, &search[i]));
+    }
+    pthread_mutex_init(&b.lock, NULL);
+    fw_status status = fw_study_each(study, n, search_one, &b);
+    pthread_mutex_destroy(&b.lock);
+    return status;
 }

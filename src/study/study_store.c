@@ -89,8 +89,14 @@ static int readings(const fw_study *study) {
     return study->asked->kind == FW_STUDY_IS_yield ? 2 : 0;
 }
 
+/* a size that watches corners: which one governs, of devices that were looked at in all */
+static int corners(const fw_study *study) {
+    return study->watches ? 1 : 0;
+}
+
 static void add_columns(fw_text *sql, const fw_study *study, bool types) {
     static const char *const end[] = {"limit_used_low", "limit_used_high"};
+    if (corners(study) > 0) fw_text_printf(sql, ", corner%s", types ? " TEXT" : "");
     for (int k = 0; k < readings(study); k++)
         fw_text_printf(sql, ", %s%s", end[k], types ? " REAL" : "");
     for (int k = 0; k < study->ninput + study->nresponse; k++) {
@@ -200,7 +206,7 @@ static fw_status prepare_all(fw_study_store *store) {
     const fw_study *study = store->study;
     fw_text add = fw_text_new(study->arena), get = fw_text_new(study->arena);
     fw_text_add(&add, "INSERT OR IGNORE INTO sample VALUES (?, ?, ?, ?");
-    for (int k = 0; k < study->ninput + study->nresponse + readings(study); k++)
+    for (int k = 0; k < study->ninput + study->nresponse + readings(study) + corners(study); k++)
         fw_text_add(&add, ", ?");
     fw_text_add(&add, ")");
     FW_TRY(prepare(store, &add, &store->add));
@@ -408,6 +414,8 @@ fw_status fw_study_store_add(fw_study_store *store, const fw_study_sample *sampl
                       SQLITE_STATIC);
     sqlite3_bind_text(s, at++, sample->why[0] ? sample->why : NULL, -1, SQLITE_TRANSIENT);
     bind_number(s, at++, sample->used);
+    if (corners(study) > 0)
+        sqlite3_bind_text(s, at++, sample->corner[0] ? sample->corner : NULL, -1, SQLITE_TRANSIENT);
     if (readings(study) > 0)
         bind_number(s, at++, sample->used_low), bind_number(s, at++, sample->used_high);
     for (int k = 0; k < study->ninput; k++, at++)
@@ -445,6 +453,7 @@ static void take_row(const fw_study *study, sqlite3_stmt *s, fw_study_sample *sa
     fw_study_state_take(text_column(s, 1), sample);
     snprintf(sample->why, FW_STUDY_WHY, "%s", text_column(s, 2));
     sample->used = column(s, 3);
+    if (corners(study) > 0) snprintf(sample->corner, FW_PLAN_CORNER, "%s", text_column(s, at++));
     if (readings(study) > 0)
         sample->used_low = column(s, at++), sample->used_high = column(s, at++);
     for (int k = 0; k < study->ninput; k++, at++) {

@@ -197,9 +197,10 @@ static void settings(fw_text *out, const fw_study *study, char (*text)[FW_STUDY_
 static void say_samples(fw_text *out, const fw_study *study) {
     const fw_study_result *r = study->result;
     fw_text_printf(out, "%ld devices", r->run + r->failed);
-    if (r->accepted + r->rejected + r->inconclusive > 0)
+    if (r->accepted + r->rejected + r->inconclusive + r->partly > 0)
         fw_text_printf(out, ": %ld accepted, %ld rejected, %ld inconclusive", r->accepted,
                        r->rejected, r->inconclusive);
+    if (r->partly > 0) fw_text_printf(out, ", %ld no better than these", r->partly);
     if (r->failed > 0)
         fw_text_printf(out, "; %ld could not be judged (number %ld: %s)", r->failed, r->example_at,
                        r->example_why);

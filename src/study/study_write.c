@@ -420,6 +420,7 @@ fw_status fw_study_json(const fw_study *study, fw_text *out) {
     fw_json_whole(&j, "run", r->run);
     fw_json_whole(&j, "failed", r->failed);
     fw_json_whole(&j, "accepted", r->accepted);
+    fw_json_whole(&j, "accepted_at_some_corners", r->partly);
     fw_json_whole(&j, "rejected", r->rejected);
     fw_json_whole(&j, "inconclusive", r->inconclusive);
     fw_json_text(&j, "example_why", r->example_why);

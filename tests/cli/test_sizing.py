@@ -3,6 +3,7 @@
 """flexwright study, kind size: on 30 problems what is found is within a percent of what trying everything finds, and
 check accepts it as it stands. Everything: grids over all ranges, each finer one around the best devices of the one before.
 Without FW_TEST_ALL=1 a few of them."""
+import contextlib
 import csv
 import itertools
 import json
@@ -11,6 +12,7 @@ import os
 import pathlib
 import re
 import shutil
+import sqlite3
 import subprocess
 import tempfile
 import unittest
@@ -415,6 +417,56 @@ class SeveralMinima(unittest.TestCase):
         x = self.found("200 + 0.5*(" + " + ".join(f"x{i}*x{i}*x{i}*x{i} - 16*x{i}*x{i} + 5*x{i}" for i in range(2)) + ")", 2, -5, 5)
         for value in x:
             self.assertLess(abs(value + 2.9035), 0.06, x)
+
+
+class AsMade(unittest.TestCase):
+    """Most devices that a size tries as made are looked at in the corners that governed before; what is returned was looked at in all."""
+
+    STUDY = """<study xmlns="urn:flexwright:study:1" name="made" kind="KIND" as="made" device="DEVICE">
+  <vary what="flexure[C]/@width" from="7 um" to="13 um"STEPS/>
+  <vary what="flexure[D]/@width" from="7 um" to="13 um"STEPS/>
+  <respond name="used" value="governing.utilisation"GOAL/>
+</study>
+"""
+    DEVICE = ROOT / "docs/gallery/reference-six-bar/device.xml"
+
+    def study(self, kind, *options):
+        file = self.place / f"{kind}.xml"
+        text = self.STUDY.replace("KIND", kind).replace("DEVICE", str(self.DEVICE))
+        steps = f' steps="{7 if ALL else 4}"' if kind == "sweep" else ""
+        file.write_text(text.replace("STEPS", steps).replace("GOAL", ' goal="minimise"' if kind == "size" else ""))
+        done = run("study", file, "-o", self.place / kind, "--no-progress", *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with (self.place / kind / "study.csv").open(newline="") as rows:
+            return done.stdout, json.loads((self.place / kind / "study.json").read_text()), list(csv.DictReader(rows))
+
+    def test_the_best_was_looked_at_in_all_corners(self):
+        self.place = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.place)
+        text, result, rows = self.study("size", "--jobs", "2")
+        samples, found = result["samples"], result["found"][0]
+        some = [row for row in rows if row["why"].startswith("not the best: accepted at the corners")]
+        self.assertGreater(len(some), len(rows) / 2)
+        self.assertEqual(len(some), samples["accepted_at_some_corners"])
+        self.assertEqual(samples["accepted"], sum(row["state"] == "accept" for row in rows) - len(some))
+        self.assertIn(f"{len(some)} no better than these", text)
+        # what is returned is accepted by check, which looks at all corners, and uses as much there
+        sets = [word for s in found["set"] for word in ("--set", f"{s['path']}={s['value']}")]
+        checked = run("check", self.DEVICE, "--json", "--advice", "none", *sets)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        used = json.loads(checked.stdout)["governing"]["utilisation"]
+        self.assertAlmostEqual(found["responses"][0]["value"], used, delta=1e-4)
+        # of a grid, each device of which is looked at in all corners, nothing is better by more than a percent
+        grid = self.study("sweep")[2]
+        least = min(float(row["used"]) for row in grid if row["state"] == "accept")
+        self.assertLess(used, least * (1 + PERCENT))
+        # interrupted, it goes on with what it had learned of corners, and comes to the same
+        whole = (self.place / "size/study.csv").read_bytes()
+        with contextlib.closing(sqlite3.connect(self.place / "size/study.sqlite")) as store:
+            store.execute("DELETE FROM sample WHERE i >= 1000005")
+            store.commit()
+        self.study("size", "--jobs", "1", "--resume")
+        self.assertEqual((self.place / "size/study.csv").read_bytes(), whole)
 
 
 def area(points, corner):
