@@ -497,7 +497,7 @@ static fw_status tally(void *context, const fw_study_sample *sample) {
         FW_NEED(result->example_why = fw_arena_strdup(study->arena, sample->why));
         result->example_at = sample->i;
     }
-    for (int k = 0; k < study->nresponse; k++) {
+    for (int k = 0; k < study->nresponse && !fw_study_is_partly(sample); k++) {
         fw_study_extreme *e = &result->extreme[k];
         double value = sample->response[k];
         if (isnan(value)) {

@@ -203,6 +203,8 @@ bool fw_study_may_watch(const fw_study *study);
 /* options of a design for a sample of such a study, and what of its corners the sample says */
 void fw_study_look(const fw_study *study, const fw_study_sample *sample, fw_plan_options *options);
 void fw_study_say_corner(const fw_study *study, const fw_plan *plan, fw_study_sample *sample);
+/* was such a device of a study that has ended judged at all corners as another sample, and found to be worse? */
+bool fw_study_was_refused(const fw_study *study, const fw_study_sample *sample);
 /* runs what is not in the store yet, and computes study->result */
 fw_status fw_study_run(fw_study *study);
 /* devices that it will run, at most */

@@ -21,6 +21,10 @@ enum {
     BOTTOM = 340
 };
 
+enum {
+    NO_BETTER = 5
+}; /* beside decisions: accepted at the corners that were watched, the others were not judged */
+
 typedef struct points { /* of the samples that are drawn */
     const fw_study *study;
     long every, met; /* which of them; rows so far */
@@ -40,7 +44,8 @@ static int which_listed(const fw_study_input *in, const char *text) {
 static fw_status collect(void *context, const fw_study_sample *s) {
     points *p = context;
     const fw_study *study = p->study;
-    if (p->met++ % p->every != 0 || !s->run || p->n == DRAWN_MOST) return FW_OK;
+    if (p->met++ % p->every != 0 || !s->run || p->n == DRAWN_MOST || fw_study_was_refused(study, s))
+        return FW_OK;
     size_t at = (size_t)p->n++;
     for (int k = 0; k < study->ninput; k++) {
         const fw_study_input *in = &study->input[k];
@@ -52,7 +57,7 @@ static fw_status collect(void *context, const fw_study_sample *s) {
         p->y[at * (size_t)study->nresponse + (size_t)r] =
             fw_study_response_drawn(&study->response[r], s->response[r]);
     p->used[at] = 100 * s->used;
-    p->decision[at] = s->decision;
+    p->decision[at] = fw_study_is_partly(s) ? NO_BETTER : s->decision;
     return FW_OK;
 }
 
@@ -111,13 +116,13 @@ static void limit_line(fw_text *out, const fw_svg_axes *a, double value, const c
                a->right - 4, y - 4, what);
 }
 
-static void legend(fw_text *out) {
+static void legend(fw_text *out, bool watches) {
     static const struct {
         int decision;
         const char *word;
-    } item[] = {{0, "accepted"}, {1, "rejected"}, {4, "inconclusive"}};
-    for (int i = 0; i < 3; i++) {
-        double x = RIGHT - 250.0 + 84 * i;
+    } item[] = {{NO_BETTER, "no better"}, {0, "accepted"}, {1, "rejected"}, {4, "inconclusive"}};
+    for (int i = watches ? 0 : 1; i < 4; i++) {
+        double x = RIGHT - 334.0 + 84 * i;
         dot(out, x, HEIGHT - 14.0, item[i].decision);
         fw_svg_put(out, "text x='{c}' y='{c}' font-size='11' fill='#57606a'>{s}\n", x + 8,
                    HEIGHT - 10.0, item[i].word);
@@ -211,7 +216,7 @@ static fw_status pair(fw_study_sheet *s, const points *p, int r, int k) {
     limit_line(out, &a, bound[0], "at least");
     limit_line(out, &a, bound[1], "at most");
     labels(out, in->what, in->unit_text, q->asked->name, fw_study_response_drawn_in(q));
-    if (judged(p)) legend(out);
+    if (judged(p)) legend(out, study->watches);
     fw_svg_end(out);
     return fw_text_end(out);
 }
@@ -273,7 +278,7 @@ static fw_status map(fw_study_sheet *s, const points *p, int r) {
     fw_svg_put(out, "text x='{c}' y='{c}' font-size='11' fill='#57606a'>{s} to {s} {s}\n",
                LEFT + 174.0, HEIGHT - 11.0, number_of(number[0], q, least),
                number_of(number[1], q, most), fw_study_response_drawn_in(q));
-    if (judged(p)) legend(out);
+    if (judged(p)) legend(out, study->watches);
     fw_svg_end(out);
     return fw_text_end(out);
 }
@@ -495,7 +500,7 @@ static fw_status front(fw_study_sheet *s, const points *p) {
            fw_study_response_drawn_in(&study->response[goal[0]]),
            study->response[goal[1]].asked->name,
            fw_study_response_drawn_in(&study->response[goal[1]]));
-    legend(out);
+    legend(out, study->watches);
     fw_svg_end(out);
     return fw_text_end(out);
 }

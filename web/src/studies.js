@@ -251,7 +251,7 @@ export class Studies {
         const link = (path, words) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), target: "_blank", rel: "noopener" }, icon("open"), words) : null);
         const save = (path, words) => (hasFile(job, path) ? h("a", { class: "button", href: fileOf(job, path), download: `${r.device}-${r.study}-${path}` }, icon("download"), words) : null);
         const n = r.samples;
-        const parts = [`${n.accepted} accepted`, `${n.rejected} rejected`, `${n.inconclusive} inconclusive`, ...(n.failed ? [`${n.failed} could not be judged`] : [])];
+        const parts = [`${n.accepted} accepted`, `${n.rejected} rejected`, `${n.inconclusive} inconclusive`, ...(n.accepted_at_some_corners ? [`${n.accepted_at_some_corners} no better than these`] : []), ...(n.failed ? [`${n.failed} could not be judged`] : [])];
         return [
             h("p", {}, `${n.run + n.failed} devices: ${parts.join(", ")}${n.failed && n.example_why ? ` (number ${n.example_at}: ${n.example_why})` : ""}.`),
             ...(r.yields ?? []).map((y) => h("p", {}, `${y.flow ?? "As drawn"}: ${y.least ? `${percent(y.least.yield)} to ${percent(y.most.yield)}, as is what is only assumed,` : percent(y.yield)} hold every limit (${percent(y.sampling_interval?.[0])} to ${percent(y.sampling_interval?.[1])} by sampling alone; with the model's own band ${percent(y.yield_range?.[0])} to ${percent(y.yield_range?.[1])}).`)),
