@@ -200,6 +200,7 @@ fw_status fw_study_open(const fw_study_options *options, fw_study **study);
 void fw_study_free(fw_study *study); /* NULL allowed */
 /* may it judge devices at a few corners, and at all of them only what is better than the best so far? */
 bool fw_study_may_watch(const fw_study *study);
+bool fw_study_asks_for_no_clearance(const fw_study *study); /* are all responses about hinges? */
 /* options of a design for a sample of such a study, and what of its corners the sample says */
 void fw_study_look(const fw_study *study, const fw_study_sample *sample, fw_plan_options *options);
 void fw_study_say_corner(const fw_study *study, const fw_plan *plan, fw_study_sample *sample);

@@ -575,5 +575,5 @@ void fw_study_watch_add(fw_study_watch *watch, const char *corner) {
     if (at == FW_STUDY_WATCHED) at--; /* the one that governed longest ago goes */
     for (int i = at; i > 0; i--)
         memcpy(watch->text[i], watch->text[i - 1], FW_PLAN_CORNER);
-    if (corner != watch->text[0]) snprintf(watch->text[0], FW_PLAN_CORNER, "%s", corner);
+    snprintf(watch->text[0], FW_PLAN_CORNER, "%s", corner);
 }

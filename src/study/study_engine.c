@@ -81,16 +81,11 @@ void fw_study_engines_close(fw_study *study) {
 
 /* ---- one design after the other ---- */
 
-static bool asks_for_no_clearance(const fw_study *study) {
-    for (int k = 0; k < study->nresponse; k++)
-        if (!fw_study_response_of_hinges(&study->response[k])) return false;
-    return true;
-}
-
 /* clearances of devices that are made decide which of them are run */
 static bool may_be_bounded(const engine *e) {
     const fw_plan *plan = fw_plan_design_plan(e->design);
-    return plan->options.verdict.corners == FW_CORNERS_NONE && asks_for_no_clearance(e->study);
+    return plan->options.verdict.corners == FW_CORNERS_NONE &&
+           fw_study_asks_for_no_clearance(e->study);
 }
 
 /* could a response be a bound of an effect? They stand in the verdict's JSON and in those of motions and equilibria */
@@ -249,7 +244,7 @@ static fw_status again(engine *e, fw_study_sample *sample, bool *done) {
     /* a decision is that of check, which draws the masks: only who asks for hinges alone does without */
     options->without_masks = die || (options->verdict.bounded && options->verdict.hinges_only &&
                                      study->asked->kind != FW_STUDY_IS_size);
-    options->without_changes = asks_for_no_clearance(study);
+    options->without_changes = fw_study_asks_for_no_clearance(study);
     fw_study_look(study, sample, options);
     fw_status status = FW_OK;
     if (e->one_drawing) {

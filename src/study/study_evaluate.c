@@ -181,18 +181,20 @@ void fw_study_sort_samples(fw_study_sample *sample, int n) {
 static const char partly[] =
     "not the best: accepted at the corners that governed before, the others were not judged";
 
+bool fw_study_asks_for_no_clearance(const fw_study *study) {
+    for (int k = 0; k < study->nresponse; k++)
+        if (!fw_study_response_of_hinges(&study->response[k])) return false;
+    return true;
+}
+
 /* of a device that is looked at in few corners clearances are bounded, where no response is about them, and nobody asks for masks */
 void fw_study_look(const fw_study *study, const fw_study_sample *sample, fw_plan_options *options) {
     const fw_study_watch *watch = sample->watch && sample->watch->n > 0 ? sample->watch : NULL;
-    bool hinges = true;
     if (!study->watches) return;
-    for (int k = 0; k < study->nresponse; k++)
-        hinges = hinges && fw_study_response_of_hinges(&study->response[k]);
-    options->watched = watch ? watch->text : NULL;
-    options->nwatched = watch ? watch->n : 0;
+    options->watched = watch ? watch->text : NULL, options->nwatched = watch ? watch->n : 0;
     options->verdict.corners = watch ? FW_CORNERS_SUSPECT : FW_CORNERS_AUTO;
-    options->verdict.bounded = watch && hinges;
-    options->without_masks = watch && hinges;
+    options->verdict.bounded = options->without_masks =
+        watch && fw_study_asks_for_no_clearance(study);
 }
 
 void fw_study_say_corner(const fw_study *study, const fw_plan *plan, fw_study_sample *sample) {

@@ -161,10 +161,12 @@ double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
     return most;
 }
 
-/* looked at in a few corners it would be better than what was found: it was judged in all of them as another sample */
+/* looked at in a few corners it holds every limit and would be better than what was found: it was judged in all of them as
+   another sample */
 bool fw_study_was_refused(const fw_study *study, const fw_study_sample *s) {
     const fw_study_result *r = study->result;
-    for (int k = 0; fw_study_is_partly(s) && r->nfound == 1 && k < study->nresponse; k++) {
+    if (!fw_study_is_partly(s) || r->nfound != 1 || !(fw_study_excess(study, s) <= 0)) return false;
+    for (int k = 0; k < study->nresponse; k++) {
         const fw_device_respond_goal way = study->response[k].asked->goal;
         const double gains = s->response[k] - r->found[0].response[k];
         if ((way == FW_GOAL_MINIMISE && gains < 0) || (way == FW_GOAL_MAXIMISE && gains > 0))

@@ -487,7 +487,7 @@ fw_status fw_study_yield_pictures(fw_study_sheet *s);
 fw_status fw_study_html(const fw_study *study, const fw_study_picture *picture, int n,
                         fw_text *out);
 
-/* the kinds */
+/* ---- the kinds ---- */
 #define FW_STUDY(name, word, sentence)                                                             \
     /* what is wrong with it is said before anything is run or written (FW-D490) */                \
     fw_status fw_study_check_##name(fw_study *study);                                              \
@@ -574,11 +574,11 @@ typedef struct fw_study_fitted { /* a sweep of which response surfaces told the 
 } fw_study_fitted;
 
 typedef struct fw_study_result {
-    const fw_study_fitted *fitted;                      /* NULL: every device was judged */
-    long run, accepted, rejected, inconclusive, failed; /* samples */
-    long partly;                                        /* fw_study_is_partly */
-    fw_study_extreme *extreme;                          /* (nresponse) */
-    const char *example_why; /* of a sample that could not be run; NULL */
+    const fw_study_fitted *fitted; /* NULL: every device was judged */
+    /* samples; partly: fw_study_is_partly */
+    long run, accepted, rejected, inconclusive, failed, partly;
+    fw_study_extreme *extreme; /* (nresponse) */
+    const char *example_why;   /* of a sample that could not be run; NULL */
     long example_at;
     fw_study_derivative *derivative; /* (nresponse x ninput) sensitivity */
     fw_study_index *index;           /* (nresponse x ninput) sensitivity; NULL: not asked for */
