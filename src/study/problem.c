@@ -4,7 +4,7 @@
 
    The model of costs depends on counts alone, so that the same settings are run on every
    machine: how large a part of the budget something takes, where nothing counts instructions. */
-#include "study/tradeoff_parts.h"
+#include "study/tradeoff.h"
 #include "maths/ode.h"
 #include "multibody/system.h"
 #include "plan/stages.h"

@@ -3,7 +3,7 @@
    program's own method, all methods with its own integrator, then the rest, cheapest method first.
    What would go over its share of the budget is left out and says so. */
 #include "maths/ode.h"
-#include "study/tradeoff_parts.h"
+#include "study/tradeoff.h"
 #include <math.h>
 #include <string.h>
 

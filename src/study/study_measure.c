@@ -6,7 +6,7 @@
 #include "base/sort.h"
 #include "continuum/continuum.h"
 #include "continuum/solver.h"
-#include "study/tradeoff_parts.h"
+#include "study/tradeoff.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,6 @@
 #include "plan/design.h"
 #include "plan/stages.h"
 #include "process/process.h"
-#include "study/tradeoff_parts.h"
 #include "study/tradeoff.h"
 #include <math.h>
 #include <string.h>

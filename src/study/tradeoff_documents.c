@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The documents of the comparison: what a person reads, and the same numbers as JSON and CSV. */
 #include "base/json.h"
-#include "study/tradeoff_parts.h"
+#include "study/tradeoff.h"
 #include <math.h>
 #include <string.h>
 

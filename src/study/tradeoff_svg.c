@@ -2,7 +2,7 @@
 /* The picture: work-precision of integrators and of methods, what the model is off by on the same axis of error,
    and the masks. Errors get smaller to the right: a step to the right is a digit. */
 #include "report/report_page.h"
-#include "study/tradeoff_parts.h"
+#include "study/tradeoff.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -321,6 +321,29 @@ fw_status fw_verdict_damped_again(fw_arena *arena, int scene, bool shaken,
                                   const struct fw_verdict_required *required,
                                   struct fw_verdict_variant_verdict *v);
 
+/* ---- beside_resonance.c: stiffnesses that are off, where modes leave a hinge open ---- */
+
+/* the same device with flexures' stiffnesses more by off (nhinge): of rotation, and against forces along the axis and across it */
+fw_status fw_verdict_with_stiffness(fw_arena *arena, const fw_mechanism *mechanism,
+                                    double (*off)[3], fw_mechanism *to);
+/* may a scene that is moved with other stiffnesses decide what factors (2 x nhinge) of modes leave open? */
+bool fw_verdict_stiffness_decides(const struct fw_verdict_variant_verdict *v, int scene,
+                                  const double *factor);
+/* It is moved, where it still may with what stays of these factors: factors of hinges that are then known better. common: what
+   the next model of hinges may change of all stiffnesses */
+fw_status fw_verdict_stiffness_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,
+                                     const fw_dynamics_motion_options *options, double common,
+                                     const double *stays,
+                                     const struct fw_verdict_variant_verdict *v, double *factor);
+/* where modes that lie elsewhere move everything between `less` and `by` times as far: what meets, or may; what rings and is not known;
+   electrodes, ways: without the motion of a softer device (near_a_fold.c) */
+fw_status fw_verdict_modes_may_meet(fw_arena *arena, int scene, double less, double by,
+                                    struct fw_verdict_variant_verdict *v);
+fw_status fw_verdict_modes_may_ring(fw_arena *arena, int scene,
+                                    struct fw_verdict_variant_verdict *v);
+void fw_verdict_modes_come_near(int scene, double by, double ways,
+                                struct fw_verdict_variant_verdict *v);
+
 /* ---- flexure_swing.c: what flexures weigh ---- */
 
 /* 1/omega^2 (count) at most of the modes across the plane, or in it, with the mass of flexures, the slowest first; 0: it is not

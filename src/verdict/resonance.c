@@ -17,7 +17,7 @@
    down likewise with the least A; of what bodies move by the same with how far they go, the worst body counts.
    Inputs: the motion, and modes about the equilibrium of what does not go to and fro, voltages that do by their root mean
    square. Where that may be reached from rest within the scene frequencies in between belong to the range. Outputs: factors on what moves, up >= 1 >= down. Error: small motions, as modes are; a mode's shape stays.
-   Cost: modes, 24 steps a period for each frequency. Test: test_effects.py Resonance. What comes again: ringing.c. Loads that
+   Cost: modes, 24 steps a period for each frequency. Test: test_effects.py Resonance. What comes again: ringing.c; hinges that this leaves open: beside_resonance.c. Loads that
    make a mode stiffer and softer pump it (FW-D650): modes about the equilibria of their largest values. */
 #include "base/constants.h"
 #include "geometry/segment.h"
@@ -167,8 +167,8 @@ static double slower_by(const shaking *by, const fw_verdict_shaken_mode *mode) {
 
 /* of what comes again, and of each law that goes to and fro; to: rows, of every hinge and body */
 static fw_status answers_of(fw_arena *arena, const shakings *by, const fw_verdict_shaken *shaken,
-                            int k, fw_verdict_softness softer, int rows, answer *to) {
-    const fw_verdict_shaken_mode *mode = &shaken->mode[k];
+                            int k, const fw_verdict_shaken_mode *mode, fw_verdict_softness softer,
+                            int rows, answer *to) {
     FW_TRY(fw_verdict_rings_again(arena, &by->pieces, by->end_s, shaken, k, rows, softer, to));
     for (int j = 0; j < by->n; j++) {
         const answer now = answers_to(&by->item[j], by->end_s, mode, softer);
@@ -193,17 +193,20 @@ static double late_of(const fw_verdict_shaken_mode *mode, const answer *r, doubl
     return mode->late * most;
 }
 
-/* All modes that lie elsewhere one by one, and where one share moves them all; of what moves the worst body counts */
+/* All modes that lie elsewhere one by one, and where one share moves them all; of what moves the worst body counts. under (n):
+   where a mode may lie under laws that go to and fro, or NULL: there as well */
 static fw_status add_answers(fw_arena *arena, const fw_mechanism *m, const shakings *by,
                              const fw_verdict_shaken *shaken, fw_verdict_softness softer,
-                             double *factor, double *each, double *late) {
+                             const fw_verdict_shaken_mode *under, double *factor, double *each,
+                             double *late) {
     const int nh = m->nhinge, bodies = nh + m->nbody, rows = bodies + shaken->nreach;
     answer *sum = fw_arena_array(arena, answer, 2 * (size_t)rows), *now = sum + rows;
     FW_NEED(sum);
     for (int i = 0; i < rows; i++)
         sum[i] = (answer){1, 1, 1};
     for (int k = 0; k < shaken->n; k++) {
-        FW_TRY(answers_of(arena, by, shaken, k, softer, rows, now));
+        FW_TRY(answers_of(arena, by, shaken, k, under ? &under[k] : &shaken->mode[k], softer, rows,
+                          now));
         for (int i = 0; i < rows; i++) {
             sum[i].up += now[i].up - 1, sum[i].strained += now[i].strained - 1;
             sum[i].down = fmax(0, sum[i].down - (1 - now[i].down));
@@ -276,7 +279,7 @@ static fw_status damped_within(fw_arena *arena, const fw_mechanism *m, const fw_
 /* modes of the scene with how far they swing in it; none: nothing goes to and fro, or nothing swings */
 static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                              const fw_dynamics_motion *motion, double bodies, bool own,
-                             shakings *by, fw_verdict_shaken *to) {
+                             shakings *by, double *model, fw_verdict_shaken *to) {
     const fw_statics_modes *modes = NULL, *rest = NULL;
     fw_device_scene steady, still = {.name = "(none)",
                                      .duration_s = 1,
@@ -297,13 +300,13 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
     FW_TRY(fw_verdict_swings(arena, m, s, by->again, modes, motion, MODES_SHAKEN, to));
     FW_TRY(damped_within(arena, m, reached ? &steady : &still, reached && moves, to));
     for (int k = 0; k < to->n; k++) {
-        const double off = fmin(fw_statics_mode_error(&modes->mode[to->mode[k].number]), 0.5);
+        const fw_statics_mode *is = &modes->mode[to->mode[k].number];
+        const double error = fw_statics_mode_error(is), off = fmin(error, 0.5);
+        model[k] = isnan(error) ? error : is->model_error;
         to->mode[k].low = to->mode[k].soft = to->mode[k].omega * lowest(off, bodies);
         to->mode[k].high = to->mode[k].stiff = to->mode[k].omega * (1 + off);
         /* of pins on an axis that nobody knows no stiffness is known to be off by that much */
-        to->mode[k].held = isnan(fw_statics_mode_error(&modes->mode[to->mode[k].number]))
-                               ? HUGE_VAL
-                               : 1 + fw_verdict_motion_lasting_error(m);
+        to->mode[k].held = isnan(error) ? HUGE_VAL : 1 + fw_verdict_motion_lasting_error(m);
         to->mode[k].least = to->mode[k].omega * (1 - off);
     }
     for (int c = 0; c < to->nreach; c++)
@@ -428,12 +431,66 @@ static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, con
     return FW_OK;
 }
 
+/* What is left of modes where the scene is moved with other stiffnesses: of what rings what bodies give and what damps (own);
+   of what laws that go to and fro do to modes (under) likewise where the error of a frequency hardly turns its phase while it
+   swings, since of others no motion but that at resonance tells how high that is. common: what the next model of hinges
+   may change of all stiffnesses; false: that is not known */
+static bool leave_modes(const fw_verdict_shaken *of, double end_s, double bodies,
+                        const double *model, fw_verdict_shaken_mode *own,
+                        fw_verdict_shaken_mode *under, double *common) {
+    const double turned = 2, dies = 3, most = 0.03;
+    *common = 0;
+    for (int k = 0; k < of->n; k++) {
+        const fw_verdict_shaken_mode *is = &of->mode[k];
+        const double off = 1 - is->least / is->omega,
+                     swings = fmin(is->omega * end_s, dies / fmax(is->damping[0], 1e-9)),
+                     gives = lowest(0, bodies) / lowest(off, bodies);
+        own[k] = *is;
+        own[k].low = own[k].soft = fmin(is->soft * gives, is->omega);
+        own[k].high = own[k].stiff = own[k].least = is->omega;
+        under[k] = off * swings < turned ? own[k] : *is;
+        under[k].held = HUGE_VAL; /* how far loads hold what is softer is in these motions */
+        if (!isfinite(model[k])) return false; /* nor is its frequency */
+        *common = fmax(*common, 2 * model[k]);
+    }
+    return *common < most;
+}
+
+/* less (2 nhinge): what factors of hinges are to be multiplied by */
+static fw_status moved_again(fw_arena *arena, const fw_mechanism *m, int scene, double bodies,
+                             const shakings *by, const double *model,
+                             const fw_dynamics_motion_options *options, double *less,
+                             const fw_verdict_variant_verdict *v) {
+    const size_t nh = (size_t)m->nhinge, n = 2 * nh + 2;
+    fw_verdict_shaken own = v->shaken[scene];
+    fw_verdict_shaken_mode *under;
+    const double *of = own.factor;
+    double common, late = 0, *each, *factor = fw_arena_array(arena, double, 2 * n),
+                   *now = factor + n;
+    FW_NEED(factor);
+    if (!fw_verdict_stiffness_decides(v, scene, of)) return FW_OK;
+    FW_NEED(own.mode = fw_arena_array(arena, fw_verdict_shaken_mode, 2 * (size_t)own.n));
+    under = own.mode + own.n;
+    if (!leave_modes(&v->shaken[scene], by->end_s, bodies, model, own.mode, under, &common))
+        return FW_OK;
+    for (size_t i = 0; i < n; i++)
+        factor[i] = 1, now[i] = of[i];
+    FW_NEED(each = fw_arena_array(arena, double, nh + (size_t)m->nbody + (size_t)own.nreach));
+    FW_TRY(add_answers(arena, m, by, &own, FW_VERDICT_AS_STIFF, under, factor, each, &late));
+    FW_TRY(fw_verdict_stiffness_again(arena, m, scene, options, common, factor, v, now));
+    for (size_t i = 0; i < 2 * nh; i++)
+        less[i] = of[i] > 0 ? now[i] / of[i] : 1;
+    return FW_OK;
+}
+
 static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, double bodies, bool may,
+                         const fw_dynamics_motion_options *options, bool brief, double *less,
                          fw_verdict_variant_verdict *v) {
     const fw_device_scene *s = &m->device->scene[scene];
     fw_verdict_shaken *to = &v->shaken[scene];
     shakings by;
-    FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, may, &by, to));
+    double model[MODES_SHAKEN];
+    FW_TRY(find_shaken(arena, m, s, v->motion[scene], bodies, may, &by, model, to));
     double hangs_s2 = 0; /* 1/omega^2 of rigid bodies and of what hangs over add up (Weyl) */
     for (int i = 0; v->out_of_plane && v->out_of_plane->hung && i < m->nbody; i++)
         hangs_s2 = fmax(hangs_s2, v->out_of_plane->hung[i].in_plane_mode_s2);
@@ -443,7 +500,10 @@ static fw_status detuned(fw_arena *arena, const fw_mechanism *m, int scene, doub
     }
     FW_NEED(to->each = fw_arena_array(arena, double,
                                       (size_t)m->nhinge + (size_t)m->nbody + (size_t)to->nreach));
-    FW_TRY(add_answers(arena, m, &by, to, FW_VERDICT_AS_STIFF, to->factor, to->each, &to->late));
+    FW_TRY(
+        add_answers(arena, m, &by, to, FW_VERDICT_AS_STIFF, NULL, to->factor, to->each, &to->late));
+    if (to->n > 0 && !v->corner && !brief)
+        FW_TRY(moved_again(arena, m, scene, bodies, &by, model, options, less, v));
     return v->corner ? FW_OK : may_pump(arena, m, scene, &by, bodies, v);
 }
 
@@ -455,7 +515,7 @@ fw_status fw_verdict_shaken_within(fw_arena *arena, const fw_mechanism *m, int s
     for (int h = 0; h <= m->nhinge; h++)
         factor[2 * h] = factor[2 * h + 1] = 1;
     *late = 0;
-    return add_answers(arena, m, &by, shaken, softer, factor, each, late);
+    return add_answers(arena, m, &by, shaken, softer, NULL, factor, each, late);
 }
 
 fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *m, int scene, bool *shaken) {
@@ -465,67 +525,11 @@ fw_status fw_verdict_is_shaken(fw_arena *arena, const fw_mechanism *m, int scene
     return FW_OK;
 }
 
-/* what meets may not, where a mode that lies elsewhere moves less */
-static void may_not_meet(fw_verdict_variant_verdict *v, int scene, double less) {
-    for (int k = 0; k < v->nreason; k++) {
-        fw_verdict_reason *r = &v->reason[k];
-        if (r->number == 294 && r->decision == FW_REJECT && r->scene && r->keep > less &&
-            strcmp(r->scene, v->mechanism->device->scene[scene].name) == 0)
-            r->decision = FW_INCONCLUSIVE;
-    }
-    for (int k = 0; k < v->nclearance; k++) {
-        fw_verdict_clearance *c = &v->clearance[k];
-        if (c->scene_index == scene && c->decision == FW_REJECT && c->keep > less)
-            c->decision = FW_INCONCLUSIVE;
-    }
-}
-
-static fw_status may_meet(fw_arena *arena, int scene, double by, fw_verdict_variant_verdict *v) {
-    char share[32], up[32];
-    const fw_device_scene *s = &v->mechanism->device->scene[scene];
-    for (int k = 0; k < v->nclearance; k++) {
-        const fw_verdict_clearance *c = &v->clearance[k];
-        if (c->scene_index != scene || c->decision != FW_ACCEPT || !fw_verdict_may_come(c, by))
-            continue;
-        const char *text = fw_arena_printf(
-            arena,
-            "%s and %s may meet in %s%s: they come %s of the way as computed, and a mode that "
-            "lies within its error may move %s times as far",
-            c->way.a ? c->way.a : "parts", c->way.b ? c->way.b : "others",
-            FW_NAMED("scene", s->name), fw_number_text(share, sizeof share, c->way.share, 2),
-            fw_number_text(up, sizeof up, by, 2));
-        return fw_verdict_scene_reason(v, s, 642, FW_INCONCLUSIVE, 0.95 / (c->way.share * by),
-                                       text);
-    }
-    return FW_OK;
-}
-
-/* what rings besides is not known where nobody knows what of it is in which mode */
-static fw_status may_ring(fw_arena *arena, int scene, fw_verdict_variant_verdict *v) {
-    const fw_device_scene *s = &v->mechanism->device->scene[scene];
-    const char *what = v->shaken[scene].unknown;
-    if (!what) return FW_OK;
-    return fw_verdict_scene_reason(
-        v, s, 642, FW_INCONCLUSIVE, FW_VERDICT_KEEP_HALF,
-        fw_arena_printf(arena,
-                        "in %s%s something comes while modes still ring by what came before, and "
-                        "how they ring is not known, since no equilibrium was found at which %s "
-                        "holds the device: let it go less far, or all come at once",
-                        FW_NAMED("scene", s->name), what));
-}
-
-/* and electrodes come nearer to each other: by what moves them farther, but where their own gap is what is nearest by what it
-   loses in the motion of the softer device; ways: without that motion */
-static void may_come_near(int scene, double by, double ways, fw_verdict_variant_verdict *v) {
-    const double quarter = 1.25, gap = 0.9;
-    const fw_verdict_shaken *s = &v->shaken[scene];
-    for (int k = 0; k < v->nstator; k++) {
-        fw_wiring_moved *to = &v->stator[k];
-        const bool own = s->kept > 0 && to->m > gap * s->kept * to->start_m;
-        if (to->index == scene)
-            to->low_m -=
-                own ? (ways - 1) * to->moved_m + quarter * s->nearer_m : (by - 1) * to->moved_m;
-    }
+/* a hinge of whose flexure nobody says where it points; NULL: there is none */
+static const char *without_axis(const fw_mechanism *m) {
+    for (int k = 0; k < m->nhinge; k++)
+        if (!isfinite(m->hinge[k].axis_rad)) return fw_text_name(m->pin[m->hinge[k].pin].id);
+    return NULL;
 }
 
 /* v->shaken; warnings, and a reason where what does not meet may then meet */
@@ -539,19 +543,25 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
     fw_verdict_own own = {0};
     FW_NEED(v->shaken = fw_arena_array(arena, fw_verdict_shaken, (size_t)d->nscene));
     for (int i = 0; i < d->nscene; i++) {
-        double *f, most, least = 1;
+        double *f, *less_open, most, least = 1;
         char up[32], down[32];
         bool may, shaken;
+        FW_NEED(less_open = fw_arena_array(arena, double, 2 * (size_t)nh));
         FW_NEED(f = v->shaken[i].factor = fw_arena_array(arena, double, 2 * (size_t)nh + 2));
         for (int h = 0; h < 2 * nh + 2; h++)
             f[h] = 1;
+        for (int h = 0; h < 2 * nh; h++)
+            less_open[h] = 1;
         FW_TRY(fw_verdict_is_shaken(arena, m, i, &shaken));
         FW_TRY(fw_verdict_may_swing(arena, v, i, shaken, bodies[i], &own, &may));
-        if (v->motion[i]) FW_TRY(detuned(arena, m, i, bodies[i], may, v));
+        if (v->motion[i])
+            FW_TRY(detuned(arena, m, i, bodies[i], may, options, brief, less_open, v));
         const double shakes = fw_verdict_most_of(f, 2 * nh + 2);
         FW_TRY(fw_verdict_thrown_again(arena, m, i, options, brief, diags, v));
         fw_verdict_requirement_factor(f, nh, v->shaken[i].required);
         v->shaken[i].required_late = v->shaken[i].late;
+        for (int h = 0; h < 2 * nh; h++) /* of hinges alone, whose strains were looked at */
+            f[h] *= less_open[h];
         if (may) FW_TRY(fw_verdict_bodies_swing(arena, i, shaken, &own, v));
         const double ways = f[2 * nh];
         if (v->motion[i] && !fw_verdict_stands_still(v, i)) { /* ways of round-off have no ratio */
@@ -563,24 +573,27 @@ fw_status fw_verdict_detune(fw_arena *arena, const fw_mechanism *m, const double
         FW_TRY(fw_verdict_grown_again(arena, m, i, options, required, v));
         const double *g = v->shaken[i].grown, far = f[2 * nh] * (g ? g[2 * nh] : 1),
                      near = f[2 * nh + 1] * (g ? g[2 * nh + 1] : 1);
-        if (near < 1) may_not_meet(v, i, near);
-        FW_TRY(may_meet(arena, i, far, v));
+        FW_TRY(fw_verdict_modes_may_meet(arena, i, near, far, v));
         if (v->motion[i]) FW_TRY(fw_verdict_may_touch(arena, i, v));
         FW_TRY(fw_verdict_swings_tell(arena, i, brief, diags, v));
-        FW_TRY(may_ring(arena, i, v));
-        may_come_near(i, far, ways * (g ? g[2 * nh] : 1), v);
+        FW_TRY(fw_verdict_modes_may_ring(arena, i, v));
+        fw_verdict_modes_come_near(i, far, ways * (g ? g[2 * nh] : 1), v);
         most = fw_verdict_most_of(f, 2 * nh + 2);
         if (!(shakes > told) || brief) continue;
         for (int h = 0; h <= nh; h++)
             least = fmin(least, f[2 * h + 1]);
-        fw_diag_warning(diags, 642, d->scene[i].place,
-                        "%s%s %s a mode whose frequency is known to some per cent: "
-                        "within them it moves %s to %s times as far, which the bands hold; "
-                        "keep the frequencies apart, or say by <material-damping> what damps",
-                        FW_NAMED("scene", d->scene[i].name),
-                        shaken ? "shakes near" : "comes again while it still rings by",
-                        fw_number_text(down, sizeof down, least, 2),
-                        fw_number_text(up, sizeof up, most, 2));
+        const char *axis = without_axis(m);
+        fw_diag_warning(
+            diags, 642, d->scene[i].place,
+            "%s%s %s a mode whose frequency is %s%s%s: within %s it moves %s to %s times as far, "
+            "which the bands hold; %skeep the frequencies apart, or say by <material-damping> what "
+            "damps",
+            FW_NAMED("scene", d->scene[i].name),
+            shaken ? "shakes near" : "comes again while it still rings by",
+            axis ? "not known, since nothing says the axis of hinge " : "known to some per cent",
+            axis ? axis : "", axis ? ", and may be half as large, or half larger" : "",
+            axis ? "that" : "them", fw_number_text(down, sizeof down, least, 2),
+            fw_number_text(up, sizeof up, most, 2), axis ? "state its axis, " : "");
     }
     return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -556,7 +556,7 @@ void fw_verdict_requirement_shaken(const double factor[2], double late, fw_devic
     if (!(fmax(more, less) > 0) || (measure == FW_MEASURE_SETTLING && factor[0] < 1.02)) return;
     if (measure == FW_MEASURE_SETTLING) {
         r->low = 0, r->high = HUGE_VAL;
-        r->open = "it is shaken near a mode whose frequency is known to some per cent";
+        r->open = "it is shaken near a mode whose frequency is not known well enough";
     } else if (measure == FW_MEASURE_PEAK || measure == FW_MEASURE_PEAK_TO_PEAK ||
                measure == FW_MEASURE_PARASITIC)
         r->high += more, r->low = fmax(0, r->low - less);

@@ -1120,6 +1120,21 @@ class Resonance(unittest.TestCase):
             done = run("check", device, "--corners", "none", "--advice", "none", "--json")
         return json.loads(done.stdout), done.stderr
 
+    def test_a_frequency_that_nobody_knows(self):
+        """a hinge of which nothing is drawn or stated points anywhere, and what gives against forces is not known: "known to some per cent" was said of half and
+        half more. With its axis the frequency is known, and nothing is near it"""
+        text = ('<device xmlns="urn:flexwright:device:1" name="arm"><material ref="silicon-100" thickness="50 um"/><limits safety-factor="1.5"/>'
+                '<flexure id="leaf" kind="leaf" width="8 um" length="300 um" fillet="6 um"/><mechanism>'
+                '<body id="a" mass="0.02 mg" inertia="0.002 mg mm^2" x="0.5 mm" y="0 mm"/><body id="b" mass="0.01 mg" inertia="0.001 mg mm^2" x="1.5 mm" y="0 mm"/>'
+                '<revolute id="A" a="ground" a-x="0 mm" a-y="0 mm" b="a" b-x="-0.5 mm" b-y="0 mm" hinge="leaf"{axis}/>'
+                '<revolute id="B" a="a" a-x="0.5 mm" a-y="0 mm" b="b" b-x="-0.5 mm" b-y="0 mm" hinge="leaf"{axis}/></mechanism>'
+                '<scene name="s" duration="6 ms"><torque on="b" value="0.01 uN m" law="sine" frequency="700 Hz"/></scene></device>')
+        said = run("check", "-", "--advice", "none", input=text.replace("{axis}", "")).stderr
+        self.assertIn("a mode whose frequency is not known, since nothing says the axis of hinge A", said)
+        self.assertIn("FW-D642", said)
+        self.assertNotIn("known to some per cent", said)
+        self.assertNotIn("FW-D642", run("check", "-", "--advice", "none", input=text.replace("{axis}", ' axis="0 deg"')).stderr)
+
     def test_equilibria_do_not_swing(self):
         """where inertia is left out nothing rings: bands were of what modes of bodies would do by the speeds of a sequence of
         equilibria, 10^14 um"""

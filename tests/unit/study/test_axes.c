@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Logarithmic axes and labels that do not cover each other. */
-#include "study/tradeoff_parts.h"
+#include "study/tradeoff.h"
 #include "test.h"
 
 static void decades(void **state) {

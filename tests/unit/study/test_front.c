@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is worth its cost, on made-up numbers whose answer is known. */
-#include "study/tradeoff_parts.h"
+#include "study/tradeoff.h"
 #include "test.h"
 
 /* a deterministic generator: numerical recipes' 64-bit LCG */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Medians and their intervals, against tables and distributions whose median is known. */
-#include "study/tradeoff_parts.h"
+#include "study/tradeoff.h"
 #include "test.h"
 
 static double uniform(uint64_t *s) {

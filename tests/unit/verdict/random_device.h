@@ -3,6 +3,7 @@
    whole, as XML, and what judges them in silicon. */
 #ifndef FW_TEST_RANDOM_DEVICE_H
 #define FW_TEST_RANDOM_DEVICE_H
+#include "base/constants.h"
 #include "dynamics/models.h"
 #include "verdict/verdict.h"
 
@@ -76,7 +77,15 @@ static inline void device_flexure(fw_text *t, uint64_t *seed, const char *id, bo
     fw_text_add(t, drawn ? " gap=\"8 um\"/>\n" : "/>\n");
 }
 
+/* The way from a hinge's first body to its second, near which its flexure's axis is: a description that leaves it out asks
+   for bands over all directions. Of a generator of its own, so that all else of a device is as it was without it */
+static inline void device_axis(fw_text *t, uint64_t *seed, double way_rad) {
+    device_number(t, " axis=\"", (way_rad + device_between(seed, -0.6, 0.6)) * FW_DEG_PER_RAD,
+                  " deg\"");
+}
+
 static inline void device_chain(fw_text *t, uint64_t *seed, double by) {
+    uint64_t axes = *seed + 1;
     int n = 1 + (int)(3.999 * rig_random(seed));
     char id[16];
     double x = 0, y = 0, ax = 0, ay = 0, angle = 0, period_ms = device_spread(seed, 0.2, 1.0);
@@ -102,6 +111,7 @@ static inline void device_chain(fw_text *t, uint64_t *seed, double by) {
         device_number(&joints, " a-y=\"", y - ay, " mm\"");
         device_number(&joints, " b-x=\"", x - mx, " mm\"");
         device_number(&joints, " b-y=\"", y - my, " mm\"");
+        device_axis(&joints, &axes, angle);
         if (device_chance(seed, 0.5))
             device_number(&joints, " damping=\"", device_spread(seed, 1e-13, 3e-11),
                           " N m s/rad\"");
@@ -127,6 +137,7 @@ static inline void device_six_bar(fw_text *t, uint64_t *seed, double by) {
     static const double place[6][2] = {{0.7, 0.15}, {0.2, 1.4},   {0.8, 2.7},
                                        {2.2, 2.75}, {2.85, 1.45}, {2.3, 0.15}};
     bool drawn = device_chance(seed, 0.25), stated = device_chance(seed, 0.5);
+    uint64_t axes = *seed + 1;
     static const char *const link[] = {"AB", "BC", "DE", "EF"};
     char id[2] = "A";
     for (int i = 0; i < 6; i++, id[0]++)
@@ -138,6 +149,9 @@ static inline void device_six_bar(fw_text *t, uint64_t *seed, double by) {
         fw_text_printf(t, "    <hinge at=\"%s\" flexure=\"%s\"", id, id);
         device_number(t, " x=\"", place[i][0] + device_between(seed, -off, off), " mm\"");
         device_number(t, " y=\"", place[i][1] + device_between(seed, -off, off), " mm\"");
+        const double *before = place[i > 0 ? i - 1 : 0], *after = place[i < 5 ? i + 1 : 5];
+        if (!drawn) /* else its drawing says it */
+            device_axis(t, &axes, atan2(after[1] - before[1], after[0] - before[0]));
         if (stated)
             device_number(t, " stiffness=\"", device_spread(seed, 1.3e-6, 2e-6), " N m/rad\"");
         if (device_chance(seed, 0.7))
