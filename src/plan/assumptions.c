@@ -314,8 +314,8 @@ static void check_modulus(fw_plan *plan, const fw_plan_flow *pf, const fw_device
         &plan->diags, 733, plan->device->material_place,
         "youngs-modulus is stated, %s GPa, and so it is known exactly for what is judged as made: "
         "the pack's own for %s in flow %s is %s GPa within %s %% either way; where it was "
-        "measured, "
-        "give it with its uncertainty in a laboratory pack (--lab) in place of this attribute",
+        "measured, say how well in a study: <uncertain what=\"material/@youngs-modulus\" mean=... "
+        "sd=...>",
         fw_number_text(stated, sizeof stated, 1e-9 * m->youngs.value, 4), m->id, pf->flow->id,
         fw_number_text(own, sizeof own, 1e-9 * pack->youngs.value, 4), range);
 }

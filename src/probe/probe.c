@@ -251,3 +251,77 @@ double fw_probe_at_equilibrium(const fw_probe *p, const fw_device_scene *scene,
                               .still = true};
     return fw_probe_value(p, &s);
 }
+
+/* ---- a length that contacts hold ----
+   What presses a contact is known with its force, and with that by how much it has closed. So of a length y near it is off what
+   does not go with that alone. With slopes y_i and g_i of the length and of what the contact says of itself, and coordinates
+   off by no more than d_i,
+
+     y - y(q) = s (g - g(q)) + r,   |r| <= sum of |y_i - s g_i| d_i,   s the one by which that is least: some y_i/g_i, or 0
+
+   and of what is left, r, the next contact takes its part. In: pose and d in m, rad; contacts that hold. Out: the bound of r, m: 0 of
+   a length between the two places that meet, along their normal. Validity: changes so small that slopes are what they are. Error:
+   central differences, 1e-8 of it. Cost: of each contact six values a body and the square of all. Test: test_effects.py,
+   NearFirstTouch; test_probe.py, of two jaws on a bead */
+
+enum { CONTACT_PORTS = 64 };
+
+double fw_probe_contact_closes(const fw_effects_force_element *contact, const double *q) {
+    double p[3 * CONTACT_PORTS], w[3 * CONTACT_PORTS], still[3 * CONTACT_PORTS] = {0};
+    const bool on[CONTACT_PORTS] = {false};
+    if (contact->ports > CONTACT_PORTS || contact->switches != 1 || !contact->class_->switch_value)
+        return (double)NAN;
+    fw_effects_element_place_ports(contact, q, NULL, p, w);
+    const fw_effects_port_state state = {.load = 1, .p = p, .w = still, .on = on, .still = true};
+    return contact->class_->switch_value(contact, &state, 0);
+}
+
+/* of a probe, or of a contact */
+static double length_of(const fw_probe *p, const fw_effects_force_element *contact, double t_s,
+                        const double *q) {
+    const fw_probe_state s = {.t_s = t_s, .piece_s = t_s, .q = q, .still = true};
+    return contact ? fw_probe_contact_closes(contact, q) : fw_probe_value(p, &s);
+}
+
+/* to (n): its slopes about the pose `at` (n), which is left as it was */
+static void slopes(const fw_probe *p, const fw_effects_force_element *contact, double t_s, size_t n,
+                   double *at, double *to) {
+    for (size_t i = 0; i < n; i++) {
+        const double was = at[i], h = i % 3 == 2 ? 1e-6 : 1e-8;
+        at[i] = was - h, to[i] = -length_of(p, contact, t_s, at);
+        at[i] = was + h, to[i] = (to[i] + length_of(p, contact, t_s, at)) / (2 * h);
+        at[i] = was;
+    }
+}
+
+static double left_over(const double *of, const double *closes, double times, const double *off,
+                        size_t n) {
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += fabs(of[i] - times * closes[i]) * off[i];
+    return sum;
+}
+
+double fw_probe_beside(const fw_probe *p, const fw_effects_force_element *const *contact, int count,
+                       double t_s, const double *q, const double *off, double *room) {
+    const size_t n = 3 * (size_t)p->mechanism->nbody;
+    const fw_device_probe_row row = p->asked->row;
+    double *at = room, *of = at + n, *closes = of + n;
+    if (row != FW_PROBE_IS_displacement && row != FW_PROBE_IS_distance &&
+        row != FW_PROBE_IS_opening)
+        return HUGE_VAL;
+    memcpy(at, q, n * sizeof *at);
+    slopes(p, NULL, t_s, n, at, of);
+    for (int c = 0; c < count; c++) {
+        double times = 0, least = left_over(of, of, 0, off, n);
+        slopes(p, contact[c], t_s, n, at, closes);
+        for (size_t k = 0; k < n; k++) {
+            const double s = fabs(closes[k]) > 0 && off[k] > 0 ? of[k] / closes[k] : 0,
+                         left = left_over(of, closes, s, off, n);
+            if (left < least) least = left, times = s;
+        }
+        for (size_t i = 0; i < n; i++)
+            of[i] -= times * closes[i];
+    }
+    return left_over(of, of, 0, off, n);
+}

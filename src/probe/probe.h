@@ -82,6 +82,12 @@ double fw_probe_origin(const fw_probe *p);
 double fw_probe_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row);
 /* is it a length or an angle, which the pose alone says? */
 bool fw_probe_has_rate(const fw_probe *p);
+/* By how much a length between points (displacement, distance, opening) may differ at a pose q where each coordinate is off by
+   `off` at most (both 3 nbody) and what contacts close by is not: probe.c. Infinite: it is no such length. room: 9 nbody */
+double fw_probe_beside(const fw_probe *p, const fw_effects_force_element *const *contact, int count,
+                       double t_s, const double *q, const double *off, double *room);
+/* m or N of a contact, as it says itself: above 0 where it is closed at a pose (3 nbody) */
+double fw_probe_contact_closes(const fw_effects_force_element *contact, const double *q);
 /* d/dt of its value there, SI; NaN without a rate. room: 3 nbody + npin. Cost: two values */
 double fw_probe_rate_at_row(const fw_probe *p, const fw_dynamics_motion *motion, int row,
                             double *room);
@@ -143,8 +149,8 @@ typedef struct fw_probe_monitor { /* of one run */
     bool no_memory;                /* the run has failed */
 } fw_probe_monitor;
 
-/* a distance, or the tension of a cable: never below 0 */
-bool fw_probe_is_size(const fw_device_probe *asked);
+/* a distance, the tension of a cable, or what presses in a contact: never below 0 */
+bool fw_probe_is_size(const fw_device *device, const fw_device_probe *asked);
 /* scene: one of mechanism->device */
 fw_status fw_probe_monitor_new(fw_arena *arena, const fw_mechanism *mechanism,
                                const fw_device_scene *scene, const bool *history, const bool *only,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Probes followed along a motion: extremes between the instants, and by how much they may be off. */
 #include "probe/probe.h"
+#include "base/text.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -232,6 +233,8 @@ static double level_of(const fw_probe *p, const fw_dynamics_motion *motion,
     const fw_probe_state used = {.t_s = at_s, .piece_s = at_s, .q = step->at.q, .still = true};
     double away = p->row->moved ? p->row->moved(p, &used) : fabs(value[0] - origin);
     double size = fmax(away, 0.1 * largest), change = fabs(value[1] - value[0]);
+    /* a contact that only the next model meets presses by no share of nothing, but by what is left of its way */
+    if (size == 0 && p->element && p->element->class_->pressing) return (double)NAN;
     return change == 0 ? 0 : change / size;
 }
 
@@ -242,9 +245,11 @@ static double numeric(double apart, double between, double value, double estimat
     return 2 * margin * apart + between + (estimated + 64 * DBL_EPSILON) * fabs(value);
 }
 
-bool fw_probe_is_size(const fw_device_probe *asked) {
-    return asked->row == FW_PROBE_IS_distance ||
-           (asked->row == FW_PROBE_IS_force && asked->carrier == FW_CARRIER_TENDON);
+bool fw_probe_is_size(const fw_device *device, const fw_device_probe *asked) {
+    bool pulls = asked->carrier == FW_CARRIER_TENDON || asked->carrier == FW_CARRIER_CONTACT;
+    for (int i = 0; asked->of && asked->carrier == FW_CARRIER_SPRING && i < device->nspring; i++)
+        pulls = pulls || (device->spring[i].cable && fw_text_same(device->spring[i].id, asked->of));
+    return asked->row == FW_PROBE_IS_distance || (asked->row == FW_PROBE_IS_force && pulls);
 }
 
 /* Friction of eyelets that bend a cable, which no motion has (effects/eyelet_friction.c), makes its tension another one before

@@ -97,7 +97,7 @@ typedef struct fw_study_sample {
     uint64_t way;                /* fw_study.way; 0: nobody asked, or nothing was judged */
     bool run;                    /* false: `why` says why not */
     char why[FW_STUDY_WHY];
-    /* in: as made it is looked at in these corners alone, and `why` says so where it is accepted (fw_study_partly); NULL: in all */
+    /* in: as made it is looked at in these corners alone, and `why` says so where it is accepted (fw_study_is_partly); NULL: in all */
     const struct fw_study_watch *watch;
     char corner
         [FW_PLAN_CORNER]; /* of a size that watches corners: the one that governs, of a device that was looked at in all */

@@ -388,4 +388,15 @@ double fw_verdict_two_farthest(const double *to, int n, int *which);
 /* distances of a scene that are kept by less than `by`: undecided (FW-D638), since this body bends */
 fw_status fw_verdict_distances_open(fw_arena *arena, struct fw_verdict_variant_verdict *v,
                                     int scene, double by, int body);
+
+/* ---- what may be met, for what flexures are off by: body_bears.c, body_farther.c ---- */
+
+double fw_verdict_flexures_off(const fw_mechanism *m, const fw_dynamics_motion *x);
+/* May something take hold, or let go, in a scene of whose motion something is required? Then *e becomes what all that gives may be
+   off by there, if that is more. missing: of what electrodes pull */
+fw_status fw_verdict_may_be_met(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
+                                int scene, double missing, double *e, bool *met);
+/* raises *held to how much of a final length, m, is that of a contact which holds as computed, and with flexures softer and stiffer */
+fw_status fw_verdict_held_m(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
+                            const struct fw_verdict_requirement *r, double *held);
 #endif

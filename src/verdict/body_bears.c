@@ -530,3 +530,35 @@ const fw_verdict_plate_mode *fw_verdict_frequency(const fw_verdict_variant_verdi
     *in_plane = at + 1;
     return at >= 0 && across ? &o->mode[at] : NULL;
 }
+
+/* ---- what flexures are off by of how far a motion goes ----
+   By the energies that they have of it, e = sum of k d^2 e_k over sum of k d^2, of turns and of what goes across an axis: a leaf that
+   goes aside is known less well than one that turns. What lies along a strip is as stiff as it is. In: samples of the
+   motion, m and rad. Out: relative. Source: Rayleigh, as fw_statics_shape_error. Cost: two sines a hinge and sample. Test:
+   test_effects.py, NearFirstTouch */
+double fw_verdict_flexures_off(const fw_mechanism *m, const fw_dynamics_motion *x) {
+    double all = 0, off = 0;
+    fw_dynamics_motion_rows(x, 0, x->nsample);
+    for (int i = 0; i < x->nsample * m->nhinge; i++) {
+        const double *q = x->q + (size_t)(i / m->nhinge) * 3 * (size_t)x->nbody;
+        const fw_mechanism_hinge *h = &m->hinge[i % m->nhinge];
+        const fw_mechanism_pin *pin = &m->pin[h->pin];
+        const fw_flexure_error *e = &h->closed_form.error;
+        const double a = pin->body_a == FW_GROUND ? 0 : q[3 * pin->body_a + 2],
+                     b = pin->body_b == FW_GROUND ? 0 : q[3 * pin->body_b + 2],
+                     turn = b - a - pin->free_angle_rad,
+                     axis = h->axis_rad + fw_mechanism_pin_half_turned(m, pin, q),
+                     turns = pin->stiffness_Nm_per_rad * turn * turn;
+        const fw_geometry_vec2 d = fw_mechanism_pin_opened(pin, q);
+        fw_flexure_hinge_at at;
+        fw_flexure_hinge_law_at(&h->law, 0, &at);
+        const bool y = at.ky_N_per_m.value < at.kx_N_per_m.value;
+        const double aside =
+                         y ? cos(axis) * d.y - sin(axis) * d.x : cos(axis) * d.x + sin(axis) * d.y,
+                     across = (y ? at.ky_N_per_m : at.kx_N_per_m).value * aside * aside,
+                     goes = isfinite(across) ? across : 0; /* of a pin without an axis */
+        all += turns + goes;
+        off += (h->stated ? 0 : e->stiffness) * turns + (y ? e->ky : e->kx) * goes;
+    }
+    return off > 0 ? off / all : 0;
+}

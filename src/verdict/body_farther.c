@@ -194,6 +194,65 @@ const char *fw_verdict_reach_name(fw_arena *arena, const fw_mechanism *m,
     return r->id ? fw_arena_printf(arena, "%s%s", FW_NAMED("contact", r->id)) : "what is touched";
 }
 
+fw_status fw_verdict_may_be_met(fw_arena *arena, const fw_verdict_variant_verdict *v, int scene,
+                                double missing, double *e, bool *met) {
+    const fw_mechanism *m = v->mechanism;
+    const fw_dynamics_motion *x = v->motion[scene];
+    fw_verdict_shaken own = {.n = 0};
+    bool asked = *met = false;
+    for (int k = 0; k < v->nrequirement; k++)
+        asked = asked || (v->requirement[k].scene_index == scene && v->requirement[k].measure);
+    if (!asked || m->nhinge == 0 || !x->loads) return FW_OK;
+    const double all = fw_verdict_motion_model_error(m, x) + fw_verdict_bending_share(x) +
+                       fw_dynamics_motion_ways_off(x, false) +
+                       fmax(0, fw_verdict_flexures_off(m, x) - fw_verdict_motion_lasting_error(m)),
+                 unit_m = 1e-3, up = 1 + 2 * (all + missing); /* near a fold it goes farther */
+    FW_TRY(fw_verdict_reach_find(arena, x, unit_m, x->q, &own));
+    for (int c = 0; c < own.nreach && !*met; c++)
+        *met = fw_verdict_reach_takes(&own.reach[c], up) >= own.reach[c].gap_m;
+    for (int i = 0; i < x->loads->nspring && !*met; i++)
+        *met = x->loads->spring[i].cable;
+    return *e = *met ? fmax(*e, all) : *e, FW_OK;
+}
+
+/* does it hold where the scene ends, as computed and with flexures softer and stiffer? */
+static bool holds(const fw_effects_force_element *contact, const fw_dynamics_motion *x,
+                  const fw_verdict_shaken *s) {
+    for (int k = 0; k < 3; k++) {
+        const fw_dynamics_motion *y = k > 0 ? s->other[k - 1].motion : x;
+        fw_dynamics_motion_rows(y, y->nsample - 1, 1);
+        const double *q = y->q + ((size_t)y->nsample - 1) * 3 * (size_t)y->nbody;
+        if (!(fw_probe_contact_closes(contact, q) > 0)) return false;
+    }
+    return true;
+}
+
+fw_status fw_verdict_held_m(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                            const fw_verdict_requirement *r, double *held) {
+    const fw_device_requirement *asked = &v->mechanism->device->requirement[r->asked];
+    const fw_verdict_shaken *s = &v->shaken[r->scene_index];
+    const fw_dynamics_motion *x = v->motion[r->scene_index];
+    const size_t n = 3 * (size_t)v->mechanism->nbody;
+    if (asked->measure != FW_MEASURE_FINAL || isnan(r->origin)) return FW_OK;
+    for (int k = 0; k < 2; k++)
+        if (!s->other[k].probe || s->other[k].lost || s->other[k].from_s > 0) return FW_OK;
+    const fw_probe *p = &s->other[0].probe->probe[asked->probe];
+    const fw_effects_force_element *contact[32]; /* what others hold is not counted */
+    double *room = fw_arena_array(arena, double, 4 * n);
+    int count = 0;
+    FW_NEED(room);
+    fw_dynamics_motion_rows(x, 0, x->nsample);
+    const double *q = x->q + ((size_t)x->nsample - 1) * n;
+    for (size_t i = 0; i < n; i++)
+        room[i] = fabs(q[i] - x->q[i]);
+    for (int i = 0; i < p->loads.nelement && count < 32; i++)
+        if (p->loads.element[i].class_->pressing && holds(&p->loads.element[i], x, s))
+            contact[count++] = &p->loads.element[i];
+    *held = fmax(0, fabs(r->value - r->origin) -
+                        fw_probe_beside(p, contact, count, x->end_s, q, room, room + n));
+    return FW_OK;
+}
+
 fw_status fw_verdict_may_touch(fw_arena *arena, int scene, fw_verdict_variant_verdict *v) {
     const fw_mechanism *m = v->mechanism;
     const fw_verdict_shaken *s = &v->shaken[scene];
@@ -322,6 +381,26 @@ void fw_verdict_swings_required(const fw_verdict_variant_verdict *v, fw_verdict_
         more = own->share * r->swing * (asked->measure == FW_MEASURE_PEAK_TO_PEAK ? 2 : 1);
     r->low -= more, r->high += more;
     if (r->size || isnan(r->origin)) r->low = fmax(0, r->low);
+}
+
+/* By what modes that lie elsewhere may do more or less (resonance.c), of how far it goes to and fro. A final value may be where
+   phases run apart. A settling time, which goes with the logarithm of what swings, has no bound */
+bool fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
+                                   fw_verdict_requirement *r) {
+    const bool end = measure == FW_MEASURE_FINAL;
+    const double more = r->swing_most * (end ? late : factor[0] - 1),
+                 less = end ? more : r->swing * (1 - factor[1]);
+    if (!(fmax(more, less) > 0) || (measure == FW_MEASURE_SETTLING && factor[0] < 1.02))
+        return false;
+    if (measure == FW_MEASURE_SETTLING) {
+        r->low = 0, r->high = HUGE_VAL;
+        r->open = "it is shaken near a mode whose frequency is not known well enough";
+    } else if (measure == FW_MEASURE_PEAK || measure == FW_MEASURE_PEAK_TO_PEAK ||
+               measure == FW_MEASURE_PARASITIC)
+        r->high += more, r->low = fmax(0, r->low - less);
+    else
+        r->high += fmax(more, less), r->low -= fmax(more, less);
+    return r->low = r->size ? fmax(0, r->low) : r->low, true;
 }
 
 fw_status fw_verdict_swings_tell(fw_arena *arena, int scene, bool brief, fw_diags *diags,

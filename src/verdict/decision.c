@@ -585,6 +585,7 @@ const char *fw_verdict_requirement_text(fw_arena *arena, const fw_verdict_requir
     char rings[FW_PROBE_TEXT], when[FW_PROBE_TEXT];
     const char *still = "",
                *rubs = r->rubs ? ", from all that rubs sliding to all of it stuck" : "";
+    if (r->untouched) rubs = ", since it may not touch at all";
     if (r->rings > 0)
         still = fw_arena_printf(arena,
                                 " of a motion that has not come to rest (where it ends it still "

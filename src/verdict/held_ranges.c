@@ -331,8 +331,9 @@ static void amid_requirements(fw_verdict_search *s, int point, double harder, am
     for (int k = 0; c->requirement && k < s->v->nrequirement; k++) {
         fw_verdict_requirement r = c->requirement[k];
         if (r.scene_index != to->scene || !r.measure || r.why) continue;
-        fw_verdict_requirement_shaken(most, fmax(0, to->late - now->required_late),
-                                      s->device->requirement[r.asked].measure, &r);
+        if (fw_verdict_requirement_shaken(most, fmax(0, to->late - now->required_late),
+                                          s->device->requirement[r.asked].measure, &r))
+            fw_verdict_requirement_widen(0, 0, &r);
         if (harder > 1 && bears_blows(s->device, &r)) {
             const double more = (harder - 1) * (isinf(harder) ? 1 : r.swing);
             fw_verdict_requirement_widen(r.size || isnan(r.origin) ? 0 : more, more, &r);

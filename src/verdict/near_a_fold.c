@@ -247,6 +247,8 @@ static fw_status put_aside(fw_arena *arena, const fw_mechanism *m, const fw_stat
 /* a scene once more: softer, with all of the pull; stiffer, with the least of it; held on; with flexures bent the other way */
 typedef struct once_more {
     double by, pull; /* its loads, and what electrodes pull besides, times as large */
+    double
+        stiffer; /* or its flexures, by that share: where something may be met, which is as stiff as it is */
     double from_s;   /* it was held on from there; 0: it was not */
     double period_s; /* of the lowest mode, where what is behind the scene's end counts; else 0 */
     const fw_statics_passed *aside;
@@ -269,7 +271,7 @@ static fw_status move_it(fw_arena *arena, const fw_mechanism *m, const fw_device
     fw_verdict_strain_monitor_watch(&to->saw, &o);
     if (like->loads->quasi_static) o.glance = NULL; /* thirds of its steps are far apart */
     o.trace = probes ? fw_verdict_clearance_trace : NULL, o.whole = probes;
-    o.most_angle_rad = FW_TURN, o.effects.like = NULL;
+    o.most_angle_rad = FW_TURN, o.effects.like = NULL, o.effects.stiffer = to->stiffer;
     const fw_status status = fw_statics_move_scene(arena, m, scene, &o, &own, &x);
     if (status == FW_NOMEM || status == FW_CANCELLED || to->saw.no_memory)
         return status == FW_CANCELLED ? status : FW_NOMEM;
@@ -335,7 +337,8 @@ static double beyond(const fw_mechanism *m, const fw_verdict_strain_monitor *was
                      const once_more *now, int way, fw_verdict_shaken *to) {
     const int nb = m->nbody, end = 2 * m->nhinge;
     double *f = to->factor;
-    const double up = fmin(1, 1 / now->by), down = fmax(1, 1 / now->by),
+    const double goes = now->by / (1 + now->stiffer), up = fmin(1, 1 / goes),
+                 down = fmax(1, 1 / goes),
                  all = way * fmax(way * change(far, now->far, nb, way),
                                   way * change(far + nb, now->far + nb, nb, way));
     double most = up * all;
@@ -421,9 +424,9 @@ static fw_status watch(fw_arena *arena, const fw_mechanism *m, int i, double *fa
     return FW_OK;
 }
 
-/* which of them: loads leave little, electrodes may pull more; it is on its way; it left what was unstable */
+/* which of them: loads leave little, electrodes may pull more, something may be met; it is on its way; it left what was unstable */
 static fw_status ask(fw_arena *arena, const fw_mechanism *m, int i, double e, double missing,
-                     const fw_verdict_variant_verdict *v, once_more now[4]) {
+                     bool met, const fw_verdict_variant_verdict *v, once_more now[4]) {
     const fw_device_scene *s = &m->device->scene[i];
     const fw_dynamics_motion *x = v->motion[i];
     const bool less = missing > 0 && fw_effects_levitation_may_be(m),
@@ -437,6 +440,10 @@ static fw_status ask(fw_arena *arena, const fw_mechanism *m, int i, double e, do
         (once_more){.by = 1 + e, .pull = 1 + missing, .asked = may && (softly || missing > 0)};
     now[STIFFER] = (once_more){
         .by = 1 / (1 + e), .pull = less ? 1 / (1 + missing) : 1, .asked = may && (softly || less)};
+    if (met && e > 0 && !isinf(e)) {
+        now[SOFTER].by = now[STIFFER].by = 1, now[SOFTER].asked = now[STIFFER].asked = true;
+        now[SOFTER].stiffer = 1 / (1 + e) - 1, now[STIFFER].stiffer = e;
+    }
     now[HELD] = now[ASIDE] = (once_more){.by = 1, .pull = 1};
     if (fw_verdict_has_said(v, s, UNSTABLE)) return FW_OK;
     if (counts_behind(v, i)) {
@@ -535,14 +542,17 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     const fw_dynamics_motion *x = v->motion[i];
     const size_t n = 2 * (size_t)m->nbody + (size_t)m->nhinge, factors = 2 * (size_t)m->nhinge + 2;
     const double missing = fw_verdict_pull_missing(v, i);
-    if (soft > v->left[i] && e > 0 && missing == 0) e = off_by(m, e);
+    const bool softly = soft > v->left[i];
+    bool met;
+    if (softly && e > 0 && missing == 0) e = off_by(m, e);
+    if (x->ended || x->nsample < 1) return FW_OK;
+    FW_TRY(fw_verdict_may_be_met(arena, v, i, missing, &e, &met));
     fw_verdict_shaken *shaken = &v->shaken[i];
     double most = 1, *before = shaken->factor, *far;
     bool any = false;
-    if (x->ended || x->nsample < 1) return FW_OK;
     once_more *now = fw_arena_array(arena, once_more, 4);
     FW_NEED(now);
-    FW_TRY(ask(arena, m, i, e, missing, v, now));
+    FW_TRY(ask(arena, m, i, e, missing, met, v, now));
     for (int k = 0; k < 4; k++)
         any = any || now[k].asked;
     if (!any) return FW_OK;
@@ -565,7 +575,8 @@ fw_status fw_verdict_softened(fw_arena *arena, const fw_mechanism *m, int i, dou
     if (now[SOFTER].goes && missing > 0)
         shaken->nearer_m = fw_verdict_electrodes_nearer(x, now[SOFTER].motion, &shaken->kept);
     FW_TRY(tell_behind(arena, s, now, x, brief, diags, v));
-    return now[SOFTER].asked ? tell_soft(arena, s, v->left[i], e, missing, now[SOFTER].goes, most,
-                                         brief, diags, v)
-                             : FW_OK;
+    return now[SOFTER].asked && (softly || missing > 0)
+               ? tell_soft(arena, s, v->left[i], e, missing, now[SOFTER].goes, most, brief, diags,
+                           v)
+               : FW_OK;
 }

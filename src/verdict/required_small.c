@@ -572,6 +572,8 @@ fw_status fw_verdict_requirement_others(const fw_verdict_variant_verdict *v,
         now[k] = measured(&o->probe->course[q->probe], q);
         if (q->measure == FW_MEASURE_SETTLING) FW_TRY(settling(v, o, q, r->scene_index, &now[k]));
         if (goes_with_loads(of, q->measure)) now[k] /= o->by;
+        r->untouched =
+            r->untouched || (r->size && value > 0 && now[k] == 0 && of->row == FW_PROBE_IS_force);
         FW_TRY(take_in(v, o, q, now[k], beside(&was, o->off), r));
     }
     if (value != 0) r->lasting += fmax(was.low - r->low, r->high - was.high) / fabs(value);

@@ -198,11 +198,11 @@ typedef struct fw_verdict_requirement {
     bool by_max;  /* of its max; else of its min */
     double swing; /* how far it goes from where it was drawn; of a gap, how far outlines move */
     double swing_most; /* the same at the end of a band, with modes where they were computed */
-    bool size, rubs;   /* a gap, which is not below 0; its band has what rubs sliding and stuck */
-    double numeric;    /* part of the band on either side that a tighter run would take away */
-    double lasting;    /* relative part of it that no better model of the hinges would take away */
-    double t_s;        /* when; NaN: no one time */
-    double rings;      /* of a final value, by how much it still goes to and fro; else 0 */
+    bool size, rubs, untouched; /* not below 0; has all sliding and stuck; may not touch at all */
+    double numeric; /* part of the band on either side that a tighter run would take away */
+    double lasting; /* relative part of it that no better model of the hinges would take away */
+    double t_s;     /* when; NaN: no one time */
+    double rings;   /* of a final value, by how much it still goes to and fro; else 0 */
     /* of what a flow makes, else NaN: the least of low and the most of high at any corner, run or not */
     double all_low, all_high;
     fw_verdict_decision decision;

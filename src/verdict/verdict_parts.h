@@ -376,7 +376,7 @@ fw_status fw_verdict_tell_lacking(fw_arena *arena, fw_verdict_variant_verdict *v
 fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v);
 void fw_verdict_requirement_widen(double down, double up, fw_verdict_requirement *r);
 void fw_verdict_pull_number(const fw_mechanism_drying *drying, fw_verdict_pull *to);
-void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
+bool fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
                                    fw_verdict_requirement *r);
 /* what may still decide those that are inconclusive, and the accuracy that would */
 fw_verdict_refinement fw_verdict_requirements_refinement(const fw_verdict_requirement *requirement,

@@ -8,6 +8,7 @@
    have been moved against each other. Where l is not known, that of the largest strain, or what the reference cases give, stands for
    both. A band within the bounds accepts, one wholly beyond a bound rejects. A settling time has the ends that it has with a band b
    narrower and wider by n + (l + s) b. Theory: docs/theory/probes.md. Test: test_probe.py. */
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -258,7 +259,7 @@ static void judge(const fw_mechanism *m, const fw_dynamics_motion *motion, const
                                      fw_verdict_places_error(motion, &m->device->probe[q->probe]),
                  lasting = fw_verdict_motion_lasting_error(m) + fw_verdict_bending_share(motion);
     const bool gap = !isnan(p->moved), /* neither is below 0 */
-        size = r->size = gap || fw_probe_is_size(&m->device->probe[q->probe]);
+        size = r->size = gap || fw_probe_is_size(m->device, &m->device->probe[q->probe]);
     r->swing = gap ? p->moved : fmax(fabs(p->maximum - p->origin), fabs(p->minimum - p->origin));
     if (q->measure == FW_MEASURE_PARASITIC) r->swing = fabs(p->across);
     if (q->measure == FW_MEASURE_PEAK_TO_PEAK) r->swing *= 2; /* either end may */
@@ -546,29 +547,28 @@ static bool has_reason(const fw_verdict_variant_verdict *v, const fw_verdict_req
     return r->measure && (!v->motion[r->scene_index] || r->why == fw_verdict_unstable_there);
 }
 
-/* By what modes that lie elsewhere may do more or less (resonance.c), of how far it goes to and fro. A final value may be where
-   phases run apart. A settling time, which goes with the logarithm of what swings, has no bound */
-void fw_verdict_requirement_shaken(const double factor[2], double late, fw_device_measure measure,
-                                   fw_verdict_requirement *r) {
-    const bool end = measure == FW_MEASURE_FINAL;
-    const double more = r->swing_most * (end ? late : factor[0] - 1),
-                 less = end ? more : r->swing * (1 - factor[1]);
-    if (!(fmax(more, less) > 0) || (measure == FW_MEASURE_SETTLING && factor[0] < 1.02)) return;
-    if (measure == FW_MEASURE_SETTLING) {
-        r->low = 0, r->high = HUGE_VAL;
-        r->open = "it is shaken near a mode whose frequency is not known well enough";
-    } else if (measure == FW_MEASURE_PEAK || measure == FW_MEASURE_PEAK_TO_PEAK ||
-               measure == FW_MEASURE_PARASITIC)
-        r->high += more, r->low = fmax(0, r->low - less);
-    else
-        r->high += fmax(more, less), r->low -= fmax(more, less);
-    if (r->size) r->low = fmax(0, r->low);
-    decide(r);
+/* Of a length that a contact holds only what is not the contact's goes with what the motion is off by: its own is as far off as the
+   contact gives in the other motions */
+static fw_status put_held(fw_arena *arena, const fw_verdict_variant_verdict *v,
+                          fw_verdict_requirement *r) {
+    const fw_dynamics_motion *x = v->motion[r->scene_index];
+    const fw_device *d = v->mechanism->device;
+    const int of = r->scene_index * d->nprobe + d->requirement[r->asked].probe;
+    double held = 0;
+    FW_TRY(fw_verdict_held_m(arena, v, r, &held));
+    const double model = model_of(v->mechanism, x, v->probed[of].level),
+                 whole = fw_dynamics_motion_ways_off(x, false), less = held * (model + whole);
+    if (!(held > 0) || !isfinite(less)) return FW_OK;
+    r->low += less, r->high -= less, r->numeric -= held * whole;
+    r->swing = fmax(0, r->swing - held);
+    return FW_OK;
 }
 
-static fw_status put_shaken(const fw_mechanism *m, const fw_verdict_variant_verdict *v, int k) {
+static fw_status put_shaken(fw_arena *arena, const fw_mechanism *m,
+                            const fw_verdict_variant_verdict *v, int k) {
     fw_verdict_requirement *r = &v->requirement[k];
     const fw_verdict_shaken *s = &v->shaken[r->scene_index];
+    FW_TRY(put_held(arena, v, r));
     const double has = fmax(r->high - r->value, r->value - r->low);
     r->swing_most = r->swing + (isfinite(has) ? has : 0);
     FW_TRY(fw_verdict_requirement_others(v, s, r));
@@ -591,7 +591,7 @@ fw_status fw_verdict_requirements_end(fw_arena *arena, const fw_mechanism *m,
                                                  judge_small, v));
     }
     for (int k = 0; k < v->nrequirement; k++)
-        if (v->requirement[k].measure && !v->requirement[k].why) FW_TRY(put_shaken(m, v, k));
+        if (v->requirement[k].measure && !v->requirement[k].why) FW_TRY(put_shaken(arena, m, v, k));
     FW_TRY(fw_verdict_bending_name_rigid(arena, v));
     for (int k = 0; k < v->nrequirement; k++)
         if (v->requirement[k].decision != FW_ACCEPT && !has_reason(v, &v->requirement[k]))

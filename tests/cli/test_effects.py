@@ -569,6 +569,83 @@ class NearAFold(unittest.TestCase):
         self.assertEqual(decision, "inconclusive")
 
 
+class NearFirstTouch(unittest.TestCase):
+    """a stage on two leaves, 8.748 N/m each by a frame and plane solids, is pushed over 10 um onto a cell: F = (P - 2 k g) kb/(2 k + kb)"""
+
+    DEVICE = """<device xmlns="urn:flexwright:device:1" name="slide"><parameter name="push" value="176 uN"/><parameter name="kb" value="20 N/m"/>
+<parameter name="c" value="0.001 N s/m"/><material ref="silicon-100" thickness="50 um"/><limits safety-factor="1.5"/><flow ref="al-masked-rie"/>
+<flexure id="leaf" kind="leaf" length="500 um" width="5 um"/><mechanism><body id="stage" x="0 mm" y="0 mm"><plate x="0 mm" y="0.5 mm" width="1100 um" height="1000 um"/></body>
+<revolute id="A" a="ground" a-x="-0.4 mm" a-y="-0.35 mm" b="stage" b-x="-0.4 mm" b-y="-0.35 mm" hinge="leaf" axis="0 deg"/>
+<revolute id="B" a="ground" a-x="0.4 mm" a-y="-0.35 mm" b="stage" b-x="0.4 mm" b-y="-0.35 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<scene name="press" duration="60 ms"><force on="stage" x="-0.55 mm" y="0.3 mm" fx="push" law="ramp" rise="40 ms"/>
+<contact id="cell" a="stage" a-x="0.55 mm" a-y="0.3 mm" a-face="0 deg" b="ground" b-x="0.58 mm" b-y="0.3 mm" side="outside" distance="20 um" stiffness="kb"
+damping="c" undrawn="placed"/><material-damping loss-factor="0.1"/></scene><probe id="force" kind="force" of="cell"/>
+<probe id="x" kind="displacement" on="stage" x="0.55 mm" y="0.3 mm" direction="0 deg"/>
+<require probe="force" measure="final" BOUND/><require probe="x" measure="final" min="1 um" max="10.1 um"/></device>"""
+    LEAF = 8.748  # N/m
+
+    def judged(self, *settings, bound='min="0.6 uN"', extra=(), device=None, words=False):
+        with tempfile.TemporaryDirectory() as place:
+            path = pathlib.Path(place, "device.xml")
+            path.write_text((device or self.DEVICE).replace("BOUND", bound))
+            asked = ("check", path, "--corners", "none", "--advice", "none", "--measurements", "none", *extra,
+                     *(w for s in settings for w in ("--set", s)))
+            return json.loads(run(*asked, "--json").stdout)["requirements"], run(*asked).stdout if words else ""
+
+    def pressed(self, push, k, stage=1.0):
+        return max(0.0, (push - stage * 2 * self.LEAF * 10e-6) * k / (2 * self.LEAF + k))
+
+    def test_a_force_is_as_far_off_as_the_way_that_is_left(self):
+        """Both were decided, for and against 0.6 uN, with +-0.3 %: a per mille of the leaves is 93 nN of it."""
+        for bound in ('min="0.6 uN"', 'max="0.6 uN"', 'min="0.65 uN"'):
+            (force, _), text = self.judged(bound=bound, words=True)
+            self.assertEqual(force["verdict"], "inconclusive", bound)
+            self.assertEqual(force["band"][0], 0)
+            self.assertIn("it may not touch at all", text)
+            for off in (-0.01, 0, 0.01):  # leaves 1 % stiffer or softer, of 1.4 % that are stated
+                self.assertLess(force["band"][0] - 1e-12, self.pressed(176e-6, 20, 1 + off))
+                self.assertGreater(force["band"][1], self.pressed(176e-6, 20, 1 + off))
+        (exact, _), _ = self.judged(extra=("--hinge-model", "elastica"))
+        self.assertEqual(exact["verdict"], "inconclusive")
+
+    def test_what_is_not_met_may_be(self):
+        (force, _), _ = self.judged("push=174 uN", bound='min="0.1 uN"')
+        self.assertEqual((force["value"], force["band"][0], force["verdict"]), (0, 0, "inconclusive"))
+        self.assertGreater(force["band"][1], self.pressed(174e-6, 20, 0.99))
+        # exact beams touch there, closed forms do not: that was a share of nothing, and a band from -inf to inf
+        (force, _), _ = self.judged("push=175 uN", extra=("--hinge-model", "compliance"))
+        self.assertEqual((force["value"], force["band"][0]), (0, 0))
+        self.assertTrue(self.pressed(175e-6, 20, 0.99) < force["band"][1] < 3e-6)
+        (force, _), _ = self.judged("push=150 uN", bound='min="0.1 uN"')
+        self.assertEqual((force["band"], force["verdict"]), ([0, 0], "reject"))
+
+    def test_what_a_contact_holds_is_where_its_force_says(self):
+        """At 2000 N/m the stop gives 37 nm; the way was known to 1 % of itself, and at most 10.1 um were undecided."""
+        (force, x), _ = self.judged("push=250 uN", "kb=2000 N/m", "c=0.02 N s/m")
+        self.assertEqual((force["verdict"], x["verdict"]), ("accept", "accept"))
+        true = self.pressed(250e-6, 2000)
+        for band, value in ((force["band"], true), (x["band"], 10e-6 + true / 2000)):
+            self.assertLess(band[0], value)
+            self.assertGreater(band[1], value)
+        for end in (0, 1):
+            self.assertAlmostEqual(x["band"][end], 10e-6 + force["band"][end] / 2000, delta=3e-9)
+
+    def test_a_cable_that_becomes_taut_is_no_other(self):
+        device = re.sub(r'<contact id="cell".*?/>', "", self.DEVICE, flags=re.S).replace(
+            "</mechanism>", '<spring id="cell" a="ground" a-x="-0.9 mm" a-y="0.3 mm" b="stage" b-x="-0.55 mm" b-y="0.3 mm" stiffness="kb" '
+            'length="0.36 mm" cable="yes"/></mechanism>')
+        (force, _), _ = self.judged(device=device)
+        self.assertEqual((force["band"][0], force["verdict"]), (0, "inconclusive"))
+        self.assertGreater(force["band"][1], self.pressed(176e-6, 20, 0.99))
+
+    def test_a_length_across_the_contact_is_not_held(self):
+        """Along y the stop holds nothing: the band of a probe there is what it was."""
+        device = self.DEVICE.replace('y="0.3 mm" direction="0 deg"/>', 'y="0.3 mm" direction="90 deg"/>').replace(
+            'measure="final" min="1 um" max="10.1 um"', 'measure="final" min="-1 um" max="1 um"')
+        (_, y), _ = self.judged("push=250 uN", "kb=2000 N/m", "c=0.02 N s/m", device=device)
+        self.assertGreater(y["band"][1] - y["band"][0], 2 * 0.003 * abs(y["value"]))
+
+
 class OneOfTwoSides(unittest.TestCase):
     """Crossed leaves of 1 mm that are pulled along the middle between them bear 5.61 mN; above it they turn to either side."""
 

@@ -944,6 +944,8 @@ class Probe(unittest.TestCase):
             off = r["band"][1] - value - error
             if measure == "parasitic":  # its own error is not printed
                 self.assertTrue(0 < off < 0.05 * value)
+            elif measure == "final" and probe in ("tip", "opening"):  # the bead holds both, by as much as its force says (decision 252)
+                self.assertTrue(0 < off < 0.005 * abs(goes))
             elif abs(goes) > 1e-6:
                 shares[probe].append(off / abs(goes))
             else:
@@ -951,8 +953,8 @@ class Probe(unittest.TestCase):
                 # instant moves a body farther (decision 216) counts where it is least, too
                 self.assertLess(max(off, value - r["band"][0] - error), 0.32e-6)
         for probe, found in shares.items():
-            self.assertGreater(len(found), 1)
-            self.assertGreater(min(found), 1e-3)
+            self.assertGreater(len(found), 0 if probe == "opening" else 1)
+            self.assertGreater(min(found), 0.01)
             # but for what blows change, and what hangs over, which bends by less where a measure has a sign (decision 211)
             self.assertLess(max(found) - min(found), 1.25e-3, (probe, found))
 
