@@ -251,6 +251,36 @@ static bool in_proportion(const again *w, const double *most, const double *fact
     return true;
 }
 
+/* ---- what stays of modes ---- */
+
+double fw_verdict_mode_lowest(double off, double bodies) {
+    return fmax(1 - off - 0.5 * bodies, (1 - off) / sqrt(1 + 2 * bodies));
+}
+
+bool fw_verdict_leave_modes(const fw_verdict_shaken *of, double end_s, double bodies,
+                            const double *model, fw_verdict_shaken_mode *own,
+                            fw_verdict_shaken_mode *under, double *common) {
+    const double turned = 2, dies = 3, most = 0.03;
+    *common = 0;
+    for (int k = 0; k < of->n; k++) {
+        const fw_verdict_shaken_mode *is = &of->mode[k];
+        const double off = 1 - is->least / is->omega,
+                     swings = fmin(is->omega * end_s, dies / fmax(is->damping[0], 1e-9)),
+                     gives =
+                         fw_verdict_mode_lowest(0, bodies) / fw_verdict_mode_lowest(off, bodies);
+        own[k] = *is;
+        own[k].low = own[k].soft = fmin(is->soft * gives, is->omega);
+        own[k].high = own[k].stiff = own[k].least = is->omega;
+        under[k] = off * swings < turned ? own[k] : *is;
+        under[k].held = HUGE_VAL; /* how far loads hold what is softer is in these motions */
+        if (!isfinite(model[k])) return false; /* nor is its frequency */
+        *common = fmax(*common, 2 * model[k]);
+    }
+    return *common < most;
+}
+
+/* ---- is it open, and what is known after it was moved ---- */
+
 /* is any hinge still open by what was found so far? */
 static bool stays_open(const again *w, const double *most, const double *stays,
                        const double *factor) {

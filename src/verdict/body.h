@@ -329,6 +329,16 @@ fw_status fw_verdict_with_stiffness(fw_arena *arena, const fw_mechanism *mechani
 /* may a scene that is moved with other stiffnesses decide what factors (2 x nhinge) of modes leave open? */
 bool fw_verdict_stiffness_decides(const struct fw_verdict_variant_verdict *v, int scene,
                                   const double *factor);
+/* Of a frequency what its own error and what bodies give leave of it. They add to compliances, 1/omega^2 goes by 1 + bodies:
+   of what gives much no less than by twice that, where a share of the frequency would leave nothing */
+double fw_verdict_mode_lowest(double off, double bodies);
+/* What is left of modes where the scene is moved with other stiffnesses: of what rings what bodies give and what damps (own);
+   of what laws that go to and fro do to modes (under) likewise where the error of a frequency hardly turns its phase while it
+   swings, since of others no motion but that at resonance tells how high that is. common: what the next model of hinges
+   may change of all stiffnesses; false: that is not known */
+bool fw_verdict_leave_modes(const struct fw_verdict_shaken *of, double end_s, double bodies,
+                            const double *model, struct fw_verdict_shaken_mode *own,
+                            struct fw_verdict_shaken_mode *under, double *common);
 /* It is moved, where it still may with what stays of these factors: factors of hinges that are then known better. common: what
    the next model of hinges may change of all stiffnesses */
 fw_status fw_verdict_stiffness_again(fw_arena *arena, const fw_mechanism *mechanism, int scene,

@@ -34,6 +34,7 @@ enum { MODES_SHAKEN = 24 };
 typedef struct shaking {
     const fw_quantity_law *law;
     fw_quantity_law_acts as;
+    bool stiffens; /* it makes stiffnesses come and go, and pulls by its square alone: a voltage */
 } shaking;
 
 typedef struct shakings { /* of one scene, those that go to and fro */
@@ -45,15 +46,16 @@ typedef struct shakings { /* of one scene, those that go to and fro */
 } shakings;
 
 static void take_law(shakings *to, const fw_quantity_law *law, fw_quantity_law_acts as) {
-    if (fw_quantity_law_goes_to_and_fro(law, to->end_s)) to->item[to->n++] = (shaking){law, as};
+    if (fw_quantity_law_goes_to_and_fro(law, to->end_s))
+        to->item[to->n++] = (shaking){law, as, false};
 }
 
 static bool in_the_plane(const fw_device_base_motion *b) {
     return b->ax_m_per_s2 != 0 || b->ay_m_per_s2 != 0;
 }
 
-/* What prescribes a coordinate is followed, and heat strains what is held as a load does: it counts as both. A voltage also
-   makes stiffnesses come and go with its law, parts of a scene may act by its square: likewise */
+/* What prescribes a coordinate is followed, and heat strains what is held as a load does: it counts as both. Parts of a scene may
+   act by the square of their law: likewise. A voltage also makes stiffnesses come and go with its law */
 static fw_status find_laws(fw_arena *arena, const fw_mechanism *m, const fw_device_scene *s,
                            shakings *to) {
     const int most = s->nforce + s->ntorque + s->ntendon + s->nbase +
@@ -71,8 +73,11 @@ static fw_status find_laws(fw_arena *arena, const fw_mechanism *m, const fw_devi
     for (int i = 0; i < m->ndriver; i++)
         take_law(to, &m->driver[i].law, FW_LAW_OF_COORDINATE);
     for (int as = 0; as < 2; as++) {
+        const int before = to->n;
         for (int i = 0; i < s->ncomb; i++)
             take_law(to, s->comb[i].law, as ? FW_LAW_OF_LOAD : FW_LAW_SQUARED);
+        for (int i = before; i < to->n; i++)
+            to->item[i].stiffens = as;
         for (int i = 0; i < s->npart; i++)
             take_law(to, s->part[i].law, as ? FW_LAW_OF_LOAD : FW_LAW_SQUARED);
         for (int i = 0; i < s->ntemperature; i++)
@@ -137,7 +142,9 @@ static answer answers_to(const shaking *by, double end_s, const fw_verdict_shake
         fmin(2 + ceil((high - low) * end / 0.5), fmax(20, most_steps / (a_second * end)));
     answer r = {1, 1, 1};
     double least_at = mode->omega;
-    if (!(as_computed > 0)) return r;
+    if (!(as_computed > 0) ||
+        (by->stiffens && !(mode->low < 1.5 * own && 1.5 * mode->high > own))) /* no tongue */
+        return r;
     for (double k = 0; k < n + 4; k++) { /* the last two with what damps most */
         const double at = k < n        ? low + (high - low) * k / (n - 1)
                           : k == n     ? fmin(fmax(own, low), high)
@@ -225,12 +232,6 @@ static fw_status add_answers(fw_arena *arena, const fw_mechanism *m, const shaki
     return FW_OK;
 }
 
-/* Of a frequency what its own error and what bodies give leave of it. They add to compliances, 1/omega^2 goes by 1 + bodies:
-   of what gives much no less than by twice that, where a share of the frequency would leave nothing */
-static double lowest(double off, double bodies) {
-    return fmax(1 - off - 0.5 * bodies, (1 - off) / sqrt(1 + 2 * bodies));
-}
-
 /* where the modes of `other`, at rest, lie elsewhere: the scene passes there */
 static void hold_both(const fw_statics_modes *other, double bodies, fw_verdict_shaken *s) {
     for (int k = 0; k < s->n; k++) {
@@ -239,7 +240,7 @@ static void hold_both(const fw_statics_modes *other, double bodies, fw_verdict_s
         const fw_statics_mode *at = &other->mode[mode->number];
         if (!(at->stiffness_per_s2 > 0)) continue;
         const double off = fmin(fw_statics_mode_error(at), 0.5);
-        mode->low = fmin(mode->low, at->omega_rad_per_s * lowest(off, bodies));
+        mode->low = fmin(mode->low, at->omega_rad_per_s * fw_verdict_mode_lowest(off, bodies));
         mode->high = fmax(mode->high, at->omega_rad_per_s * (1 + off));
     }
 }
@@ -303,7 +304,8 @@ static fw_status find_shaken(fw_arena *arena, const fw_mechanism *m, const fw_de
         const fw_statics_mode *is = &modes->mode[to->mode[k].number];
         const double error = fw_statics_mode_error(is), off = fmin(error, 0.5);
         model[k] = isnan(error) ? error : is->model_error;
-        to->mode[k].low = to->mode[k].soft = to->mode[k].omega * lowest(off, bodies);
+        to->mode[k].low = to->mode[k].soft =
+            to->mode[k].omega * fw_verdict_mode_lowest(off, bodies);
         to->mode[k].high = to->mode[k].stiff = to->mode[k].omega * (1 + off);
         /* of pins on an axis that nobody knows no stiffness is known to be off by that much */
         to->mode[k].held = isnan(error) ? HUGE_VAL : 1 + fw_verdict_motion_lasting_error(m);
@@ -424,36 +426,11 @@ static fw_status may_pump(fw_arena *arena, const fw_mechanism *m, int scene, con
                      damping = fw_verdict_damping_of(mode),
                      off = fmin(fw_statics_mode_error(mode), 0.5);
         if (!(0.25 * share * omega * by->end_s > log(much))) continue;
-        const double grown =
-            grows_most(by, omega * lowest(off, bodies), omega * (1 + off), omega, damping, share);
+        const double grown = grows_most(by, omega * fw_verdict_mode_lowest(off, bodies),
+                                        omega * (1 + off), omega, damping, share);
         if (grown > much) return tell_pumped(arena, s, mode, share, grown, v);
     }
     return FW_OK;
-}
-
-/* What is left of modes where the scene is moved with other stiffnesses: of what rings what bodies give and what damps (own);
-   of what laws that go to and fro do to modes (under) likewise where the error of a frequency hardly turns its phase while it
-   swings, since of others no motion but that at resonance tells how high that is. common: what the next model of hinges
-   may change of all stiffnesses; false: that is not known */
-static bool leave_modes(const fw_verdict_shaken *of, double end_s, double bodies,
-                        const double *model, fw_verdict_shaken_mode *own,
-                        fw_verdict_shaken_mode *under, double *common) {
-    const double turned = 2, dies = 3, most = 0.03;
-    *common = 0;
-    for (int k = 0; k < of->n; k++) {
-        const fw_verdict_shaken_mode *is = &of->mode[k];
-        const double off = 1 - is->least / is->omega,
-                     swings = fmin(is->omega * end_s, dies / fmax(is->damping[0], 1e-9)),
-                     gives = lowest(0, bodies) / lowest(off, bodies);
-        own[k] = *is;
-        own[k].low = own[k].soft = fmin(is->soft * gives, is->omega);
-        own[k].high = own[k].stiff = own[k].least = is->omega;
-        under[k] = off * swings < turned ? own[k] : *is;
-        under[k].held = HUGE_VAL; /* how far loads hold what is softer is in these motions */
-        if (!isfinite(model[k])) return false; /* nor is its frequency */
-        *common = fmax(*common, 2 * model[k]);
-    }
-    return *common < most;
 }
 
 /* less (2 nhinge): what factors of hinges are to be multiplied by */
@@ -471,7 +448,8 @@ static fw_status moved_again(fw_arena *arena, const fw_mechanism *m, int scene, 
     if (!fw_verdict_stiffness_decides(v, scene, of)) return FW_OK;
     FW_NEED(own.mode = fw_arena_array(arena, fw_verdict_shaken_mode, 2 * (size_t)own.n));
     under = own.mode + own.n;
-    if (!leave_modes(&v->shaken[scene], by->end_s, bodies, model, own.mode, under, &common))
+    if (!fw_verdict_leave_modes(&v->shaken[scene], by->end_s, bodies, model, own.mode, under,
+                                &common))
         return FW_OK;
     for (size_t i = 0; i < n; i++)
         factor[i] = 1, now[i] = of[i];

@@ -1264,7 +1264,7 @@ class Resonance(unittest.TestCase):
                    "copper": (self.guide(push, 25, "copper-plated", 9, "copper-on-porous-silicon"), 115, 1, (-0.9, 0, 0.5)),
                    "base": (self.guide('<base-motion ax="6 m/s^2" %s/>', 12), 150, 1, (-0.4,)),
                    "lever": (self.LEVER, 150, 1, (-0.9, 0.5)),
-                   "comb": (self.guide(comb, 4, flow="silicon-on-glass"), 150, 0.5, (-0.4,))}
+                   "comb": (self.guide(comb, 4, flow="silicon-on-glass"), 150, 0.5, (-0.4, 0))}
 
         def ran(command, text, frequency, modulus, data=None):
             options = ("--corners", "none", "--advice", "none") if command == "check" else ()
