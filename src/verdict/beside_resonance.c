@@ -217,7 +217,7 @@ bool fw_verdict_stiffness_decides(const fw_verdict_variant_verdict *v, int scene
     const fw_dynamics_motion *x = v->motion[scene];
     const fw_verdict_strain_monitor *saw = x->observed;
     const double surely = 1.01; /* more than numbers are off by */
-    bool any = false;
+    bool any = false, beyond = false, both = false;
     for (int i = 0; i < v->nreason; i++)
         if (v->reason[i].decision != FW_ACCEPT) return false;
     if (!saw || x->ended || x->ledger.hinge.used == FW_HINGE_ELASTICA ||
@@ -226,10 +226,11 @@ bool fw_verdict_stiffness_decides(const fw_verdict_variant_verdict *v, int scene
     for (int k = 0; k < m->nhinge; k++) {
         const end e = end_of(m, saw, k);
         if (e.way < 0 && e.at * factor[2 * k + 1] > surely) return false; /* beyond it anyhow */
-        if (e.way == 0) return false;                                     /* whatever modes do */
         any = any || is_open(e, factor + 2 * k);
+        beyond = beyond || e.way < 0, both = both || e.way == 0;
     }
-    return any;
+    return any &&
+           (beyond || !both); /* what has its limit within its band is open whatever modes do */
 }
 
 /* up and down of a hinge by L and R, over what bands have of stiffnesses, with what stays of (7) */
@@ -281,17 +282,20 @@ bool fw_verdict_leave_modes(const fw_verdict_shaken *of, double end_s, double bo
 
 /* ---- is it open, and what is known after it was moved ---- */
 
-/* is any hinge still open by what was found so far? */
+/* Is the device still open by what was found so far? One hinge that is beyond its limit decides it, whatever others do */
 static bool stays_open(const again *w, const double *most, const double *stays,
                        const double *factor) {
     double held[2], now[2];
+    bool open = false;
     held_of(w->m, held);
     for (int k = 0; k < w->m->nhinge; k++) {
         const end e = end_of(w->m, w->like->observed, k);
         factors_of(all_ways(w, k), most + 2 * k, held, stays + 2 * k, now);
-        if (is_open(e, factor + 2 * k) && is_open(e, now)) return true;
+        const bool one = is_open(e, factor + 2 * k) && is_open(e, now);
+        if (e.way < 0 && !one) return false;
+        open = open || one || e.way == 0;
     }
-    return false;
+    return open;
 }
 
 fw_status fw_verdict_stiffness_again(fw_arena *arena, const fw_mechanism *m, int scene,
