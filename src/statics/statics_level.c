@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One level up at one instant. At the pose q of the level used, under the loads of its time, forces
-   and joint forces leave M a (a = sum of modes times forces along them: 0 in an equilibrium, the
-   acceleration of the motion where it swings, less what goes with squared velocities). The next
-   level is put into equilibrium under the same loads and the dead forces -M a:
+/* One level up at one instant. At the pose q of the level used, under the loads of its time, forces and joint forces leave M a
+   (a = sum of modes times forces along them: 0 in an equilibrium, the acceleration of the motion where it swings, less what goes
+   with squared velocities). The next level is put into equilibrium under the same loads and the dead forces -M a:
 
      F_next(q', t) - M a + G'^T lambda' = 0,   Newton's method from q
 
@@ -87,7 +86,8 @@ static double opening(const fw_mechanism_pin *pin, const double *q) {
 static const double fw_still_rad = 1e-11, fw_still_m = 1e-14, fw_hardly_deflected = 1e-7;
 
 /* Angles count against the largest deflection of any hinge, a displacement across a strip over its length counting as one: a
-   stage on leaves hardly turns any. Places count against the largest way of any body. least: of both, in the rest of a motion */
+   stage on leaves hardly turns any. Places count against the largest way of any body, or of what a hinge turns, a
+   length away from it: origins may be at pins. least: of both, in the rest of a motion */
 static void compare(const fw_mechanism *m, const double *rest, const double least[2],
                     fw_statics_level_step *step) {
     double deflected = least[0], way = least[1], apart = 0;
@@ -98,7 +98,9 @@ static void compare(const fw_mechanism *m, const double *rest, const double leas
         for (int up = 0; up < 2; up++) { /* pins may hold a mechanism that flexures let move */
             const fw_statics_level_state *s = up ? &step->up : &step->at;
             deflected = fmax(deflected, fabs(s->angle_rad[pin]));
-            if (L > 0) deflected = fmax(deflected, opening(&m->pin[pin], s->q) / L);
+            if (!(L > 0)) continue;
+            deflected = fmax(deflected, opening(&m->pin[pin], s->q) / L);
+            way = fmax(way, L * fabs(s->angle_rad[pin]));
         }
         step->angle_rad =
             fmax(step->angle_rad, fabs(step->up.angle_rad[pin] - step->at.angle_rad[pin]));
@@ -560,8 +562,7 @@ fw_status fw_statics_level_of_equilibrium(fw_statics_equilibrium *w,
     FW_NEED(step);
     *out = step;
     FW_TRY(next_rest(w, step, &high));
-    static const double none[2] = {0};
-    return step->why_not ? FW_OK : climb(w, &high, none, step);
+    return step->why_not ? FW_OK : climb(w, &high, (const double[2]){0}, step);
 }
 
 fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, fw_statics_level_small *out) {
@@ -580,8 +581,7 @@ fw_status fw_statics_level_of_modes(fw_statics_equilibrium *w, fw_statics_level_
     if (rests ? fw_statics_equilibrium_evaluate(&high) != FW_OK : !settle(&high)) return FW_OK;
     const fw_statics_reduced *a = &w->reduced, *b = &high.reduced;
     double worst = 0;
-    /* those that the mechanism has with pins: what hinges add is far above. A stage that pins would
-       hold has none */
+    /* those that the mechanism has with pins: what hinges add is far above. A stage that pins would hold has none */
     int own = b->dof - 2 * high.model->nreleased;
     if (own != a->dof - 2 * w->model->nreleased || own < 1) own = a->dof == b->dof ? a->dof : 0;
     if (own == 0) return FW_OK;

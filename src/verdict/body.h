@@ -345,6 +345,9 @@ fw_status fw_verdict_stiffness_again(fw_arena *arena, const fw_mechanism *mechan
                                      const fw_dynamics_motion_options *options, double common,
                                      const double *stays,
                                      const struct fw_verdict_variant_verdict *v, double *factor);
+/* strain that a hinge may have had besides in swings which the steps of the motion were too long to follow */
+double fw_verdict_lost_swing(const fw_mechanism *mechanism, const fw_mechanism_hinge *hinge,
+                             const fw_dynamics_motion *motion);
 /* where modes that lie elsewhere move everything between `less` and `by` times as far: what meets, or may; what rings and is not known;
    electrodes, ways: without the motion of a softer device (near_a_fold.c) */
 fw_status fw_verdict_modes_may_meet(fw_arena *arena, int scene, double less, double by,

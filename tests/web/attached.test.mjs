@@ -54,6 +54,20 @@ describe("attached to the bodies", () => {
         }
     });
 
+    test("on a narrow screen no button lies over the name of a cable", async () => {
+        const size = page.viewportSize();
+        await page.setViewportSize({ width: 390, height: 844 });
+        await page.waitForTimeout(200); // the picture takes its size
+        const over = await page.evaluate(() => {
+            const box = (e) => e.getBoundingClientRect();
+            const buttons = [...document.querySelectorAll("#panel-motion .stage-tools, #panel-motion .zoom-buttons")].map(box);
+            return [...document.querySelectorAll("#panel-motion .attached-tag")].filter((e) => e.textContent).map((e) => [e.textContent, box(e)])
+                .filter(([, t]) => buttons.some((b) => t.left < b.right && b.left < t.right && t.top < b.bottom && b.top < t.bottom)).map(([name]) => name);
+        });
+        assert.deepEqual(over, []);
+        await page.setViewportSize(size);
+    });
+
     test("a cable says its tension, its arrow what is drawn in", async () => {
         const p = await preview();
         await slide("End");

@@ -8,6 +8,8 @@ import { moved, place } from "./outline.js";
 const FIXED = [0, 0, 0];
 const COILS = 7;
 const BAR_UM = 40; // behind the fingers of electrodes that nobody has drawn
+const SHARES = [1 / 3, 1 / 2, 2 / 3, 1 / 5, 4 / 5]; // of the way along, where a name may stand: the first that is free
+const NAME = 14; // half of a short name, in pixels, and its height
 
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 const write = (points) => points.map(([x, y], i) => `${i ? "L" : "M"}${x.toFixed(3)} ${y.toFixed(3)}`).join("");
@@ -168,15 +170,20 @@ export class Attached {
         this.places = this.items.flatMap((item) => item(at, inside, acting, q));
     }
 
-    /** Names stand beside what they name, a third of the way along: hinges have theirs towards the middle of the picture. */
-    name(toScreen, scale) {
+    /** Names stand beside what they name, a third of the way along: hinges have theirs towards the middle of the picture; farther
+     *  along, or on the other side, where buttons lie there. covered: [left, top, right, bottom] of these, in pixels. */
+    name(toScreen, scale, covered) {
         for (const { tag, a, b, away } of this.places ?? []) {
             const [[x0, y0], [x1, y1]] = [toScreen(...a), toScreen(...b)];
             const steep = Math.abs(y1 - y0) > Math.abs(x1 - x0);
             const off = away * scale;
+            const at = (share, side) => [x0 + (x1 - x0) * share + (steep ? side * (7 + off) - (side < 0 ? 2 * NAME : 0) : 0), y0 + (y1 - y0) * share + (steep ? 4 : side < 0 ? NAME + 4 + off : -8 - off)];
+            const free = ([x, y]) => covered.every(([left, top, right, bottom]) => x < left - NAME || x > right + NAME || y < top - 4 || y > bottom + NAME);
+            const places = [1, -1].flatMap((side) => SHARES.map((share) => at(share, side)));
+            const [x, y] = places.find(free) ?? places[0];
             tag.setAttribute("text-anchor", steep ? "start" : "middle");
-            tag.setAttribute("x", (x0 + (x1 - x0) / 3 + (steep ? 7 + off : 0)).toFixed(1));
-            tag.setAttribute("y", (y0 + (y1 - y0) / 3 + (steep ? 4 : -8 - off)).toFixed(1));
+            tag.setAttribute("x", x.toFixed(1));
+            tag.setAttribute("y", y.toFixed(1));
         }
     }
 }

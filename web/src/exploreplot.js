@@ -111,7 +111,7 @@ export class ExplorePlot {
             if (i % step && !edge) return;
             inside.append(s("path", { class: `explore-sign ${p.state}`, d: SIGNS[p.state], transform: `translate(${px(p.x)} ${!Number.isFinite(p.value) ? bottom - 8 : p.value > high ? TOP + 5 : py(p.value)})` }));
         });
-        if (Number.isFinite(x.now) && x.now >= x.from && x.now <= x.to) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}` }), s("text", { class: "explore-word", x: px(x.now) + (px(x.now) > right - 50 ? -5 : 5), y: TOP + 10, "text-anchor": px(x.now) > right - 50 ? "end" : "start" }, "now"));
+        if (Number.isFinite(x.now) && x.now >= x.from && x.now <= x.to) inside.append(s("path", { class: "explore-now", d: `M${px(x.now)} ${TOP}V${bottom}` }), s("text", { class: "explore-word", x: px(x.now) + (px(x.now) > right - 50 ? -5 : 5), y: TOP + (limits.some((v) => Math.abs(py(v) - TOP - 6) < 10) ? 26 : 10), "text-anchor": px(x.now) > right - 50 ? "end" : "start" }, "now"));
         if (at !== null && at !== undefined) inside.append(s("path", { class: "explore-at", d: `M${px(at)} ${TOP}V${bottom}` }));
         out.push(area, inside);
         limits.forEach((v) => py(v) >= TOP && out.push(s("text", { class: "explore-word limit", x: right - 4, y: py(v) - 5, "text-anchor": "end" }, "limit")));

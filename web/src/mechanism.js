@@ -292,7 +292,7 @@ export class Mechanism {
             taken.push([px, py]);
             x.g.setAttribute("transform", `translate(${px.toFixed(1)} ${py.toFixed(1)})`);
         }
-        this.attached.name((x, y) => this.view.toScreen(x, y), this.view.k);
+        this.attached.name((x, y) => this.view.toScreen(x, y), this.view.k, this.covered?.[2] ?? []);
         for (const load of this.loads) this.#load(load);
     }
 
@@ -316,9 +316,17 @@ export class Mechanism {
         load.path.setAttribute("d", `M${x.toFixed(1)} ${y.toFixed(1)}L${(x + (ux / far) * length).toFixed(1)} ${(y - (uy / far) * length).toFixed(1)}`);
     }
 
+    /** [left, top, right, bottom] of what lies over the picture, in its pixels. */
+    #buttons() {
+        const own = this.svg.getBoundingClientRect();
+        return [...this.svg.parentElement.querySelectorAll(".stage-tools, .zoom-buttons")].map((e) => e.getBoundingClientRect()).filter((r) => r.width)
+            .map((r) => [r.left - own.left, r.top - own.top, r.right - own.left, r.bottom - own.top]);
+    }
+
     #resize() {
-        this.#place();
         const [w, height] = this.view.size;
+        if (this.covered?.[0] !== w || this.covered[1] !== height || !this.covered[2].length) this.covered = [w, height, this.#buttons()];
+        this.#place();
         const { um, text } = scaleBar(this.view.k);
         const length = um * this.view.k;
         const y = height - 14;
