@@ -381,10 +381,9 @@ static void narrowed(const fw_flexure_path_strain *s, int end, const double *M, 
     out->peak = fmax(out->peak, fmax(fabs(out->root[end][0]), fabs(out->root[end][1])));
 }
 
-/* What the peak is at least. At a fillet it stands s into the strip (fw_flexure_root_reach_m), and the moment there is
-   another one than at the block's face (solids of tests/judge/README.md: up to 6 % less); and of given places of its ends a
-   strip is pulled less by as much as the blocks give, which is 1.6 t of strip each at most. A strip that the pull
-   straightens has moments like the pull's root:
+/* What the peak is at least. At a fillet it stands s into the strip (fw_flexure_root_reach_m), and the moment there is another one
+   than at the block's face (solids of tests/judge/README.md: up to 6 % less); and of given places of its ends a strip is pulled less
+   by as much as the blocks give, which is 1.6 t of strip each at most. A strip that the pull straightens has moments like the pull's root:
 
      strain = k min(|M(0)|, |M(s)|) (1 - g y/(2 (y + 10))) + n (1 - g) |N|,
      g = 3.2 t/(L + 3.2 t),  y = N L^2/EI
@@ -411,12 +410,13 @@ static double least_at_root(const fw_flexure_path_strain *s, int end, const doub
     return (1 - s->less[end]) * least;
 }
 
-/* The same between the roots, where nothing is concentrated: an arc's outer face has less of a moment than its inner one */
+/* The same between the fillets, where nothing makes the strip wider: an arc's outer face has less of a moment than its inner one */
 static double least_between(const fw_flexure_path_strain *s, const double *M, const double *N) {
     const double g = s->stretched;
     double least = 0;
     for (int i = 1; i < s->n - 1; i++) {
         const fw_flexure_path_point *p = &s->point[i];
+        if (fmin(p->part, 1 - p->part) * s->length_m < s->fillet_m) continue;
         double pull = fmax(N[i] * s->length_m * p->soft_per_Nm, 0);
         double most = fabs(p->strain_per_Nm * M[i]), drawn = fabs(p->strain_per_N * N[i]);
         double bent = most * (1 - 0.5 * g * pull / (pull + 10));
