@@ -345,7 +345,8 @@ fw_status fw_verdict_stiffness_again(fw_arena *arena, const fw_mechanism *m, int
      eps = c Kt (2 E/(Y V))^(1/2),   c = 1 pulled, 3^(1/2) bent as an arc is
 
    In: SI, of a run with steps. Out: strain, 0 where omega h < 1: h the mean step, omega = (k/m)^(1/2) of the flexure's stiffest
-   way and of the lighter of its bodies. Range: leaves, arcs, paths by their mean width. Error: an upper bound where all that the
+   way and of the lighter of its bodies. Range: leaves, arcs, paths by their mean width; no more than
+   the strain that was seen, which had it before it was lost. Error: an upper bound where all that the
    balance is off by was lost so; a leaf under a torque and a force that begin at once lost 0.26 % of its peak strain, of
    which 0.28 % are said (test_hard_verdict.c, device 17) */
 double fw_verdict_lost_swing(const fw_mechanism *m, const fw_mechanism_hinge *hinge,

@@ -106,11 +106,12 @@ static fw_status judge_scene(fw_arena *arena, const judged *by, const fw_dynamic
     out->force_share = out->utilisation > by_angle ? 1.0 - by_angle / out->utilisation : 0.0;
     out->t_s = strain->t_s;
     /* a run that was ended went a whole turn, or to several times a limit: no error of its own changes that */
-    double numeric = motion->ended ? 0.0
-                                   : out->angle_error_rad / c->limit_angle_rad +
-                                         (strain->between + strain_error(motion) +
-                                          fw_verdict_lost_swing(by->m, by->hinge, motion)) /
-                                             out->strain_limit;
+    double numeric =
+        motion->ended ? 0.0
+                      : out->angle_error_rad / c->limit_angle_rad +
+                            (strain->between + strain_error(motion) +
+                             fmin(strain->value, fw_verdict_lost_swing(by->m, by->hinge, motion))) /
+                                out->strain_limit;
     const double beside = fw_verdict_motion_beside(motion);
     if (isfinite(numeric)) /* angles have it in their errors: it counts once */
         numeric -= fmin(fw_verdict_motion_beside_rad(motion) / c->limit_angle_rad,

@@ -144,6 +144,11 @@ static void step_up(void **state) {
                 way = fmax(way, hypot(next[0] - s.r.body[b].x_m, next[1] - s.r.body[b].y_m));
                 apart = fmax(apart, hypot(next[0] - at[0], next[1] - at[1]));
             }
+            for (int i = 0; i < s.r.m.nhinge; i++) { /* and of what hinges turn, a length away */
+                const fw_mechanism_hinge *h = &s.r.m.hinge[i];
+                way = fmax(way, h->law.length_m * fabs(step->at.angle_rad[h->pin]));
+                way = fmax(way, h->law.length_m * fabs(step->up.angle_rad[h->pin]));
+            }
             assert_near(step->relative, fmax(off / largest, apart / way), 1e-9);
             fw_arena_free(s.r.arena);
         }
