@@ -348,7 +348,7 @@ fw_status fw_verdict_stiffness_again(fw_arena *arena, const fw_mechanism *m, int
    way and of the lighter of its bodies. Range: leaves, arcs, paths by their mean width; no more than
    the strain that was seen, which had it before it was lost. Error: an upper bound where all that the
    balance is off by was lost so; a leaf under a torque and a force that begin at once lost 0.26 % of its peak strain, of
-   which 0.28 % are said (test_hard_verdict.c, device 17) */
+   which 0.28 % are said (test_hard_verdict.c, device 17). Source: docs/decisions/0250-what-steps-do-not-follow.md */
 double fw_verdict_lost_swing(const fw_mechanism *m, const fw_mechanism_hinge *hinge,
                              const fw_dynamics_motion *x) {
     const fw_mechanism_pin *pin = &m->pin[hinge->pin];
