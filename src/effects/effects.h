@@ -174,8 +174,9 @@ typedef struct fw_effect_entry { /* a line of the ledger */
     const char *id;
     bool called_for, active;
     /* on the relative change of the peak hinge deflection when left out, inf when the effect is the motion; instructions per
-       right-hand side when it is on, as measured once (docs/theory/effects/costs.md). 0 when it is not called for */
-    double bound, cost;
+       right-hand side when it is on, as measured once (docs/theory/effects/costs.md). 0 when it is not called for. open: by what
+       share what no motion has may change forces, where nothing bounds it */
+    double bound, cost, open;
     const char *reason;
     const char *looked_at; /* why auto keeps it whatever its bound is (fw_effect_row); or NULL */
 } fw_effect_entry;

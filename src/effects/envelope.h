@@ -120,6 +120,25 @@ typedef struct fw_effects_segments {
 fw_status fw_effects_eyelet_friction_segments(fw_arena *arena, const fw_device_scene *scene,
                                               int tendon, const fw_effects_force_element *cable,
                                               const double *q, int nbody, fw_effects_segments *to);
+/* ---- of a motion that is known, where the envelope is not valid ---- */
+
+/* how far the rotor of a drive came from its stator, by sizes: finger_bending.c */
+typedef struct fw_effects_comb_stood {
+    double aside_m, along_m, tilt_rad;
+} fw_effects_comb_stood;
+/* what that motion lacks, since fingers bend: force (3 nbody) += in sizes, turns as the variation of an answer. false: nothing
+   bounds it. Nothing of plates, and of what has no voltage */
+bool fw_effects_fingers_lack(fw_arena *arena, const fw_mechanism *mechanism,
+                             const fw_device_scene *scene, const fw_device_comb *drive,
+                             const fw_effects_comb_stood *stood, double *force, double *turns);
+/* the ledger's entry of fingers that bend where nothing bounds what they do, or NULL; and what it is called where that is known */
+const fw_effect_entry *fw_effects_fingers_open(const fw_effect_ledger *ledger);
+fw_status fw_effects_fingers_words(fw_arena *arena, const fw_effect_entry *open, const char **how);
+/* What such an effect changes is known now, as the share `bound` of the motion, and in the ledger; *found false: it is too much to
+   be small. Where nothing else is open the ledger is not undecided any more: table.c */
+fw_status fw_effects_found_bound(fw_arena *arena, const char *id, const char *how, double bound,
+                                 fw_effect_ledger *ledger, bool *found);
+
 /* how far an eyelet goes at most */
 double fw_effects_envelope_goes(const fw_effect_case *c, const fw_device_eyelet *eyelet);
 

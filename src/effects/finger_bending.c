@@ -87,14 +87,12 @@ static bool bends(const fw_effects_comb_element *d, double share, double y, doub
     return true;
 }
 
-static bool lacks(const fw_effect_case *c, const fw_device_comb *from, double *force,
-                  double *turns) {
+static bool lacks(const fw_effect_case *c, const fw_device_comb *from, fw_effects_comb_reach at,
+                  double *force) {
     const fw_effects_comb_element d = fw_effects_comb_as_drawn(c, from);
-    const fw_effects_comb_reach at = fw_effects_comb_reaches(c, from, &d);
     const double y = at.aside_m + at.tilt_rad * at.half_m,
                  g = d.gap_m - fabs(d.lean_m); /* at the narrowest face, which pulls most */
     double kappa, more;
-    *turns = at.turns;
     if (!bends(&d, share_of(c, &d, at.square_V2), y, &kappa, &more)) return false;
     const double across = 2 * kappa * at.square_V2 * 2 * at.half_m * more, far = y + more;
     const double along =
@@ -117,31 +115,38 @@ static double largest_share(const fw_effect_case *c) {
     return most;
 }
 
+static fw_status words(fw_arena *arena, double share, const char *more, const char **out) {
+    char part[32];
+    FW_NEED(*out = fw_arena_printf(
+                arena,
+                "fingers bend by up to %s %% of what would snap them, and pull the rotor aside the "
+                "more%s",
+                fw_number_text(part, sizeof part, 100 * share, 2), more));
+    return FW_OK;
+}
+
 static fw_status bound(const fw_effect_case *c, double *value, const char **reason) {
     const fw_effects_envelope *e = c->envelope;
     const bool valid = e && e->valid;
-    double *force, sum = 0, turns;
+    double *force, sum = 0;
     fw_mark mark = fw_arena_mark(c->arena);
     for (int i = 0; i < c->scene->ncomb && valid; i++) {
         const fw_device_comb *from = &c->scene->comb[i];
         if (!fw_effects_comb_drives(from) || from->kind != FW_ELECTRODES_COMB) continue;
         FW_NEED(force = fw_arena_array(c->arena, double, (size_t)e->n));
-        if (!lacks(c, from, force, &turns)) sum = (double)INFINITY;
-        sum += fw_effects_envelope_answer(c, force, turns) +
-               fw_effects_envelope_displaced(c, force, turns);
+        const fw_effects_comb_element d = fw_effects_comb_as_drawn(c, from);
+        const fw_effects_comb_reach at = fw_effects_comb_reaches(c, from, &d);
+        if (!lacks(c, from, at, force)) sum = (double)INFINITY;
+        sum += fw_effects_envelope_answer(c, force, at.turns) +
+               fw_effects_envelope_displaced(c, force, at.turns);
     }
     fw_arena_rewind(c->arena, mark);
     *value = valid && sum < (double)INFINITY ? sum : (double)INFINITY;
-    char part[32];
     const double share = largest_share(c);
     if (isfinite(share))
-        FW_NEED(*reason = fw_arena_printf(
-                    c->arena,
-                    "fingers bend by up to %s %% of what would snap them, and pull the rotor aside "
-                    "the "
-                    "more%s",
-                    fw_number_text(part, sizeof part, 100 * share, 2),
-                    isfinite(*value) ? "" : "; nothing bounds what that does to the motion"));
+        return words(c->arena, share,
+                     isfinite(*value) ? "" : "; nothing bounds what that does to the motion",
+                     reason);
     else
         *reason =
             "the law of a voltage has no proved bounds, nor has how far fingers bend; nothing "
@@ -150,8 +155,11 @@ static fw_status bound(const fw_effect_case *c, double *value, const char **reas
     return FW_OK;
 }
 
+/* by what share a finger's pull may change, where r of V_f is the largest */
+static const double fw_force_share = 1.5;
+
 static fw_status beside(const fw_effect_case *c, double *share) {
-    *share = 1.5 * largest_share(c);
+    *share = fw_force_share * largest_share(c);
     return FW_OK;
 }
 
@@ -163,3 +171,37 @@ const fw_effect_row fw_effect_finger_bending = {
     .add = fw_effects_add_nothing,
     .count = count,
     .beside = beside};
+
+/* ---- of a motion that is known ---- */
+
+const fw_effect_entry *fw_effects_fingers_open(const fw_effect_ledger *ledger) {
+    for (int i = 0; i < ledger->count; i++) {
+        const fw_effect_entry *e = &ledger->item[i];
+        if (strcmp(e->id, fw_effect_finger_bending.id) == 0 && e->open > 0 && isfinite(e->open))
+            return e;
+    }
+    return NULL;
+}
+
+bool fw_effects_fingers_lack(fw_arena *arena, const fw_mechanism *mechanism,
+                             const fw_device_scene *scene, const fw_device_comb *drive,
+                             const fw_effects_comb_stood *stood, double *force, double *turns) {
+    const fw_effect_case c = {arena, mechanism, scene, NULL, NULL, NULL};
+    if (!fw_effects_comb_drives(drive) || drive->kind != FW_ELECTRODES_COMB) return true;
+    const fw_quantity_law_size law = fw_quantity_law_measure(drive->law, scene->duration_s);
+    const fw_effects_comb_element d = fw_effects_comb_as_drawn(&c, drive);
+    const double volt = drive->voltage_V * law.most;
+    const fw_effects_comb_reach at = {.aside_m = stood->aside_m,
+                                      .along_m = stood->along_m,
+                                      .tilt_rad = stood->tilt_rad,
+                                      .half_m =
+                                          0.5 * fmin(d.length_m, d.overlap_m + stood->along_m),
+                                      .square_V2 = volt * volt,
+                                      .turns = law.most > 0 ? 2 * law.variation / law.most : 0};
+    *turns = fmax(*turns, at.turns);
+    return lacks(&c, drive, at, force);
+}
+
+fw_status fw_effects_fingers_words(fw_arena *arena, const fw_effect_entry *open, const char **how) {
+    return words(arena, open->open / fw_force_share, ", in the motion as it was found", how);
+}

@@ -200,6 +200,7 @@ static fw_status set_aside(const fw_effect_case *c, fw_effect_entry *entry,
             continue;
         }
         FW_TRY(rows[i]->beside(c, &share));
+        e->open = share;
         if (share > fw_beside_small) {
             ledger->undecided = e->reason;
             ledger->undecided_share = fmax(ledger->undecided_share, share);
@@ -210,6 +211,29 @@ static fw_status set_aside(const fw_effect_case *c, fw_effect_entry *entry,
         FW_NEED(e->reason = fw_arena_printf(
                     c->arena, "%s: twice what it changes of forces, %s %%, is in every band",
                     e->reason, text));
+    }
+    return FW_OK;
+}
+
+fw_status fw_effects_found_bound(fw_arena *arena, const char *id, const char *how, double bound,
+                                 fw_effect_ledger *ledger, bool *found) {
+    char text[32];
+    *found = false;
+    if (!(bound <= fw_beside_small)) return FW_OK;
+    ledger->undecided = NULL, ledger->undecided_share = 0;
+    for (int i = 0; i < ledger->count; i++) {
+        fw_effect_entry *e = &ledger->item[i];
+        if (strcmp(e->id, id) == 0 && e->open > 0) {
+            if (!(e->open > fw_beside_small)) ledger->beside -= fw_beside_times * e->open;
+            ledger->beside += bound;
+            e->bound = bound, e->open = 0, *found = true;
+            fw_percent_text(text, sizeof text, bound);
+            FW_NEED(e->reason =
+                        fw_arena_printf(arena, "%s; at most %s %%, in every band", how, text));
+        }
+        if (!(e->open > fw_beside_small)) continue;
+        ledger->undecided = e->reason;
+        ledger->undecided_share = fmax(ledger->undecided_share, e->open);
     }
     return FW_OK;
 }

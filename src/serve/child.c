@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Processes of the server's own, and the directory in which they work. */
 #include "base/output.h"
-#include "serve/child.h"
+#include "serve/jobs.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>

@@ -5,7 +5,6 @@
 #define FW_SERVE_SERVER_H
 #include "serve/jobs.h"
 #include "serve/serve.h"
-#include "serve/child.h"
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -2,8 +2,7 @@
 /* Processes that wait for work of milliseconds: the server's side, and the worker's own. */
 #include "base/arena.h"
 #include "plan/live.h"
-#include "serve/child.h"
-#include "serve/request.h"
+#include "serve/jobs.h"
 #include "serve/serve.h"
 #include "study/study.h"
 #include <errno.h>

@@ -412,4 +412,13 @@ fw_status fw_verdict_may_be_met(fw_arena *arena, const struct fw_verdict_variant
 /* raises *held to how much of a final length, m, is that of a contact which holds as computed, and with flexures softer and stiffer */
 fw_status fw_verdict_held_m(fw_arena *arena, const struct fw_verdict_variant_verdict *v,
                             const struct fw_verdict_requirement *r, double *held);
+
+/* ---- beside_motion.c: what no motion has ---- */
+
+/* Where nothing bounds what fingers that bend do, by the motion of the scene, which is then a copy with that in its ledger; and
+   the reason of what is left undecided (FW-D607) */
+fw_status fw_verdict_beside(fw_arena *arena, const fw_device_scene *scene, int index,
+                            const fw_dynamics_motion_options *options,
+                            struct fw_verdict_variant_verdict *v);
+
 #endif

@@ -3,6 +3,7 @@
 #include "base/constants.h"
 #include "base/text.h"
 #include "statics/statics.h"
+#include "verdict/body.h"
 #include "verdict/strain.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
@@ -263,16 +264,6 @@ static fw_status judge_level(fw_arena *arena, const fw_device_scene *scene,
                         why));
 }
 
-/* what no motion has and nothing bounds */
-static fw_status judge_beside(fw_arena *arena, const fw_device_scene *scene,
-                              const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
-    if (!motion->ledger.undecided) return FW_OK;
-    return fw_verdict_scene_reason(v, scene, 607, FW_INCONCLUSIVE, FW_VERDICT_KEEP_MOST,
-                                   fw_arena_printf(arena, "in %s%s %s",
-                                                   FW_NAMED("scene", scene->name),
-                                                   motion->ledger.undecided));
-}
-
 /* an instant without a strain: a peak that nobody saw may be there */
 static fw_status judge_strains(fw_arena *arena, const fw_device_scene *scene,
                                const fw_dynamics_motion *motion, fw_verdict_variant_verdict *v) {
@@ -329,7 +320,7 @@ fw_status fw_verdict_scene(fw_arena *arena, const fw_device_scene *scene, int i,
     FW_TRY(softened(arena, i, v));
     FW_TRY(judge_pull_in(arena, scene, v->pull_in[i], v->motion[i], options, diags, v));
     FW_TRY(judge_level(arena, scene, v->motion[i], v));
-    FW_TRY(judge_beside(arena, scene, v->motion[i], v));
+    FW_TRY(fw_verdict_beside(arena, scene, i, options, v));
     FW_TRY(judge_strains(arena, scene, v->motion[i], v));
     FW_TRY(judge_reliability(scene, &own, v));
     FW_TRY(judge_stability(arena, scene, i, diags, v));

@@ -569,6 +569,60 @@ class NearAFold(unittest.TestCase):
         self.assertEqual(decision, "inconclusive")
 
 
+class FingersThatPress(unittest.TestCase):
+    """a comb on a stage closes 2 um on a cell, and its fingers are at r of what would surely not snap them: no envelope is valid, and from 3 r/2 = 2.9 % on
+    all was undecided, whatever the rotor did aside"""
+
+    DEVICE = """<device xmlns="urn:flexwright:device:1" name="press"><parameter name="volts" value="170 V"/><parameter name="aside" value="0 nN"/><parameter name="turned" value="0 pN m"/><parameter name="length" value="200 um"/>
+<material ref="silicon-100" thickness="50 um"/><limits safety-factor="2"/><flow ref="al-masked-rie"/>
+<flexure id="leaf" kind="leaf" length="800 um" width="5 um" fillet="4 um"/><mechanism><body id="s" x="0 mm" y="0.85 mm"><plate x="0 mm" y="0.28 mm" width="2.4 mm" height="0.66 mm"/></body>
+<revolute id="A" a="ground" a-x="-0.6 mm" b="s" b-x="-0.6 mm" b-y="-0.85 mm" hinge="leaf" axis="0 deg"/><revolute id="B" a="ground" a-x="0.6 mm" b="s" b-x="0.6 mm" b-y="-0.85 mm" hinge="leaf" axis="0 deg"/></mechanism>
+<probe id="x" kind="displacement" on="s" direction="0 deg"/><probe id="f" kind="force" of="k"/><require probe="x" measure="final" min="1.9 um" max="2.2 um"/><require probe="f" measure="final" min="1 uN" max="200 uN"/>
+<scene name="go" duration="40 ms"><comb-drive id="c" kind="comb" on="s" x="1.385 mm" y="0.28 mm" direction="0 deg" fingers="20" gap="6.5 um" overlap="30 um" length="length" width="7 um" voltage="volts" law="ramp" rise="20 ms"/>
+<contact id="k" a="s" a-x="0.6 mm" a-y="0.61 mm" a-face="0 deg" b="ground" b-x="0.652 mm" b-y="1.46 mm" side="outside" distance="50 um" stiffness="2000 N/m" damping="0.001 N s/m" undrawn="placed"/>
+<force on="s" x="1.385 mm" y="0.28 mm" fy="aside" law="ramp" rise="20 ms"/><torque on="s" value="turned" law="ramp" rise="20 ms"/><material-damping loss-factor="0.05"/></scene></device>"""
+
+    def judged(self, volts, *settings, device=None):
+        said = json.loads(run("check", "-", "--json", "--corners", "none", "--advice", "none", "--measurements", "none", "--set", f"volts={volts} V",
+                              *(w for s in settings for w in ("--set", s)), input=device or self.DEVICE).stdout)
+        (fingers,) = [e for e in said["effects"] if e["id"] == "finger-bending"]
+        return said, fingers
+
+    def codes(self, said):
+        return [r["code"] for r in said["reasons"]]
+
+    def test_bands_hold_what_fingers_draw_aside(self):
+        """(2) of finger-bending.md at the y of the run, 3.41 nm, as a stated force and its couple, to either side; what the beams do is a third of it"""
+        gap, depth, half = 6.5e-6, 50e-6, 16e-6
+        for volts, y in ((100, 3.39e-9), (170, 3.41e-9), (200, 3.42e-9)):
+            said, fingers = self.judged(volts)
+            self.assertEqual((said["verdict"], self.codes(said)), ("accept", []), volts)
+            r = float(re.search(r"bend by up to ([0-9.]+) %", fingers["reason"]).group(1)) / 100
+            self.assertGreater(1.5 * r, 0.029)
+            self.assertTrue(0 < fingers["bound"] < 0.029, fingers)
+            force = 40 * 2 * half * 8.8542e-12 * depth / gap**3 * volts**2 * y * 1.5 * r / (1 - 1.5 * r)
+            for sign in (-1, 1):
+                other, _ = self.judged(volts, f"aside={sign * force * 1e9:.6g} nN", f"turned={sign * force * half * 1e12:.6g} pN m")
+                for was, now in zip(said["requirements"], other["requirements"]):
+                    self.assertNotEqual(was["value"], now["value"])
+                    self.assertLess(abs(now["value"] / was["value"] - 1), fingers["bound"])
+                    self.assertTrue(was["band"][0] < now["value"] < was["band"][1], (volts, was, now))
+                for was, now in zip(said["hinges"], other["hinges"]):
+                    self.assertLess(abs(now["utilisation"] / was["utilisation"] - 1), fingers["bound"])
+                    self.assertTrue(was["utilisation_band"][0] < now["utilisation"] < was["utilisation_band"][1], (volts, was, now))
+
+    def test_near_their_snap_they_stay_undecided(self):
+        """at r = 0.29 the bound is no small one any more; where the rotor is pushed aside neither is that of 170 V"""
+        said, fingers = self.judged(240)
+        self.assertEqual((said["verdict"], fingers["bound"], self.codes(said)), ("inconclusive", None, ["FW-D607"]))
+        said, _ = self.judged(170, "aside=3000 uN")
+        self.assertIn("FW-D607", self.codes(said))
+
+    def test_a_probe_of_which_nothing_is_known_stays_undecided(self):
+        other = self.DEVICE.replace("</device>", '<probe id="C" kind="capacitance" of="c"/><require probe="C" measure="final" min="0 pF" max="10 pF"/></device>')
+        self.assertIn("FW-D607", self.codes(self.judged(170, device=other)[0]))
+
+
 class NearFirstTouch(unittest.TestCase):
     """a stage on two leaves, 8.748 N/m each by a frame and plane solids, is pushed over 10 um onto a cell: F = (P - 2 k g) kb/(2 k + kb)"""
 

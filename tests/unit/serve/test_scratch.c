@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the server keeps on the disk: the page that a browser opens first, and which logs beside the file a job may write. */
-#include "serve/child.h"
 #include "serve/jobs.h"
 #include "test.h"
 #include <stdlib.h>
