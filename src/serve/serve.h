@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The local page: a server on loopback over the same library. One thread, one loop over sockets;
-   all that computes runs in processes of its own with limits (child.h, jobs.h). */
+   all that computes runs in processes of its own with limits (jobs.h). */
 #ifndef FW_SERVE_SERVE_H
 #define FW_SERVE_SERVE_H
 #include "base/arena.h"
