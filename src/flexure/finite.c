@@ -331,9 +331,7 @@ static void series_along(double e, double range, double *n) {
 static void count_up(const fw_flexure_hinge_law *law, fw_flexure_hinge_rest *rest) {
     const double L = law->length_m, range = 0.25, most_e = 0.1;
     const double per = 8 * law->bend_m_per_N / L, unit = 1 / (per * L); /* L^2/EI */
-    const double roots = law->share * (0.25 * law->root_m_per_N / law->bend_m_per_N) / 6;
-    const double e =
-        fmax(roots, 0); /* as finite_force.c has it where ends lose more than roots give */
+    const double e = fw_flexure_hinge_chord_roots(law);
     double *to = rest->number;
     if (law->table || !(law->bend_m_per_N > 0) || !(e < most_e)) return;
     to[FW_HINGE_RANGE] = range;

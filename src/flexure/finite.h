@@ -21,6 +21,13 @@ typedef struct fw_flexure_hinge_law {
     const struct fw_flexure_hinge_table *table;
 } fw_flexure_hinge_law;
 
+/* e of what a pull does to the chord (finite_force.c): a sixth of dL/L of one root; 0 where ends lose more than roots give, whose
+   series holds no less */
+static inline double fw_flexure_hinge_chord_roots(const fw_flexure_hinge_law *law) {
+    const double half = law->bend_m_per_N > 0 ? 0.25 * law->root_m_per_N / law->bend_m_per_N : 0;
+    return half > 0 ? law->share * half / 6 : 0;
+}
+
 /* numbers of a hinge for finite_lanes.c, over L, EI/L^2 and EI/L */
 enum {
     FW_HINGE_STIFFNESS, /* K, N m */

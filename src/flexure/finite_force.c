@@ -275,8 +275,7 @@ INLINE void prepare(const fw_flexure_hinge_law *law, const fw_flexure_hinge_rest
                     const double at[3], bool second, terms *t) {
     fw_flexure_hinge_law_soft(law, rest, at[0], second, &t->c);
     fw_flexure_hinge_law_wound(law, at[0], second, &t->x);
-    double half = law->bend_m_per_N > 0 ? 0.25 * law->root_m_per_N / law->bend_m_per_N : 0;
-    t->e = law->share * half / 6; /* half: dL/L of one root */
+    t->e = fw_flexure_hinge_chord_roots(law);
     t->length_m = law->length_m;
     t->w = at[1];
     t->free = at[2] - t->c.drift_m.value;

@@ -254,7 +254,6 @@ static fw_status share_of_probe(const fingers *w, const fw_probe *p, double *sha
 static fw_status share_of_motion(const fingers *w, int index, const fw_verdict_variant_verdict *v,
                                  double *share) {
     const int nb = w->m->nbody;
-    const double hardly_moves = 0.05;
     double *far, bent = w->x->displaced, turned = 0;
     fw_probe *probe;
     FW_NEED(far = fw_arena_array(w->arena, double, 2 * (size_t)nb + (size_t)w->m->nhinge + 1));
@@ -264,7 +263,7 @@ static fw_status share_of_motion(const fingers *w, int index, const fw_verdict_v
     *share = (turned + w->across) / bent;
     const double most = fw_verdict_most_of(far, nb);
     for (int b = 0; b < nb; b++)
-        if (far[b] > hardly_moves * most)
+        if (far[b] > FW_VERDICT_HARDLY_MOVES * most)
             *share = fmax(*share, hypot(w->far[3 * b], w->far[3 * b + 1]) / far[b]);
     FW_TRY(fw_probe_bind(w->arena, w->m, w->s, w->x->loads, &probe));
     for (int k = 0; k < v->nrequirement; k++) {

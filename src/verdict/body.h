@@ -8,6 +8,9 @@
 #include "verdict/strain.h"
 #include <math.h>
 
+#define FW_VERDICT_HARDLY_MOVES                                                                    \
+    0.05 /* of the farthest way: what goes less counts with no share of its own */
+
 /* Where ways of one body go together they bear together what comes by each of them: body_together.c */
 typedef struct
     fw_verdict_arm_end { /* of a hinge, or where a load acts: pin and root are that place */

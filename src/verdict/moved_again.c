@@ -12,8 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double hardly_moves = 0.05; /* of the farthest way */
-
 bool fw_verdict_has_said(const fw_verdict_variant_verdict *v, const fw_device_scene *s,
                          int number) {
     for (int i = 0; i < v->nreason; i++)
@@ -95,7 +93,7 @@ void fw_verdict_hold_run(const fw_mechanism *m, const fw_dynamics_motion *x,
     for (int i = 0; i < 2 * nb; i++)
         most[i >= nb] = fmax(most[i >= nb], h->far[i]);
     for (int i = 0; i < 2 * nb; i++)
-        if (h->far[i] > hardly_moves * most[i >= nb])
+        if (h->far[i] > FW_VERDICT_HARDLY_MOVES * most[i >= nb])
             hold_factor(h->more, h->now[i], h->far[i], h->f + 2 * nh);
 }
 

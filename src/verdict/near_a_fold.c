@@ -21,7 +21,6 @@
 #include <string.h>
 
 static const double fw_few_per_cent = 0.03, fw_hardly_turned = 1e-3; /* of what a hinge bears */
-static const double hardly_moves = 0.05;                             /* of the farthest way */
 
 /* rad/s by which a hinge that is at its peak there turns on at the end; 0: it does not */
 static double turns_on(const fw_mechanism *m, const fw_dynamics_motion *x, int hinge) {
@@ -180,12 +179,12 @@ fw_status fw_verdict_ends_early(fw_arena *arena, const fw_device_scene *scene,
 
 static const double soft = 0.8;
 
-/* largest (sign 1) or least (-1) of now over was, of those of n that move by more than hardly_moves of the farthest; 1: none moves */
+/* largest (sign 1) or least (-1) of now over was, of those of n that move by more than FW_VERDICT_HARDLY_MOVES of the farthest; 1: none moves */
 static double change(const double *was, const double *now, int n, int sign) {
     const double most = fw_verdict_most_of(was, n);
     double by = sign > 0 ? 0 : HUGE_VAL;
     for (int i = 0; i < n; i++)
-        if (was[i] > hardly_moves * most)
+        if (was[i] > FW_VERDICT_HARDLY_MOVES * most)
             by = sign > 0 ? fmax(by, now[i] / was[i]) : fmin(by, now[i] / was[i]);
     return most > 0 ? by : 1;
 }
