@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What plates draw besides the device: each content with its drawing, its judgement and its row. */
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include "release/release.h"
 #include <math.h>
 

@@ -7,7 +7,7 @@
 
    Source: AutoCAD Release 12 Customization Manual, chapter 11 (groups and entities). */
 #include "geometry/segment.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* KLayout layer properties: colours and names of the table. */
 #include "mask/mask.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include <string.h>
 
 static void layer(fw_text *out, const fw_mask *mask, const fw_mask_layer *y) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include "mask/rule.h"
 #include <string.h>
 

@@ -59,7 +59,7 @@ typedef struct fw_mask_finding { /* one place where a rule is broken */
 } fw_mask_finding;
 
 /* <content>: what a plate draws besides the device, found from the device's drawing; kinds are rows of
-   contents.def (mask_table.h) */
+   contents.def (mask_parts.h) */
 struct fw_mask_content_kind;
 enum { FW_CONTENT_PARAMETERS = 4 };
 typedef struct fw_mask_content {

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/mask_polygons.h"
+#include "mask/mask_parts.h"
 #include "mask/mask.h"
-#include "mask/mask_writers.h"
 #include "mask/rule.h"
 #include <math.h>
 #include <string.h>

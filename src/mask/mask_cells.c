@@ -4,9 +4,7 @@
 #include "drawing/drawing.h"
 #include "geometry/segment.h"
 #include "mask/mask.h"
-#include "mask/mask_polygons.h"
-#include "mask/mask_table.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

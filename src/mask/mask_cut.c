@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How far a straight cut stays from everything else of a polygon. Private to the room. */
 #include "geometry/polygon.h"
-#include "mask/mask_polygons.h"
+#include "mask/mask_parts.h"
 #include <math.h>
 #include <string.h>
 

@@ -2,7 +2,7 @@
 /* Records of GDSII: length u16, type u8, data type u8, payload, all big-endian, strings padded to
    even length. Source: Calma, GDSII Stream Format Manual, release 6.0. Private to the room. */
 #include "base/text.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>

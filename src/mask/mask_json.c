@@ -6,8 +6,7 @@
 #include "base/constants.h"
 #include "geometry/segment.h"
 #include "mask/rule.h"
-#include "mask/mask_polygons.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "mask/mask.h"
 #include <math.h>
 

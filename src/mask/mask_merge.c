@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "mask/mask.h"
 #include "geometry/merge.h"
-#include "mask/mask_polygons.h"
 #include <math.h>
 #include <string.h>
 

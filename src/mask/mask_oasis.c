@@ -4,7 +4,7 @@
    once with a repetition, CRC32 over the file. Texts say what the mask is, as in GDSII.
 
    Same mask, same zlib, same bytes: no dates, fixed order. */
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "base/sort.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/mask.h"
 #include "geometry/segment.h"
-#include "mask/mask_polygons.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

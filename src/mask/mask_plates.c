@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <plate>: one row for each plate that a flow prints, in the order of printing; a table with one plate says the same in
    attributes of its root. <content>: what they draw besides the device. Page: docs/theory/plates.md. */
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include "layout/layout.h"
 #include "mask/rule.h"
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From exact outlines to polygons: joints between pieces, corners, flattening, bounds. */
 #include "base/constants.h"
-#include "mask/mask_polygons.h"
+#include "mask/mask_parts.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

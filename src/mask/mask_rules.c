@@ -2,7 +2,7 @@
 /* All rules of one mask: the kinds that there are, the check, and what it found, in messages and files. */
 #include "base/constants.h"
 #include "base/text.h"
-#include "mask/mask_polygons.h"
+#include "mask/mask_parts.h"
 #include "mask/rule.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/rule.h"
-#include "mask/mask_table.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "mask/mask.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Integers, displacements and point lists of OASIS. Source: SEMI P39-0308, sections 7.2 (integers),
    7.5 (deltas), 7.7 (point lists), in the form in which KLayout reads them. */
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include <string.h>
 
 bool fw_mask_octets_room(fw_mask_octets *o, size_t more) {

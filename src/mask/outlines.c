@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mask/mask.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "base/constants.h"
 #include "geometry/contour.h"
 #include <math.h>

@@ -2,7 +2,7 @@
 /* The plates of a table: which there are, what they draw, how well they lie on each other, and the lists that
    contents add to. */
 #include "layout/layout.h"
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "base/sort.h"
 #include "geometry/segment.h"
 #include "mask/mask.h"
-#include "mask/mask_polygons.h"
+#include "mask/mask_parts.h"
 #include "xml/xml_reader.h"
 
 /* ---- edges of one layer, and what is found between them ---- */

@@ -12,7 +12,7 @@
 #include "base/sort.h"
 #include "geometry/segment.h"
 #include "mask/mask.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

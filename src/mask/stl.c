@@ -3,7 +3,7 @@
    corners as floats, two bytes of nothing; little-endian. 1 unit = 1 um. Source: 3D Systems,
    StereoLithography Interface Specification, 1989. */
 #include "mask/mask.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "base/sort.h"
 #include <math.h>
 #include <stdio.h>

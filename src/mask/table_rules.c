@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows <rule> of a layer table, read, and told in a certificate; docs/theory/masks.md lists the kinds and their
    attributes. */
-#include "mask/mask_table.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "mask/rule.h"
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "base/constants.h"
 #include "base/output.h"
 #include "base/text.h"
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include "plan/stages.h"
 #include "process/calibrate.h"
 #include <math.h>

@@ -57,7 +57,7 @@ typedef struct fw_plan_options {
     size_t memory_cap;            /* 0: 512 MiB */
     const char *cut; /* of the sections: "x1,y1,x2,y2" or "flexure:ID"; NULL: the narrowest gap */
     fw_plan_measurements measurements;
-    const char *layers; /* file of the laboratory's layer numbers (mask/mask_table.h); NULL: none */
+    const char *layers; /* file of the laboratory's layer numbers (mask/mask_parts.h); NULL: none */
     const char *directory; /* of drawings, for fw_plan_load_memory; NULL: none are opened */
     fw_json_wanted wanted; /* of the verdict's JSON, what somebody reads; member NULL: all */
     /* (nwatched) the only corners that devices as made are judged at (fw_plan_corner_text); 0: as verdict.corners says */

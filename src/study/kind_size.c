@@ -6,9 +6,9 @@
    each other, local searches by models of all that was judged (study_descent.c), and some more from the best of further
    points, apart from where these ended; the best of these with its inputs at the ends of their ranges; and one search more,
    by models again, with what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
-   is sought alone, then the first with the second held at nine levels between (epsilon constraints; Haimes, Lasdon, Wismer
-   1971; at fewer where the budget has not enough for searches at all of them), and the front is what no other one of all
-   that was judged and accepted beats. Nothing is proved: a better one may be where nobody looked.
+   is sought alone, then the first with the second held at levels in the widest gaps between (epsilon constraints; Haimes, Lasdon,
+   Wismer 1971), and the front is what no other one of all that was judged and accepted beats. What is the largest of what hinges
+   use has a model of each. Nothing is proved: a better one may be where nobody looked.
 
    At a wanted yield all of these are only what further searches begin with (study_search.c).
    Test: tests/cli/test_study.py, tests/cli/test_sizing.py */
@@ -19,14 +19,10 @@
 #include <string.h>
 
 enum {
-    STARTS = 3,        /* of local searches, a goal each */
-    SEARCHES = 4,      /* and one from all that was judged */
-    EACH = 19,         /* devices of a search for each input, and so many more */
-    LEVELS = 9,        /* of the second goal */
-    DIGITS = 5,        /* of what is tried: more no mask resolves */
-    AGAIN = 36,        /* devices over the ranges once more, or as many as at first */
-    FRONT_MOST = 100,  /* devices of a front that are listed */
-    LISTS_MOST = 1000, /* combinations of listed values */
+    STARTS = 3,  /* of local searches, a goal each */
+    PASSES = 16, /* of such levels */
+    DIGITS = 5,  /* of what is tried: more no mask resolves */
+    AGAIN = 36,  /* devices over the ranges once more, or as many as at first */
 };
 
 typedef struct goal {
@@ -98,18 +94,41 @@ static int constraints_of(const aim *a) {
     return fw_study_limits(a->s->study, NULL, NULL) + 1 + (a->held != NULL);
 }
 
-/* ---- the first look ---- */
+static bool is_largest(const aim *a, const goal *g) {
+    return g->sign > 0 && fw_study_response_is_largest(&a->s->study->response[g->response]);
+}
 
-static fw_status listed_texts(const fw_study *study, long combination, fw_study_sample *sample) {
-    for (int k = study->nvary; k-- > 0;) {
-        const fw_study_input *in = &study->input[k];
-        if (in->ntext == 0) continue;
-        FW_TRY(fw_study_input_step(in, (int)(combination % in->ntext), sample->text[k],
-                                   &sample->value[k]));
-        combination /= in->ntext;
+/* of the numbers above that are the largest of several, these */
+static void parts(const void *context, const fw_study_sample *sample, double *part) {
+    const aim *a = context;
+    const fw_study *study = a->s->study;
+    if (is_largest(a, a->goal)) part = fw_study_used_by(study, sample, 0, 1, part);
+    fw_study_limits_parts(study, sample, NULL, &part);
+    for (int j = 0; j < study->nuse; j++) {
+        const double use = sample->use[FW_USE_NUMBERS * j + FW_USE_HIGH];
+        *part++ = log(use < 1e-6 ? 1e-6 : use); /* NaN stays */
     }
+    if (a->held && is_largest(a, a->held))
+        fw_study_used_by(study, sample, a->level, a->scale, part);
+}
+
+/* how many each of them has, the objective first */
+static fw_status count_parts(const aim *a, fw_study_search *search) {
+    const fw_study *study = a->s->study;
+    const int n = 1 + constraints_of(a);
+    int *count = fw_arena_array(study->arena, int, (size_t)n), *at = count;
+    FW_NEED(count);
+    *at++ = is_largest(a, a->goal) ? study->nuse : 0;
+    fw_study_limits_parts(study, NULL, &at, NULL);
+    *at++ = study->nuse;
+    if (a->held) *at = is_largest(a, a->held) ? study->nuse : 0;
+    search->parts = count, search->part = parts;
+    for (int k = 0; k < n; k++)
+        search->npart += count[k];
     return FW_OK;
 }
+
+/* ---- the first look ---- */
 
 /* sample 0: as it stands where that is within the ranges, else their middles */
 static fw_status fill(void *context, long k, fw_study_sample *sample, bool *wanted) {
@@ -119,7 +138,7 @@ static fw_status fill(void *context, long k, fw_study_sample *sample, bool *want
     *wanted = s->nkept == 0 || k > 0; /* the first one may have been judged alone */
     sample->i = k;
     sample->watch = s->watch.n > 0 ? &s->watch : NULL;
-    FW_TRY(listed_texts(study, k % s->lists, sample));
+    FW_TRY(fw_study_lists_write(study, k % s->lists, sample));
     for (int v = 0; v < study->nvary; v++) {
         const fw_study_input *in = &study->input[v];
         if (in->ntext > 0) continue;
@@ -264,6 +283,7 @@ static fw_status starts(sizing *s, const aim *a, int since, const fw_study_searc
         fw_study_search *one = &search[(*n)++];
         *one = search_of(a, most, first);
         FW_TRY(fw_study_search_from(s->study, best, one));
+        FW_TRY(count_parts(a, one));
         FW_TRY(fw_study_search_knows(s->study, one, s->kept, s->nkept));
     }
     return FW_OK;
@@ -306,18 +326,25 @@ static fw_status look_again(sizing *s, const aim *a, const fw_study_search *ende
     return run_all(s, search, n, left);
 }
 
-/* one more search, from all that was judged, with the devices that the others left */
+/* one that goes on from all that was judged */
+static fw_status further(sizing *s, const aim *a, int from, int most, long *first,
+                         fw_study_search *one) {
+    *one = search_of(a, most, first);
+    FW_TRY(fw_study_search_from(s->study, &s->kept[from], one));
+    FW_TRY(count_parts(a, one));
+    FW_TRY(fw_study_search_knows(s->study, one, s->kept, s->nkept));
+    one->begin = FW_NONE;
+    return FW_OK;
+}
+
+/* with the devices that the others left */
 static fw_status go_on(sizing *s, const aim *a, int left, long *first) {
+    fw_study_search one;
     int from;
     FW_TRY(best_whole(s, a, &from));
     if (from == FW_NONE || left <= 0) return FW_OK;
-    fw_study_search one = search_of(a, left, first);
-    FW_TRY(fw_study_search_from(s->study, &s->kept[from], &one));
-    FW_TRY(fw_study_search_knows(s->study, &one, s->kept, s->nkept));
-    one.begin = FW_NONE;
-    FW_TRY(fw_study_search_run(s->study, &one, 1));
-    join(s, &one);
-    return FW_OK;
+    FW_TRY(further(s, a, from, left, first, &one));
+    return run_all(s, &one, 1, &left);
 }
 
 /* ---- the ends of the ranges ---- */
@@ -355,52 +382,15 @@ static fw_status try_ends(sizing *s, const aim *a, int *left) {
 /* searches for one aim; all that they judged joins what was judged */
 static fw_status seek(sizing *s, const aim *a, int most, long *first) {
     fw_study_search *search = fw_arena_array(s->study->arena, fw_study_search, STARTS);
-    int n, left = SEARCHES * most;
+    int n, left = FW_SIZE_SEARCHES * most;
     FW_NEED(search);
     FW_TRY(best_whole(s, a, &n));
     FW_TRY(starts(s, a, 0, NULL, 0, search, &n, most, first));
     if (most < worth_it(s->study)) n = 0;
     FW_TRY(run_all(s, search, n, &left));
-    if (!a->held) FW_TRY(look_again(s, a, search, n, most, &left, first));
-    if (!a->held) FW_TRY(try_ends(s, a, &left));
+    FW_TRY(look_again(s, a, search, n, most, &left, first));
+    FW_TRY(try_ends(s, a, &left));
     return go_on(s, a, left, first);
-}
-
-/* The front, of the devices that are accepted and hold every limit; of several with the same goals the first one */
-static fw_status front(sizing *s) {
-    fw_study_result *r = s->result;
-    fw_study_on_front *p = fw_arena_array(s->study->arena, fw_study_on_front, (size_t)s->nkept + 1);
-    int n = 0;
-    FW_NEED(p);
-    for (int i = 0; i < s->nkept; i++) {
-        const fw_study_sample *k = &s->kept[i];
-        if (k->decision == FW_ACCEPT && constraint_of(s->study, k) <= 0)
-            p[n++] = (fw_study_on_front){.at = i,
-                                         .f = {goal_of(k, &s->goal[0]), goal_of(k, &s->goal[1])}};
-    }
-    n = fw_study_front(p, n);
-    r->unbeaten = n;
-    n = fw_study_front_thinned(p, n, FRONT_MOST);
-    FW_NEED(r->found = fw_arena_array(s->study->arena, fw_study_found, (size_t)n + 1));
-    for (; r->nfound < n; r->nfound++) {
-        const fw_study_sample *k = &s->kept[p[r->nfound].at];
-        FW_TRY(fw_study_keep_found(s->study, k, constraint_of(s->study, k), &r->found[r->nfound]));
-    }
-    return FW_OK;
-}
-
-static fw_status finish(sizing *s) {
-    fw_study_result *r = s->result;
-    const aim a = {.s = s, .goal = &s->goal[0]};
-    int best;
-    FW_TRY(best_whole(s, &a, &best));
-    if (best == FW_NONE) return FW_OK;
-    double c = constraint_of(s->study, &s->kept[best]);
-    if (!(c <= 0)) return fw_study_keep_found(s->study, &s->kept[best], c, &r->nearest);
-    if (s->ngoal == 2) return front(s);
-    FW_NEED(r->found = fw_arena_one(s->study->arena, fw_study_found));
-    r->nfound = 1;
-    return fw_study_keep_found(s->study, &s->kept[best], c, r->found);
 }
 
 /* devices that are left of the budget, but for those that the ends have at last */
@@ -417,39 +407,85 @@ static fw_status ends_again(sizing *s, long *first) {
     return FW_OK;
 }
 
-/* the first goal with the second one held at s->levels levels, from `from` to `to`, each with its share of what is left */
-static fw_status hold(sizing *s, double from, double to, double shift, long *first) {
-    for (int k = 1; k <= s->levels; k++) {
-        const int most = left_of(s) / ((s->levels - k + 1) * SEARCHES);
-        const double share = (k - shift) / (s->levels + 1.0 - 2 * shift), wide = to - from;
-        const aim held = {s, &s->goal[0], &s->goal[1], .level = from + wide * share, .scale = wide};
-        if (most > s->held_most) s->held_most = most;
-        FW_TRY(seek(s, &held, most, first));
+/* devices that are accepted and hold every limit; p: room for all that were judged */
+static int accepted(const sizing *s, fw_study_on_front *p) {
+    int n = 0;
+    for (int i = 0; i < s->nkept; i++) {
+        const fw_study_sample *k = &s->kept[i];
+        const double c = constraint_of(s->study, k);
+        if (k->decision == FW_ACCEPT && c <= 0)
+            p[n++] = (fw_study_on_front){{goal_of(k, &s->goal[0]), goal_of(k, &s->goal[1])}, i, c};
+    }
+    return n;
+}
+
+/* The first goal with the second one held at these levels (n), each a search of its own from all that was judged, side by
+   side and with its share of what is left; wide: of the second goal, along the front */
+static fw_status hold(sizing *s, const double *level, int n, double wide, long *first) {
+    aim *held = fw_arena_array(s->study->arena, aim, (size_t)n);
+    fw_study_search *search = fw_arena_array(s->study->arena, fw_study_search, (size_t)n);
+    int left = left_of(s);
+    const int most = left / n;
+    FW_NEED(held && search ? held : NULL);
+    if (most > s->held_most) s->held_most = most;
+    s->levels += n;
+    for (int k = 0; k < n; k++) {
+        held[k] = (aim){s, &s->goal[0], &s->goal[1], .level = level[k], .scale = wide};
+        FW_TRY(further(s, &held[k], best_for(s, &held[k]), most, first, &search[k]));
+    }
+    return run_all(s, search, n, &left);
+}
+
+/* The second goal is held where the front has its widest gaps, at as many levels at once as searches that come somewhere can be paid
+   for: at more of them none would. p, level: room for all of them */
+static fw_status hold_gaps(sizing *s, fw_study_on_front *p, double *level, long *first) {
+    const int each = 2 * worth_it(s->study), passes = s->study->asked->samples > 0 ? PASSES : 1;
+    for (int pass = 0; pass < passes; pass++) {
+        const int left = left_of(s), room = (PASSES + 1) * FW_SIZE_LEVELS - s->levels,
+                  most = (int)fmin(fmin(FW_SIZE_LEVELS, room), fmax(1, left / each)),
+                  n = fw_study_front(p, accepted(s, p));
+        if (left <= 0 || (s->levels > 0 && left < each)) break;
+        const int more = fw_study_front_levels(p, n, level, s->levels, most);
+        if (more == 0) break;
+        FW_TRY(hold(s, level + s->levels, more, p[0].f[1] - p[n - 1].f[1], first));
     }
     return FW_OK;
 }
 
-/* As many levels as searches that come somewhere can be paid for: at more of them none would. What they leave of a budget that
-   was asked for goes to levels between them. Test: tests/cli/test_sizing.py, Lever */
+/* Where a budget was asked for that goes on until it is used, but for a quarter that the ends have first.
+   Test: tests/cli/test_sizing.py, Lever, Pair */
 static fw_status two_goals(sizing *s, long *first) {
-    static const double shift[] = {0, 0.5, 0.25, 0.75, 0.125};
-    enum { PASSES = sizeof shift / sizeof *shift };
-    const goal *a = &s->goal[0], *b = &s->goal[1];
-    int low = best_for(s, &(aim){.s = s, .goal = b}), high = best_for(s, &(aim){.s = s, .goal = a});
-    if (low == FW_NONE || high == FW_NONE) return FW_OK;
-    double from = goal_of(&s->kept[low], b), to = goal_of(&s->kept[high], b);
-    if (!(to > from)) return FW_OK; /* one device is best for both */
-    const int each = SEARCHES * worth_it(s->study);
-    s->for_ends = s->study->asked->samples > 0 ? left_of(s) / 4 : 0;
-    for (int pass = 0; pass < PASSES; pass++) {
-        const int left = left_of(s);
-        if (left <= 0 || (pass > 0 && (left < each || s->study->asked->samples <= 0))) break;
-        s->levels = (int)fmin(LEVELS, fmax(1, left / each));
-        FW_TRY(hold(s, from, to, shift[pass], first));
-    }
-    const bool kept = s->for_ends > 0;
+    const fw_study *study = s->study;
+    const size_t most = (size_t)fw_study_count_size(study) + 1;
+    fw_study_on_front *p = fw_arena_array(study->arena, fw_study_on_front, most);
+    double *level = fw_arena_array(study->arena, double, FW_SIZE_LEVELS *(PASSES + 1));
+    FW_NEED(p && level ? p : NULL);
+    s->for_ends = study->asked->samples > 0 ? left_of(s) / 4 : 0;
+    FW_TRY(hold_gaps(s, p, level, first));
+    if (s->for_ends == 0) return FW_OK;
     s->for_ends = 0;
-    return kept ? ends_again(s, first) : FW_OK;
+    FW_TRY(ends_again(s, first));
+    return hold_gaps(s, p, level, first);
+}
+
+static fw_status front(sizing *s) {
+    fw_study_on_front *p = fw_arena_array(s->study->arena, fw_study_on_front, (size_t)s->nkept + 1);
+    FW_NEED(p);
+    return fw_study_front_keep(s->study, s->kept, p, accepted(s, p), s->result);
+}
+
+static fw_status finish(sizing *s) {
+    fw_study_result *r = s->result;
+    const aim a = {.s = s, .goal = &s->goal[0]};
+    int best;
+    FW_TRY(best_whole(s, &a, &best));
+    if (best == FW_NONE) return FW_OK;
+    double c = constraint_of(s->study, &s->kept[best]);
+    if (!(c <= 0)) return fw_study_keep_found(s->study, &s->kept[best], c, &r->nearest);
+    if (s->ngoal == 2) return front(s);
+    FW_NEED(r->found = fw_arena_one(s->study->arena, fw_study_found));
+    r->nfound = 1;
+    return fw_study_keep_found(s->study, &s->kept[best], c, r->found);
 }
 
 /* what a person is told of the searches */
@@ -477,47 +513,6 @@ static const char *said_of(const sizing *s, int single) {
         s->first_n, single, single < few ? " (too few: left out)" : "", held, beside);
 }
 
-/* combinations of listed values; *at: the input by which they are too many, else FW_NONE */
-static long count_lists(const fw_study *study, int *at) {
-    long lists = 1;
-    *at = FW_NONE;
-    for (int k = 0; k < study->nvary && *at == FW_NONE; k++) {
-        if (study->input[k].ntext > 0) lists *= study->input[k].ntext;
-        if (lists > LISTS_MOST) *at = k;
-    }
-    return lists;
-}
-
-fw_status fw_study_check_size(fw_study *study) {
-    int at;
-    count_lists(study, &at);
-    if (at == FW_NONE) return FW_OK;
-    return fw_diag_error(&study->diags, 490, study->input[at].place,
-                         "more than %d combinations of listed values; each is tried, so "
-                         "list fewer, or give ranges",
-                         (int)LISTS_MOST);
-}
-
-static int searches_of(const fw_study *study, int goals) {
-    return goals == 2                ? (2 + LEVELS) * SEARCHES
-           : study->asked->yield > 0 ? SEARCHES + FW_STUDY_ROUNDS_USUAL
-                                     : SEARCHES;
-}
-
-long fw_study_count_size(const fw_study *study) {
-    long n = 0, lists = 1;
-    int goals = 0;
-    if (study->asked->samples > 0) return study->asked->samples;
-    for (int k = 0; k < study->nvary; k++) {
-        const fw_study_input *in = &study->input[k];
-        n += in->ntext == 0;
-        if (in->ntext > 0 && lists <= LISTS_MOST) lists *= in->ntext;
-    }
-    for (int k = 0; k < study->nresponse; k++)
-        goals += study->response[k].asked->goal != FW_GOAL_NONE;
-    return (n == 0 ? 1 : 1 + 4 * n) * lists + EACH * (n + 1) * searches_of(study, goals);
-}
-
 static fw_status prepare(sizing *s, int *most) {
     fw_study *study = s->study;
     int n = 0, at;
@@ -527,8 +522,8 @@ static fw_status prepare(sizing *s, int *most) {
     }
     for (int k = 0; k < study->nvary; k++)
         n += study->input[k].ntext == 0;
-    s->lists = count_lists(study, &at);
-    long budget = fw_study_count_size(study), searches = searches_of(study, s->ngoal);
+    s->lists = fw_study_lists_count(study, FW_SIZE_LISTS_MOST, &at);
+    long budget = fw_study_count_size(study), searches = fw_study_size_searches(study, s->ngoal);
     s->first_n = (n == 0 ? 1 : 1 + 4 * n) * s->lists;
     if (s->first_n > budget) s->first_n = budget;
     s->ranged = n > 0;
@@ -544,12 +539,7 @@ static fw_status prepare(sizing *s, int *most) {
 static fw_status at_yield(sizing *s, int most, long *first) {
     const aim a = {.s = s, .goal = &s->goal[0]};
     const fw_study_search like = search_of(&a, most, first);
-    const fw_study_sample **judged =
-        fw_arena_array(s->study->arena, const fw_study_sample *, (size_t)s->nkept + 1);
-    FW_NEED(judged);
-    for (int i = 0; i < s->nkept; i++)
-        judged[i] = &s->kept[i];
-    FW_TRY(fw_study_at_yield(s->study, &like, judged, s->nkept, s->result));
+    FW_TRY(fw_study_at_yield(s->study, &like, s->kept, s->nkept, s->result));
     const int best = best_for(s, &a);
     if (s->result->nfound > 0 || s->result->nearest.text || best == FW_NONE) return FW_OK;
     const double missed = constraint_of(s->study, &s->kept[best]);
@@ -575,7 +565,8 @@ static fw_status size(fw_study *study, fw_study_result *result) {
     FW_TRY(first_look(&s));
     const long left = fw_study_count_size(study) - s.first_n;
     /* of two goals each alone has as many as without a budget, up to half of it: a front reaches no farther than its ends */
-    const int ends = (int)fmin(EACH * (study->nvary + 1), (double)(left / 4) / SEARCHES),
+    const int ends = (int)fmin(FW_SIZE_EACH * (study->nvary + 1),
+                               (double)(left / 4) / FW_SIZE_SEARCHES),
               single = s.ngoal == 2 && s.ranged && ends > most ? ends : most;
     for (int g = 0; g < s.ngoal && single > 0; g++) {
         const aim a = {.s = &s, .goal = &s.goal[g]};

@@ -292,8 +292,7 @@ static fw_status run_as_it_stands(fw_study *study) {
     FW_NEED(design);
     if (status == FW_STATUS_OK) status = fw_study_stages_run(design, study->stages);
     if (status == FW_STATUS_OK) status = fw_study_responses_take(study, design, now, &study->diags);
-    if (status == FW_STATUS_OK && study->asked->fitted > 0)
-        fw_study_parts_of(fw_plan_design_plan(design), study);
+    if (status == FW_STATUS_OK) fw_study_parts_of(fw_plan_design_plan(design), study);
     fw_design_free(design);
     if (fw_plan_is_final((fw_status)status)) return (fw_status)status;
     const bool runs = status == FW_STATUS_OK;
@@ -334,11 +333,13 @@ static fw_status judge_device(fw_study *study) {
 static fw_study *new_study(const fw_study_options *options) {
     fw_arena *arena = fw_arena_new(options->design.memory_cap);
     fw_study *study = arena ? fw_arena_one(arena, fw_study) : NULL;
-    if (!study) {
+    fw_team *team = study ? fw_arena_one(arena, fw_team) : NULL;
+    if (!team) {
         fw_arena_free(arena);
         return NULL;
     }
-    *study = (fw_study){.arena = arena, .diags = fw_diags_new(arena), .options = *options};
+    *study =
+        (fw_study){.arena = arena, .diags = fw_diags_new(arena), .options = *options, .team = team};
     if (options->cancel) fw_arena_stop_with(arena, options->cancel);
     fw_arena_capped_with(arena, options->capped);
     return study;
@@ -453,8 +454,7 @@ fw_status fw_study_open(const fw_study_options *options, fw_study **study) {
 
 fw_status fw_study_open_points(const fw_study_options *options, const fw_device_study *asked,
                                fw_study **out) {
-    fw_study *study = new_study(options);
-    *out = study;
+    fw_study *study = *out = new_study(options);
     FW_NEED(study);
     study->asked = asked, study->explored = true;
     study->device_path = options->file;

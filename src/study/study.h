@@ -92,6 +92,9 @@ typedef struct fw_study_sample {
     /* (FW_VERDICT_LOOKS x study->npart x FW_PART_NUMBERS) of the drawn device, look by look: what every hinge, then every requirement
        uses of its limit, both ends of its band and the value; 0: it has none. NULL where npart is 0 */
     double *part;
+    /* of a size (study->nuse x FW_USE_NUMBERS): what every hinge, then every requirement of each flow uses of its limit, the most of
+       all corners that were judged; NaN: it was not judged. NULL where nuse is 0 */
+    double *use;
     int looks[FW_VERDICT_LOOKS]; /* (nlook) which, in order (fw_verdict_refinement) */
     int nlook;                   /* 0: it has other hinges or requirements than the description */
     uint64_t way;                /* fw_study.way; 0: nobody asked, or nothing was judged */
@@ -149,8 +152,9 @@ typedef struct fw_study {
     const char *source; /* (source_length) of options.file, for carets */
     size_t source_length;
     struct fw_study_told *told; /* NULL: each round tells of itself */
-    bool stored_only;           /* of a merge: what the store has not is not run */
-    const char *hash;           /* of everything that decides what a sample is */
+    fw_team *team;    /* threads that have no device to judge: they help with those of others */
+    bool stored_only; /* of a merge: what the store has not is not run */
+    const char *hash; /* of everything that decides what a sample is */
     fw_study_origin origin;
     /* (ninput) those of <vary>, then what <uncertain> sets (of flexure[*] each), then quantities of flows */
     fw_study_input *input;
@@ -165,6 +169,7 @@ typedef struct fw_study {
         explored; /* of points that somebody looks at: a device that no flow can make says why, too */
     /* hinges and requirements, and hinges of them, where devices are told by them; else 0 */
     int npart, nhinge;
+    int nuse;  /* of a size: hinges and requirements of all flows */
     int neach; /* of a die: how many of them each hinge has (scenes and workspace); else 0 */
     fw_design *design; /* the description as it stands; of a yield judged as drawn */
     fw_design *former; /* as it was first read: places are of it; NULL: the same */

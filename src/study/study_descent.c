@@ -2,37 +2,22 @@
 /* The least value of an objective where constraints are at most 0, of few judgements that cost much: two ways to choose
    what is judged next.
 
-   COBYLA (linear models on a simplex, no derivatives; Powell 1994, as NLopt has it), each constraint with models of its
-   own: those of the largest of them mix up what belongs to different ones. It ends where nothing better has come for long.
-   It is for searches that know nothing but their start: worst cases, and dies at a wanted yield.
+   COBYLA (linear models on a simplex, no derivatives; Powell 1994, as NLopt has it), each constraint with models of its own: those
+   of the largest of them mix up what belongs to different ones. It ends where nothing better has come for long. It is for
+   searches that know nothing but their start: worst cases, and dies at a wanted yield.
 
-   And from what was judged already, on from the best of it or from one place: around the best of it quadratic models of the objective and of each constraint, by
-   weighted least squares, the nearest counting most; and a plane between what holds and what does not although no model
-   says so (a region where check accepts nothing, and says no number by which it does not). Next is judged what is best by
-   these within a radius. Each answer turns the plane, so the border of such a region is halved, and followed where the
-   objective falls along it. Nothing is proved. Test: tests/unit/study/test_descent.c */
-#include "base/sort.h"
+   And from what was judged already, on from the best of it or from one place: around the best of it quadratic models of the
+   objective and of each constraint, or of each part of those that are the largest of several, by weighted least squares, the
+   nearest counting most; and a plane between what holds and what does not although no model says so (a region where check
+   accepts nothing, and says no number by which it does not). Next is judged what is best by these within a radius. Each answer
+   turns the plane, so the border of such a region is halved, and followed where the objective falls along it. Nothing is
+   proved. Test: tests/unit/study/test_descent.c */
 #include "chance/random.h"
 #include "maths/matrix.h"
 #include "study/study_parts.h"
 #include <math.h>
 #include <nlopt.h>
-#include <stdlib.h>
 #include <string.h>
-
-bool fw_study_search_better(double fa, double ca, double fb, double cb) {
-    if (isnan(ca)) return false;
-    if (isnan(cb)) return true;
-    if (ca <= 0 && cb <= 0) return fa < fb;
-    return ca <= 0 || (cb > 0 && ca < cb);
-}
-
-double fw_study_tried_worst(const fw_study_tried *t, int m) {
-    double most = isnan(t->f) ? (double)NAN : -HUGE_VAL;
-    for (int k = 0; k < m; k++)
-        most = isnan(t->c[k]) || isnan(most) ? (double)NAN : fmax(most, t->c[k]);
-    return most;
-}
 
 static bool better(const fw_study_tried *a, const fw_study_tried *b, int m) {
     return fw_study_search_better(a->f, fw_study_tried_worst(a, m), b->f,
@@ -55,8 +40,7 @@ static const double rho = 0.15;        /* first step, share of a range */
 static const double fine = 2e-4;       /* last step */
 static const double as_bad_as = 1e3;   /* of what could not be run */
 static const double gain_least = 2e-4; /* share of the objective that is worth a judgement */
-static const double inside =
-    2e-4;          /* by which a model has to hold, and worth one of what does not */
+static const double inside = 2e-4; /* by which models have to hold; worth one of what does not */
 enum { IDLE = 4 }; /* judgements for each input, and so many more, without a better one: enough */
 
 typedef struct simplex {
@@ -141,8 +125,9 @@ static const double away_reach = 0.02; /* down to it places far from what does n
 static const double offset = 0.1;      /* the plane is sought near the best */
 static const double again_least = 5e-3; /* and to begin with wide steps again */
 static const double apart = 2e-4;       /* of a place from all that was judged, share of a range */
-static const double span_counts =
-    1e-3; /* of the span of the objective, where it is nearly 0: along a valley in a wide range what is gained is little of it */
+/* of the span of the objective, where it is nearly 0: along a valley in a wide range what is gained is little of it */
+static const double span_counts = 1e-3;
+static const double as_largest_within = 1e-6; /* a number is the largest of its parts */
 static const double nearer = 4; /* times as far it may be from what holds as from what does not */
 
 typedef enum side { HOLDS, NUMBERED, UNTOLD } side; /* does not: models say so; none does */
@@ -163,9 +148,13 @@ typedef struct cloud {
     double enough;     /* what has to be reached for a judgement: objective, or worst constraint */
     bool walled, away; /* there is a plane; far from what does not hold is better */
     double margin;     /* from the plane; 1: as far as what holds nearest to it */
-    double *beta;      /* ((m + 1) x terms) of u = (x - best) / radius, less what the best has */
-    double *normal;    /* (n + 1): plane, normal u + offset last = 0; what holds below 0 */
-    support *support;  /* of the plane, with their places */
+    /* A number that is the largest of several has a model of each, since it has edges where another one becomes the largest:
+       number k has models row[k] to row[k + 1] - 1, of its parts from part_at[k] on, or one of itself */
+    const int *parts;
+    int *row, *part_at; /* (m + 2), (m + 1) */
+    double *beta;       /* (rows x terms) of u = (x - best) / radius, less what the best has */
+    double *normal;     /* (n + 1): plane, normal u + offset last = 0; what holds below 0 */
+    support *support;   /* of the plane, with their places */
     double *near_u;
     double *matrix, *basis, *near; /* room for a model, its terms, tolerances */
     int *pivot;
@@ -221,16 +210,44 @@ static double number_of(const fw_study_tried *t, int k) {
     return k == 0 ? t->f : t->untold ? (double)NAN : t->c[k - 1];
 }
 
-static double model(const cloud *c, int k, const double *u) {
-    double sum = number_of(c->best, k);
-    basis_of(c->n, u, c->basis);
-    for (int t = 0; t < c->terms; t++)
-        sum += c->beta[k * c->terms + t] * c->basis[t];
-    return sum;
+static int rows_of(const cloud *c, int k) {
+    return c->row[k + 1] - c->row[k];
 }
 
-static void slope(const cloud *c, int k, const double *u, double *g) {
-    const double *b = c->beta + k * c->terms;
+/* what model r of number k is of */
+static double part_of(const cloud *c, const fw_study_tried *t, int k, int r) {
+    return rows_of(c, k) > 1 ? t->part[c->part_at[k] + r] : number_of(t, k);
+}
+
+/* is it the largest of its parts in the best, and in nine of ten that were judged? Where check has another reason it is not */
+static bool is_largest(const cloud *c, int k) {
+    const int n = c->parts ? c->parts[k] : 0;
+    int known = 0, off = 0;
+    for (int p = 0; n > 1 && p < c->count; p++) {
+        const fw_study_tried *t = c->at[p];
+        const double is = number_of(t, k);
+        double most = -HUGE_VAL;
+        for (int r = 0; r < n; r++)
+            most = isnan(t->part[c->part_at[k] + r]) ? (double)NAN
+                                                     : fmax(most, t->part[c->part_at[k] + r]);
+        if (!isfinite(is)) continue;
+        const bool as_largest = fabs(is - most) <= as_largest_within * fmax(fabs(is), 1e-3);
+        if (!as_largest && t == c->best) return false;
+        known++, off += !as_largest;
+    }
+    return known > 0 && 10 * off <= known;
+}
+
+static void find_rows(cloud *c) {
+    for (int k = 0, part = 0; k <= c->m; k++) {
+        c->part_at[k] = part;
+        part += c->parts ? c->parts[k] : 0;
+        c->row[k + 1] = c->row[k] + (is_largest(c, k) ? c->parts[k] : 1);
+    }
+}
+
+/* of one model b (terms) of u, (n) */
+static void slope(const cloud *c, const double *b, const double *u, double *g) {
     int at = c->n;
     for (int i = 0; i < c->n; i++)
         g[i] = b[i];
@@ -241,31 +258,51 @@ static void slope(const cloud *c, int k, const double *u, double *g) {
     }
 }
 
+/* model r of number k where the terms are c->basis */
+static double model_of(const cloud *c, int k, int r) {
+    const double *b = c->beta + (c->row[k] + r) * c->terms;
+    double sum = part_of(c, c->best, k, r);
+    for (int t = 0; t < c->terms; t++)
+        sum += b[t] * c->basis[t];
+    return sum;
+}
+
+static double model(const cloud *c, int k, const double *u) {
+    double most = -HUGE_VAL;
+    basis_of(c->n, u, c->basis);
+    for (int r = 0; r < rows_of(c, k); r++)
+        most = fmax(most, model_of(c, k, r));
+    return most;
+}
+
 /* Squares are held back where nothing says how large they are: by so little that along a valley, whose floor bends a thousandth
    as much as its sides, what holds the sides back does not hide the floor. Test: test_descent.c, valleys */
 static void fit(cloud *c, int k) {
-    const int n = c->terms;
-    double *a = c->matrix, *y = c->beta + k * n, sum = 0;
+    const int n = c->terms, rows = rows_of(c, k);
+    double *a = c->matrix, *all = c->beta + c->row[k] * n, sum = 0;
     memset(a, 0, (size_t)(n * n) * sizeof *a);
-    memset(y, 0, (size_t)n * sizeof *y);
+    memset(all, 0, (size_t)(rows * n) * sizeof *all);
     for (int p = 0; p < c->count; p++) {
-        const double off = number_of(c->at[p], k) - number_of(c->best, k);
-        if (!isfinite(off) || c->at[p] == c->best) continue;
-        const double r = place(c, c->at[p]->x, c->u), r4 = r * r * r * r, w = 1 / (1 + r4 * r4);
+        const fw_study_tried *t = c->at[p];
+        if (!isfinite(number_of(t, k) - number_of(c->best, k)) || t == c->best) continue;
+        const double r = place(c, t->x, c->u), r4 = r * r * r * r, w = 1 / (1 + r4 * r4);
         basis_of(c->n, c->u, c->basis);
         sum += w;
-        for (int i = 0; i < n; i++) {
-            y[i] += w * off * c->basis[i];
+        for (int i = 0; i < n; i++)
             for (int j = 0; j < n; j++)
                 a[i * n + j] += w * c->basis[i] * c->basis[j];
+        for (int of = 0; of < rows; of++) {
+            const double off = part_of(c, t, k, of) - part_of(c, c->best, k, of);
+            for (int i = 0; i < n && isfinite(off); i++)
+                all[of * n + i] += w * off * c->basis[i];
         }
     }
     for (int i = 0; i < n; i++)
         a[i * n + i] += fmax(sum, 1e-9) * (i < c->n ? 1e-7 : 1e-5);
-    if (fw_maths_lu_factor(n, a, c->pivot))
-        fw_maths_lu_solve(n, a, c->pivot, NULL, y);
-    else
-        memset(y, 0, (size_t)n * sizeof *y);
+    const bool solvable = fw_maths_lu_factor(n, a, c->pivot);
+    for (int of = 0; of < rows && solvable; of++)
+        fw_maths_lu_solve(n, a, c->pivot, NULL, all + of * n);
+    if (!solvable) memset(all, 0, (size_t)(rows * n) * sizeof *all);
 }
 
 static void find_sides(cloud *c) {
@@ -374,35 +411,53 @@ static void throw_one(const cloud *c, uint64_t seed, int k, double width, double
     }
 }
 
-static double modelled(unsigned n, const double *u, double *gradient, void *context) {
-    const cloud *c = context;
-    if (gradient) slope(c, 0, u, gradient);
-    for (unsigned i = 0; gradient && i < n; i++)
-        gradient[i] /= c->scale;
-    return (model(c, 0, u) - c->best->f) / c->scale;
+/* Of an objective that is the largest of its parts the least is sought of one more variable, which no part is above */
+static bool is_lifted(const cloud *c) {
+    return rows_of(c, 0) > 1;
 }
 
+static double modelled(unsigned n, const double *u, double *gradient, void *context) {
+    const cloud *c = context;
+    const bool lifted = is_lifted(c);
+    if (gradient && !lifted) slope(c, c->beta, u, gradient);
+    for (unsigned i = 0; gradient && i < n; i++)
+        gradient[i] = lifted ? i + 1 == n : gradient[i] / c->scale;
+    return lifted ? u[n - 1] : (model(c, 0, u) - c->best->f) / c->scale;
+}
+
+/* gradient: (m x n) */
 static void modelled_limits(unsigned m, double *limit, unsigned n, const double *u,
                             double *gradient, void *context) {
     const cloud *c = context;
-    for (int k = 0; k < c->m; k++) {
-        limit[k] = model(c, k + 1, u) + 1.5 * inside;
-        if (gradient) slope(c, k + 1, u, gradient + (size_t)k * n);
-    }
-    if (m == (unsigned)c->m) return;
-    limit[c->m] = over_plane(c, u) + c->margin + 1e-3;
-    if (gradient) memcpy(gradient + (size_t)c->m * n, c->normal, n * sizeof *gradient);
+    const bool lifted = is_lifted(c);
+    double *g = gradient;
+    if (g) memset(g, 0, (size_t)m * n * sizeof *g);
+    basis_of(c->n, u, c->basis);
+    for (int k = lifted ? 0 : 1; k <= c->m; k++)
+        for (int r = 0; r < rows_of(c, k); r++, g = g ? g + n : NULL) {
+            const double is = model_of(c, k, r);
+            *limit++ = k > 0 ? is + 1.5 * inside : (is - c->best->f) / c->scale - u[c->n];
+            if (g) slope(c, c->beta + (c->row[k] + r) * c->terms, u, g);
+            for (int i = 0; i < c->n && g && k == 0; i++)
+                g[i] /= c->scale;
+            if (g && k == 0) g[c->n] = -1;
+        }
+    if (!c->walled) return;
+    *limit = over_plane(c, u) + c->margin + 1e-3;
+    if (g) memcpy(g, c->normal, (size_t)c->n * sizeof *g);
 }
 
 /* trial: the least of the models from x on, by SLSQP (Kraft 1988, as NLopt has it) */
 static fw_status settle(cloud *c) {
     double least;
-    nlopt_opt opt = nlopt_create(NLOPT_LD_SLSQP, (unsigned)c->n);
+    const int n = c->n + is_lifted(c),
+              m = c->row[c->m + 1] - (is_lifted(c) ? 0 : c->row[1]) + c->walled;
+    nlopt_opt opt = nlopt_create(NLOPT_LD_SLSQP, (unsigned)n);
     FW_NEED(opt);
     nlopt_set_min_objective(opt, modelled, c);
-    nlopt_add_inequality_mconstraint(opt, (unsigned)(c->m + c->walled), modelled_limits, c,
-                                     c->near);
+    nlopt_add_inequality_mconstraint(opt, (unsigned)m, modelled_limits, c, c->near);
     place(c, c->x, c->trial);
+    if (n > c->n) c->trial[c->n] = (model(c, 0, c->trial) - c->best->f) / c->scale;
     for (int i = 0; i < c->n; i++) {
         nlopt_set_lower_bound(opt, i, fmax(-1, -c->best->x[i] / c->radius));
         nlopt_set_upper_bound(opt, i, fmin(1, (1 - c->best->x[i]) / c->radius));
@@ -445,6 +500,7 @@ static fw_status choose(cloud *c, uint64_t seed, bool *found) {
 /* by all that is known; and where the plane leaves nothing, but is only guessed by few, far from what does not hold */
 static fw_status choose_next(cloud *c, uint64_t seed, bool *found) {
     const bool held = holds(c->best, c->m);
+    find_rows(c);
     for (int k = 0; k <= c->m; k++)
         fit(c, k);
     find_sides(c);
@@ -481,24 +537,29 @@ static void learn(cloud *c, const fw_study_tried *t) {
 static fw_status cloud_new(fw_arena *arena, const fw_study_descent *d, const fw_study_tried *known,
                            int nknown, cloud *c) {
     const size_t most = (size_t)(nknown + d->most), n = (size_t)d->n;
-    *c = (cloud){.n = d->n, .m = d->m, .terms = terms_of(d->n), .radius = reach};
+    *c = (cloud){.n = d->n, .m = d->m, .terms = terms_of(d->n), .radius = reach, .parts = d->parts};
     const size_t terms = (size_t)c->terms;
+    int rows = c->m + 1;
+    for (int k = 0; d->parts && k <= c->m; k++)
+        rows += d->parts[k];
     FW_NEED(c->at = fw_arena_array(arena, const fw_study_tried *, most));
     FW_NEED(c->side = fw_arena_array(arena, side, most));
     FW_NEED(c->support = fw_arena_array(arena, support, most));
     FW_NEED(c->near_u = fw_arena_array(arena, double, most *n));
-    FW_NEED(c->beta = fw_arena_array(arena, double, terms *(size_t)(c->m + 1)));
+    FW_NEED(c->beta = fw_arena_array(arena, double, terms *(size_t)rows));
+    FW_NEED(c->row = fw_arena_array(arena, int, (size_t)c->m + 2));
+    FW_NEED(c->part_at = fw_arena_array(arena, int, (size_t)c->m + 1));
     FW_NEED(c->matrix = fw_arena_array(arena, double, terms *terms));
     FW_NEED(c->pivot = fw_arena_array(arena, int, terms));
     FW_NEED(c->basis = fw_arena_array(arena, double, terms));
     FW_NEED(c->normal = fw_arena_array(arena, double, n + 1));
-    FW_NEED(c->u = fw_arena_array(arena, double, 4 * n));
-    c->x = c->u + n, c->trial = c->x + n, c->middle = c->trial + n;
+    FW_NEED(c->u = fw_arena_array(arena, double, 4 * n + 1)); /* and a variable of settle */
+    c->x = c->u + n, c->middle = c->x + n, c->trial = c->middle + n;
     for (int i = 0; i < nknown; i++)
         c->at[c->count++] = &known[i];
     c->known = nknown, c->from = d->from;
     find_best(c);
-    return tolerances(arena, d->m + 1, 1e-8, &c->near);
+    return tolerances(arena, rows + 1, 1e-8, &c->near);
 }
 
 /* is it worth to begin with wide steps again? */
@@ -525,55 +586,4 @@ fw_status fw_study_descent_models(fw_study_descent *d, const fw_study_tried *kno
         }
     }
     return FW_OK;
-}
-
-/* ---- two goals ---- */
-
-static int by_goals(const void *a, const void *b) {
-    const fw_study_on_front *p = a, *q = b;
-    int order = fw_order_doubles(p->f[0], q->f[0]);
-    if (!order) order = fw_order_doubles(p->f[1], q->f[1]);
-    return order ? order : fw_order_wholes(p->at, q->at);
-}
-
-int fw_study_front(fw_study_on_front *p, int n) {
-    int all = 0, on = 0;
-    for (int i = 0; i < n; i++)
-        if (isfinite(p[i].f[0]) && isfinite(p[i].f[1])) p[all++] = p[i];
-    qsort(p, (size_t)all, sizeof *p, by_goals);
-    for (int i = 0; i < all; i++)
-        if (on == 0 || p[i].f[1] < p[on - 1].f[1]) p[on++] = p[i];
-    return on;
-}
-
-/* Again and again the one goes whose neighbours are nearest to each other, by the sum of both goals in shares of what the
-   front covers of them: so they stay where they are sparse, and both ends do. */
-int fw_study_front_thinned(fw_study_on_front *p, int n, int most) {
-    if (n <= most) return n;
-    const double wide = p[n - 1].f[0] - p[0].f[0], high = p[0].f[1] - p[n - 1].f[1];
-    for (; n > most; n--) {
-        double least = HUGE_VAL;
-        int at = 1;
-        for (int i = 1; i < n - 1; i++) {
-            const double gap =
-                (p[i + 1].f[0] - p[i - 1].f[0]) / wide + (p[i - 1].f[1] - p[i + 1].f[1]) / high;
-            if (gap < least) least = gap, at = i;
-        }
-        memmove(&p[at], &p[at + 1], (size_t)(n - at - 1) * sizeof *p);
-    }
-    return n;
-}
-
-/* ---- at which corners it is judged (study_made.c) ---- */
-
-void fw_study_watch_add(fw_study_watch *watch, const char *corner) {
-    int at = 0;
-    if (!corner[0]) return;
-    while (at < watch->n && strcmp(watch->text[at], corner) != 0)
-        at++;
-    if (at == watch->n && watch->n < FW_STUDY_WATCHED) watch->n++;
-    if (at == FW_STUDY_WATCHED) at--; /* the one that governed longest ago goes */
-    for (int i = at; i > 0; i--)
-        memcpy(watch->text[i], watch->text[i - 1], FW_PLAN_CORNER);
-    snprintf(watch->text[0], FW_PLAN_CORNER, "%s", corner);
 }

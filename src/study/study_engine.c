@@ -476,8 +476,9 @@ fw_status fw_study_find_hash(fw_study *study) {
     FW_NEED(o->asked = fw_arena_strdup(study->arena, digits));
     FW_TRY(add_given(study, &t));
     fw_text_printf(&t, "\n%s", asked.data);
-    if (study->asked->kind == FW_STUDY_IS_yield) /* a store of before has not all of a die */
-        fw_text_add(&t, "\nread by both ends of bands");
+    /* a store of before has not all of a die, or of a device of a size */
+    if (study->asked->kind == FW_STUDY_IS_yield) fw_text_add(&t, "\nread by both ends of bands");
+    if (study->asked->kind == FW_STUDY_IS_size) fw_text_add(&t, "\nwith what each hinge uses");
     FW_TRY(fw_text_end(&t));
     fw_sha256(t.data, t.length, digits);
     FW_NEED(study->hash = fw_arena_strdup(study->arena, digits));

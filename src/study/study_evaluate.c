@@ -176,39 +176,6 @@ void fw_study_sort_samples(fw_study_sample *sample, int n) {
     if (n > 1) qsort(sample, (size_t)n, sizeof *sample, by_number);
 }
 
-/* ---- corners that a size watches (study_made.c) ---- */
-
-static const char partly[] =
-    "not the best: accepted at the corners that governed before, the others were not judged";
-
-bool fw_study_asks_for_no_clearance(const fw_study *study) {
-    for (int k = 0; k < study->nresponse; k++)
-        if (!fw_study_response_of_hinges(&study->response[k])) return false;
-    return true;
-}
-
-/* of a device that is looked at in few corners clearances are bounded, where no response is about them, and nobody asks for masks */
-void fw_study_look(const fw_study *study, const fw_study_sample *sample, fw_plan_options *options) {
-    const fw_study_watch *watch = sample->watch && sample->watch->n > 0 ? sample->watch : NULL;
-    if (!study->watches) return;
-    options->watched = watch ? watch->text : NULL, options->nwatched = watch ? watch->n : 0;
-    options->verdict.corners = watch ? FW_CORNERS_SUSPECT : FW_CORNERS_AUTO;
-    options->verdict.bounded = options->without_masks =
-        watch && fw_study_asks_for_no_clearance(study);
-}
-
-void fw_study_say_corner(const fw_study *study, const fw_plan *plan, fw_study_sample *sample) {
-    if (!study->watches) return;
-    if (!sample->watch)
-        fw_plan_corner_text(plan, sample->corner);
-    else if (sample->decision == 0)
-        snprintf(sample->why, FW_STUDY_WHY, "%s", partly);
-}
-
-bool fw_study_is_partly(const fw_study_sample *sample) {
-    return sample->run && strcmp(sample->why, partly) == 0;
-}
-
 /* ---- one device ---- */
 
 const char fw_study_told_by_surface[] = "response surface";
@@ -218,6 +185,8 @@ fw_status fw_study_sample_new(fw_arena *arena, const fw_study *study, fw_study_s
     FW_NEED(sample->text = fw_arena_alloc(arena, (size_t)study->ninput, sizeof *sample->text));
     FW_NEED(sample->value = fw_arena_array(arena, double, (size_t)study->ninput));
     FW_NEED(sample->response = fw_arena_array(arena, double, (size_t)study->nresponse));
+    if (study->nuse > 0)
+        FW_NEED(sample->use = fw_arena_array(arena, double, FW_USE_NUMBERS *(size_t)study->nuse));
     if (study->npart > 0)
         FW_NEED(sample->part = fw_arena_array(
                     arena, double, (size_t)(FW_PART_NUMBERS * FW_VERDICT_LOOKS * study->npart)));
@@ -260,6 +229,8 @@ void fw_study_sample_copy(const fw_study *study, const fw_study_sample *from, fw
     to->used_low = from->used_low, to->used_high = from->used_high, to->way = from->way;
     memcpy(to->why, from->why, FW_STUDY_WHY);
     memcpy(to->corner, from->corner, FW_PLAN_CORNER);
+    if (study->nuse > 0)
+        memcpy(to->use, from->use, FW_USE_NUMBERS * (size_t)study->nuse * sizeof *to->use);
     memcpy(to->text, from->text, (size_t)study->ninput * sizeof *to->text);
     memcpy(to->value, from->value, (size_t)study->ninput * sizeof *to->value);
     memcpy(to->response, from->response, (size_t)study->nresponse * sizeof *to->response);
@@ -333,6 +304,7 @@ fw_design *fw_study_design(const fw_study *study, const fw_cancel *cancel,
     *status = FW_STATUS_NOMEM;
     if (!design) return NULL;
     fw_plan_design_cancel_with(design, cancel);
+    fw_arena_help_with(fw_plan_design_plan(design)->arena, study->team);
     fw_verdict_options *verdict = &fw_plan_design_plan(design)->options.verdict;
     verdict->hinges_only = study->asked && study->asked->judge == FW_JUDGE_HINGES;
     verdict->unheld = true;
@@ -465,57 +437,6 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
     return FW_STATUS_OK;
 }
 
-static double of_requirements(const fw_verdict_requirement *r, int n, double most) {
-    for (int i = 0; r && i < n; i++)
-        most = fmax(most, r[i].utilisation_high); /* NaN is passed */
-    return most;
-}
-
-static double of_hinges(const fw_verdict_hinge_verdict *h, int n, double most) {
-    for (int i = 0; i < n; i++)
-        if (h[i].scene) most = fmax(most, h[i].utilisation_high);
-    return most;
-}
-
-/* Reasons beside hinges and requirements say no number: a device that is not accepted uses at least this. The
-   search is told by it which way is out where nothing else tells. */
-const double fw_study_beyond = 1.001;
-
-/* A hinge as made or a requirement that is not accepted is a reason as well, and has the number of what it uses by itself:
-   `keep` of the reason is where advice begins, a little below what would hold. */
-static bool is_check(const fw_verdict_reason *r) {
-    return r->number == 237 || r->number == 330 || r->number == 331;
-}
-
-/* Reasons that measure nothing say where advice begins by a round share of the loads, which is no number of the device:
-   taken for one, it would be the same wherever the reason is, and fall where another one is measured. */
-static bool measured(const fw_verdict_reason *r) {
-    return !is_check(r) && r->keep > 0 && r->keep != FW_VERDICT_KEEP_HALF &&
-           r->keep != FW_VERDICT_KEEP_MOST;
-}
-
-static double used_of(const fw_verdict *verdict, int decision) {
-    double most = 0;
-    for (int i = 0; i < verdict->nvariant; i++) {
-        const fw_verdict_variant_verdict *v = &verdict->variant[i];
-        most = of_hinges(v->hinge, v->nhinge, most);
-        most = of_requirements(v->requirement, v->nrequirement, most);
-        for (int k = 0; v->fabricated && k < v->fabricated->ncorner; k++) {
-            const fw_verdict_fabricated_corner *c = &v->fabricated->corner[k];
-            most = of_hinges(c->hinge, v->nhinge, most);
-            most = of_requirements(c->requirement, v->nrequirement, most);
-        }
-        for (int k = 0; k < v->nreason; k++)
-            if (v->reason[k].decision != FW_ACCEPT && measured(&v->reason[k]))
-                most = fmax(most, fmin(1 / v->reason[k].keep, 10));
-    }
-    return fw_study_used(most, decision);
-}
-
-double fw_study_used(double most, int decision) {
-    return decision == 0 ? fmin(most, 1) : fmax(most, fw_study_beyond);
-}
-
 bool fw_study_same_files(const fw_study *study, fw_design *design) {
     fw_plan *plan = fw_plan_design_plan(design);
     const char *was, *is;
@@ -532,6 +453,8 @@ static void blank(const fw_study *study, fw_study_sample *sample) {
     sample->run = false, sample->decision = -1, sample->why[0] = sample->corner[0] = '\0';
     sample->used = sample->used_low = sample->used_high = (double)NAN;
     sample->nlook = 0, sample->way = 0;
+    for (int k = 0; k < FW_USE_NUMBERS * study->nuse; k++)
+        sample->use[k] = (double)NAN;
     for (int k = 0; k < study->nresponse; k++)
         sample->response[k] = (double)NAN;
 }
@@ -572,7 +495,10 @@ int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sam
         sample->decision = fw_design_decision(design);
         if (sample->decision >= 0 && study->asked && study->asked->fitted > 0)
             fw_study_parts_take(study, &plan->verdict, sample);
-        if (sample->decision >= 0) sample->used = used_of(&plan->verdict, sample->decision);
+        if (sample->decision >= 0)
+            sample->used = fw_study_used_of(&plan->verdict, sample->decision);
+        if (sample->decision >= 0 && study->nuse > 0)
+            fw_study_uses_take(study, &plan->verdict, sample);
         if (sample->decision >= 0 && study->way)
             sample->way = study->way(&plan->verdict, plan->device->nscene);
         if (sample->decision > 0 && study->explored) say_unmade(plan, sample->why);

@@ -147,6 +147,27 @@ int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double
     return n;
 }
 
+/* what hinges and requirements use, in the units of a number that is the largest of it: less `from`, over `of` */
+double *fw_study_used_by(const fw_study *study, const fw_study_sample *sample, double from,
+                         double of, double *part) {
+    for (int j = 0; j < study->nuse; j++)
+        *part++ = (sample->use[FW_USE_NUMBERS * j + FW_USE_VALUE] - from) / of;
+    return part;
+}
+
+void fw_study_limits_parts(const fw_study *study, const fw_study_sample *sample, int **count,
+                           double **part) {
+    for (int k = 0; k < study->nresponse; k++) {
+        const fw_study_response *q = &study->response[k];
+        const bool largest = fw_study_response_is_largest(q);
+        if (!isnan(q->min) && count) *(*count)++ = 0;
+        if (isnan(q->max)) continue;
+        if (count) *(*count)++ = largest ? study->nuse : 0;
+        if (part && largest)
+            *part = fw_study_used_by(study, sample, q->max, q->max != 0 ? fabs(q->max) : 1, *part);
+    }
+}
+
 double fw_study_excess(const fw_study *study, const fw_study_sample *sample) {
     double most = -HUGE_VAL;
     if (!sample->run) return (double)NAN;

@@ -501,35 +501,3 @@ fw_status fw_study_axes_find(const fw_study *study, const fw_study_points *point
     }
     return FW_OK;
 }
-
-/* ---- corners that a size watches ----
-   Devices as made cost several times what those as drawn do, for their corners, and of all that a size tries few are the best.
-   Those are judged at all corners, and the others at the ones that governed before (at most two of each flow): what is
-   not accepted there is not accepted, and what is and would not be better anyway is no answer. Whatever is
-   found better, or turns out to be refused at another corner, adds its own. A number as made of a device judged so is one
-   over fewer corners, that is, not more than the true one, so that goals and limits must be such that less is better. */
-
-/* less of the governing utilisation is better, and of what says how devices are made nobody asks */
-static bool is_watched(const fw_study_response *r) {
-    static const char *const made[] = {"as_fabricated", "all_corners", "corners", "flows",
-                                       "failure_probability"};
-    for (size_t i = 0; i < sizeof made / sizeof made[0]; i++)
-        if (strstr(r->path, made[i])) return false;
-    return strncmp(r->path, "governing", strlen("governing")) != 0 ||
-           (strcmp(r->path, "governing.utilisation") == 0 && isnan(r->min) &&
-            r->asked->goal != FW_GOAL_MAXIMISE);
-}
-
-bool fw_study_may_watch(const fw_study *study) {
-    const char *corners = study->options.design.corners;
-    int goals = 0;
-    if (corners && strcmp(corners, "none") == 0) return false;
-    if (!study->asked || study->asked->kind != FW_STUDY_IS_size ||
-        study->asked->judge != FW_JUDGE_MADE || study->asked->yield > 0)
-        return false;
-    for (int k = 0; k < study->nresponse; k++) {
-        goals += study->response[k].asked->goal != FW_GOAL_NONE;
-        if (!is_watched(&study->response[k])) return false;
-    }
-    return goals == 1;
-}

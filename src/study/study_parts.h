@@ -4,6 +4,7 @@
 #define FW_STUDY_STUDY_PARTS_H
 #include "plan/design.h"
 #include "study/study.h"
+#include "study/study_search.h"
 #include "base/svg.h"
 #include "chance/estimate.h"
 #include "chance/joint.h"
@@ -51,6 +52,10 @@ int fw_study_input_steps(const fw_study_input *input);
    the nearest of the list */
 fw_status fw_study_input_at(const fw_study_input *input, double share, int digits,
                             char text[FW_STUDY_TEXT], double *value);
+/* combinations of listed values, beyond `most` no further; *at: the input by which they are more, else FW_NONE */
+long fw_study_lists_count(const fw_study *study, long most, int *at);
+/* listed inputs of a sample: that combination of them */
+fw_status fw_study_lists_write(const fw_study *study, long combination, fw_study_sample *sample);
 /* its ends, or what is listed: is there such a parameter or attribute, and may it be so? FW_INPUT: FW-D493 */
 fw_status fw_study_input_check(fw_study *study, int k);
 /* the other way: 0 at from, 1 at to, not beyond */
@@ -77,6 +82,8 @@ int fw_study_responses_take(const fw_study *study, fw_design *design, double *va
 int fw_study_answers_take(const fw_study *study, fw_design *design, fw_study_sample *sample);
 /* used (limit_used) of a device whose hinges and requirements use at most so much, by what was decided: 0 accepted */
 double fw_study_used(double most, int decision);
+/* the same of a device that was judged: the most over its hinges, requirements, corners and measured reasons */
+double fw_study_used_of(const struct fw_verdict *verdict, int decision);
 /* what responses need of a design that was read; the library's status */
 int fw_study_stages_run(fw_design *design, unsigned stages);
 /* one hash of all files that a plan has read */
@@ -148,85 +155,6 @@ fw_status fw_study_keep_found(fw_study *study, const fw_study_sample *sample, do
                               struct fw_study_found *found);
 
 fw_status fw_study_tell_limits(fw_study *study, struct fw_study_found *found); /* study_limits.c */
-/* study_descent.c: what is judged next */
-typedef struct fw_study_tried { /* a device that was judged, as a search sees it */
-    double *x;                  /* shares of the ranged inputs */
-    double f, *c;               /* objective, constraints; NaN: none */
-    bool untold;                /* it does not hold, and none of these numbers says by how much */
-} fw_study_tried;
-
-typedef struct fw_study_descent {
-    int n, m, most; /* shares, 0..1 each; constraints, at least one; what may be judged */
-    /* t->x is given, the rest is wanted; false: it is over */
-    bool (*judge)(void *context, fw_study_tried *t);
-    void *context;
-    fw_study_tried *tried; /* room for `most`; (used) in their order */
-    int used;
-    bool over;
-    double step;                /* first one of COBYLA, share of a range; 0: the usual one */
-    const fw_study_tried *from; /* of models: where they begin, of what is known; NULL: the best */
-} fw_study_descent;
-/* the largest constraint; NaN: as bad as can be */
-double fw_study_tried_worst(const fw_study_tried *t, int m);
-/* from start, which becomes its end */
-typedef fw_status fw_study_descend(fw_study_descent *d, double *start, fw_arena *arena);
-fw_study_descend fw_study_descent_cobyla;
-/* from what was judged already, on from the best of it */
-fw_status fw_study_descent_models(fw_study_descent *d, const fw_study_tried *known, int nknown,
-                                  fw_arena *arena);
-/* a is better than b: feasible before infeasible, then by objective, or by constraint */
-bool fw_study_search_better(double fa, double ca, double fb, double cb);
-typedef struct fw_study_on_front { /* a device, and two goals, the less the better */
-    double f[2];
-    int at;
-} fw_study_on_front;
-/* those of n that no other one beats, first, by the first goal: how many; of the same goals one. NaN: left out */
-int fw_study_front(fw_study_on_front *p, int n);
-/* a front with at most so many (>= 2) of its devices, evenly along it, both ends among them: how many */
-int fw_study_front_thinned(fw_study_on_front *p, int n, int most);
-
-typedef struct fw_study_search {
-    /* of a sample that was run: what is to be small, and what must not be above 0 (NaN: as bad as can be), as many as
-       `nconstraint`. *untold: it does not hold, and none of these numbers says by how much */
-    double (*objective)(const void *context, const fw_study_sample *sample);
-    int nconstraint;
-    void (*constraint)(const void *context, const fw_study_sample *sample, double *c, bool *untold);
-    /* what is looked at besides check, of a sample that was run and is not in the store: sample->used may rise by it;
-       NULL: nothing. Called by several threads at once. */
-    fw_status (*besides)(const void *beside, fw_study_sample *sample);
-    const void *context, *beside;
-    /* shares 0..1 of the ranges of the ranged inputs; listed ones keep their texts */
-    double *start;
-    const fw_study_sample *from; /* texts of listed inputs */
-    /* NULL: COBYLA from the start. Else what was judged already (nknown), of the same texts of listed inputs: models of it
-       say what is judged next, from the best of it on, or from the start (its number; FW_NONE: the best) */
-    const fw_study_tried *known;
-    int nknown, begin;
-    fw_study_descend *descend; /* NULL: COBYLA, or models where `known` is */
-    int most;                  /* evaluations */
-    int digits;                /* of the values that are tried */
-    long first;                /* number of its first sample */
-    /* out: the best sample, feasible first; its objective and constraint */
-    fw_study_sample best;
-    double f, c;           /* c: the largest constraint */
-    fw_study_tried *tried; /* (used) in their order */
-    int used;
-    fw_study_watch watch; /* at the corners of these, but for what is better than_f, than_c */
-    double than_f, than_c;
-    bool keeps_all;       /* in: `all` is wanted */
-    fw_study_sample *all; /* (used) */
-} fw_study_search;
-/* begins at a sample: its shares, and its texts of listed inputs */
-fw_status fw_study_search_from(const fw_study *study, const fw_study_sample *from,
-                               fw_study_search *search);
-/* by the largest share of a range that their inputs are apart; 1 where a listed one differs */
-double fw_study_search_apart(const fw_study *study, const fw_study_sample *a,
-                             const fw_study_sample *b);
-/* search->known: of these samples those that have the texts of its start; search->begin: that one, else FW_NONE */
-fw_status fw_study_search_knows(const fw_study *study, fw_study_search *search,
-                                const fw_study_sample *sample, int nsample);
-/* n searches, in threads: each gives the same whatever runs beside it */
-fw_status fw_study_search_run(fw_study *study, fw_study_search *search, int n);
 
 /* kind_sensitivity.c: where derivatives by an input are taken, SI: at the description, or at the middle of the range where
    that does not hold it, or the description has no parameter of it */
@@ -252,6 +180,11 @@ void fw_study_sort_samples(fw_study_sample *sample, int n);
 double fw_study_excess(const fw_study *study, const fw_study_sample *sample);
 /* the same of each limit by itself: c, as many as is answered; c NULL: only counted */
 int fw_study_limits(const fw_study *study, const fw_study_sample *sample, double *c);
+double *fw_study_used_by(const fw_study *study, const fw_study_sample *sample, double from,
+                         double of, double *part);
+/* of each limit that is the largest of what hinges and requirements use: how many of them, and these; either may be NULL, both are moved on */
+void fw_study_limits_parts(const fw_study *study, const fw_study_sample *sample, int **count,
+                           double **part);
 /* what a device uses, of which no number says by how much it is not accepted */
 extern const double fw_study_beyond;
 /* ---- study_fitted.c: devices that are told and not judged ---- */
@@ -290,10 +223,16 @@ fw_status fw_study_fitted_run(fw_study *study, const fw_study_points *points,
 fw_status fw_study_dies_check(fw_study *study);
 fw_status fw_study_say_idle(fw_study *study); /* FW-D737 */
 
-/* ---- study_response.c: what a decision follows from ---- */
+/* ---- study_decides.c: what a decision follows from ---- */
+enum { FW_USE_VALUE, FW_USE_HIGH, FW_USE_NUMBERS }; /* of one that uses something of its limit */
+/* what each uses in all that was judged of a device */
+void fw_study_uses_take(const fw_study *study, const struct fw_verdict *verdict,
+                        fw_study_sample *sample);
+/* is it the largest of what hinges and requirements use? */
+bool fw_study_response_is_largest(const fw_study_response *response);
 enum { FW_PART_LOW, FW_PART_HIGH, FW_PART_VALUE, FW_PART_NUMBERS }; /* numbers of a part */
-/* npart and nhinge of the description as it stands: as drawn its hinges and requirements, of a die every check, those of
-   hinges first */
+/* of the description as it stands, where devices are told by it: npart and nhinge, as drawn its hinges and requirements, of a die
+   every check, those of hinges first; of a size nuse */
 void fw_study_parts_of(const fw_plan *plan, fw_study *study);
 void fw_study_parts_take(const fw_study *study, const fw_verdict *verdict, fw_study_sample *sample);
 /* The die that the flow makes with the values of a sample, of a device that was judged as drawn: run, used, decision (0
@@ -448,8 +387,7 @@ fw_status fw_study_dies_failing(fw_study *dies, int flow, double *share);
 enum { FW_STUDY_SEARCH_PART = 1000000, FW_STUDY_ROUNDS_USUAL = 4 };
 /* study_search.c: the best that has the yield asked for, of what was judged (n) and of what searches `like` this one try */
 fw_status fw_study_at_yield(fw_study *study, const fw_study_search *like,
-                            const fw_study_sample *const *judged, int n,
-                            struct fw_study_result *result);
+                            const fw_study_sample *judged, int n, struct fw_study_result *result);
 
 /* ---- parts of the documents ---- */
 /* inputs and responses as they were asked for; before it runs, too */

@@ -4,7 +4,6 @@
 #include "study/study_parts.h"
 #include <math.h>
 #include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -26,6 +25,9 @@ void fw_study_tell(const fw_study *study) {
 
 /* ---- threads that do the same beside the calling one ---- */
 
+/* A thread without a device of its own helps to judge those of others, whose flows and corners need nothing of each other
+   (fw_arena_each): the last search of several, or the only one, has all of them. A study's team counts them while work is
+   done; at other times it has none. */
 typedef struct crew {
     const fw_study *study;
     void (*work)(void *context); /* of a thread, until nothing is left for it */
@@ -41,6 +43,7 @@ static void *member(void *argument) {
     locale_t before = uselocale(c->study->design->locale);
     c->work(c->context);
     uselocale(before);
+    atomic_fetch_add(&c->study->team->idle, 1);
     pthread_mutex_lock(&c->lock);
     c->alive--;
     pthread_cond_signal(&c->ended);
@@ -63,6 +66,7 @@ static bool crew_works(crew *c, int threads) {
     if (n > 0) c->lead(c->context);
     for (int i = 0; i < n; i++)
         pthread_join(thread[i], NULL);
+    atomic_fetch_sub(&c->study->team->idle, n);
     pthread_cond_destroy(&c->ended);
     pthread_cond_destroy(&c->given);
     pthread_mutex_destroy(&c->lock);
@@ -128,10 +132,12 @@ fw_status fw_study_each(const fw_study *study, long n, fw_status (*one)(void *co
                .one = one,
                .context = context,
                .n = n};
-    int jobs = fw_study_jobs(study);
+    const int all = fw_study_jobs(study), jobs = n < 1 ? 1 : n < all ? (int)n : all;
     q.crew.context = &q;
-    if (jobs > n) jobs = (int)n;
-    return jobs > 1 && crew_works(&q.crew, jobs) ? q.status : all_alone(&q);
+    atomic_fetch_add(&study->team->idle, all - jobs);
+    fw_status status = jobs > 1 && crew_works(&q.crew, jobs) ? q.status : all_alone(&q);
+    atomic_fetch_sub(&study->team->idle, all - jobs);
+    return status;
 }
 
 /* ---- samples ----
@@ -176,7 +182,9 @@ static void judge_given(void *context) {
         slot *s = find(p, GIVEN);
         if (!s && p->over) break;
         if (!s) {
+            atomic_fetch_add(&p->study->team->idle, 1);
             pthread_cond_wait(&p->crew.given, &p->crew.lock);
+            atomic_fetch_sub(&p->study->team->idle, 1);
             continue;
         }
         s->state = TAKEN;
@@ -331,28 +339,20 @@ static fw_status run_work(pool *p, int jobs) {
 }
 
 fw_status fw_study_pool_run(fw_study *study, const fw_study_work *work) {
-    int jobs = fw_study_jobs(study);
-    if (jobs > work->n) jobs = work->n > 0 ? (int)work->n : 1;
+    const int all = fw_study_jobs(study), jobs = work->n < 1     ? 1
+                                                 : work->n < all ? (int)work->n
+                                                                 : all;
     pool p = {.study = study,
               .work = work,
               .crew = {.study = study, .work = judge_given, .lead = run, .context = &p},
               .scratch = fw_arena_part(study->arena, 0)};
     FW_NEED(p.scratch);
     p.begun_s = fw_study_now_s();
+    atomic_fetch_add(&study->team->idle, all - jobs);
     fw_status status = run_work(&p, jobs);
+    atomic_fetch_sub(&study->team->idle, all - jobs);
     fw_arena_free(p.scratch);
     return status;
-}
-
-fw_status fw_study_check_apart(fw_study *study) {
-    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
-    return fw_diag_error(
-        &study->diags, 490, study->asked->place,
-        "shards: a study of kind %s chooses each of its samples by the ones before; "
-        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
-        "a study on each "
-        "with a part of the ranges, of which the best is the answer",
-        fw_device_study_kind_text(study->asked->kind));
 }
 
 /* ---- local searches (study_descent.c), several at once ----
@@ -403,6 +403,7 @@ static void see(const fw_study_search *s, const fw_study_sample *sample, fw_stud
     for (int k = 0; k < s->nconstraint; k++)
         t->c[k] = (double)NAN;
     if (!isnan(t->f)) s->constraint(s->context, sample, t->c, &t->untold);
+    if (s->part) s->part(s->context, sample, t->part);
 }
 
 /* would it be the best of those that were looked at in all corners? */
@@ -489,6 +490,7 @@ static fw_status search(board *b, fw_study_search *s, fw_arena *arena) {
     fw_study_descent d = {.n = ranged(b->study),
                           .m = s->nconstraint,
                           .most = s->most,
+                          .parts = s->parts,
                           .judge = judge,
                           .context = &o,
                           .tried = s->tried};
@@ -554,6 +556,7 @@ fw_status fw_study_search_knows(const fw_study *study, fw_study_search *s,
         if (&sample[i] == s->from) s->begin = s->nknown;
         fw_study_tried *t = &known[s->nknown++];
         FW_NEED(t->c = fw_arena_array(study->arena, double, (size_t)s->nconstraint));
+        FW_NEED(t->part = fw_arena_array(study->arena, double, (size_t)s->npart));
         FW_TRY(fw_study_search_from(study, &sample[i], &shares));
         t->x = shares.start;
         see(s, &sample[i], t);
@@ -564,11 +567,13 @@ fw_status fw_study_search_knows(const fw_study *study, fw_study_search *s,
 static fw_status room_for_tried(const fw_study *study, fw_study_search *s) {
     const size_t n = (size_t)ranged(study), most = (size_t)(s->most > 0 ? s->most : 1);
     double *x = fw_arena_array(study->arena, double, most *n + 1),
-           *c = fw_arena_array(study->arena, double, most *(size_t)s->nconstraint + 1);
-    FW_NEED(x && c ? x : NULL);
+           *c = fw_arena_array(study->arena, double, most *(size_t)s->nconstraint + 1),
+           *part = fw_arena_array(study->arena, double, most *(size_t)s->npart + 1);
+    FW_NEED(x && c && part ? x : NULL);
     FW_NEED(s->tried = fw_arena_array(study->arena, fw_study_tried, most));
     for (size_t i = 0; i < most; i++)
-        s->tried[i].x = x + i * n, s->tried[i].c = c + i * (size_t)s->nconstraint;
+        s->tried[i].x = x + i * n, s->tried[i].c = c + i * (size_t)s->nconstraint,
+        s->tried[i].part = part + i * (size_t)s->npart;
     if (!s->keeps_all) return FW_OK;
     FW_NEED(s->all = fw_arena_array(study->arena, fw_study_sample, most));
     for (size_t i = 0; i < most; i++)

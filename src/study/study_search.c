@@ -1,24 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sizes at a wanted yield. A device has to hold every limit also as the dies that lie a distance beta from what is intended in the
+/* What sizes need beside their searches: fronts of two goals, combinations of listed values, what may be judged; and
+
+   sizes at a wanted yield. A device has to hold every limit also as the dies that lie a distance beta from what is intended in the
    direction that is worst for it (sequential optimisation and reliability assessment: X. Du, W. Chen, J. Mech. Des. 126
    (2004) 225). Dies are found for the best device, searches follow with these, until none is worse; then its yield is
    estimated, and beta follows what that says, since a limit that bends, or several of them, have another yield than a plane
    at that distance. Every device that was judged stays a candidate: the next one is the best of them all that holds these
    dies, and one that was estimated and is short of the yield is none any more. What is returned is a device whose yield was
    estimated so. Test: tests/cli/test_study.py, tests/cli/test_sizing.py */
+#include "base/sort.h"
 #include "maths/functions.h"
 #include "study/study_parts.h"
 #include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
-    ROUNDS = 12,   /* searches, in one go */
-    ESTIMATED = 5, /* devices whose yield is estimated by few dies, in one go */
-    CONFIRMED = 3, /* devices whose yield is estimated in full, until one is enough */
-    ROBUST = 3,    /* and then of those that are farthest from their limits */
-    DIES = 4,      /* of a flow that searches look at; the last ones found */
-    LOOKS = 16     /* candidates that are looked at with the dies, to choose one */
+    ROUNDS = 12,     /* searches, in one go */
+    ESTIMATED = 5,   /* devices whose yield is estimated by few dies, in one go */
+    CONFIRMED = 3,   /* devices whose yield is estimated in full, until one is enough */
+    ROBUST = 3,      /* and then of those that are farthest from their limits */
+    DIES = 4,        /* of a flow that searches look at; the last ones found */
+    LOOKS = 16,      /* candidates that are looked at with the dies, to choose one */
+    FRONT_MOST = 100 /* devices of a front that are listed */
 };
 static const double still = 2e-3;        /* ln by which a die may be worse than those looked at */
 static const double interval_adds = 1.1; /* to a share, of 3000 dies of which a hundredth fails */
@@ -359,7 +364,7 @@ static fw_status confirm_some(robust *s) {
 }
 
 fw_status fw_study_at_yield(fw_study *study, const fw_study_search *like,
-                            const fw_study_sample *const *judged, int n, fw_study_result *result) {
+                            const fw_study_sample *judged, int n, fw_study_result *result) {
     const double wanted = study->asked->yield;
     robust s = {.study = study,
                 .result = result,
@@ -373,7 +378,7 @@ fw_status fw_study_at_yield(fw_study *study, const fw_study_search *like,
     FW_NEED(s.die = fw_arena_array(study->arena, fw_study_die,
                                    (size_t)(DIES * (study->plan->nflow + 1))));
     for (int i = 0; i < n; i++)
-        add(&s, judged[i], false);
+        add(&s, &judged[i], false);
     FW_TRY(confirm_some(&s));
     result->may_be = s.n;
     if (s.shown == FW_NONE) return FW_OK;
@@ -382,4 +387,149 @@ fw_status fw_study_at_yield(fw_study *study, const fw_study_search *like,
     FW_NEED(result->found = fw_arena_one(study->arena, fw_study_found));
     result->nfound = 1;
     return fw_study_keep_found(study, c->sample, fmin(log(c->sample->used), 0), result->found);
+}
+
+/* ---- two goals ---- */
+
+static int by_goals(const void *a, const void *b) {
+    const fw_study_on_front *p = a, *q = b;
+    int order = fw_order_doubles(p->f[0], q->f[0]);
+    if (!order) order = fw_order_doubles(p->f[1], q->f[1]);
+    return order ? order : fw_order_wholes(p->at, q->at);
+}
+
+int fw_study_front(fw_study_on_front *p, int n) {
+    int all = 0, on = 0;
+    for (int i = 0; i < n; i++)
+        if (isfinite(p[i].f[0]) && isfinite(p[i].f[1])) p[all++] = p[i];
+    qsort(p, (size_t)all, sizeof *p, by_goals);
+    for (int i = 0; i < all; i++)
+        if (on == 0 || p[i].f[1] < p[on - 1].f[1]) p[on++] = p[i];
+    return on;
+}
+
+/* Again and again the one goes whose neighbours are nearest to each other, by the sum of both goals in shares of what the
+   front covers of them: so they stay where they are sparse, and both ends do. */
+int fw_study_front_thinned(fw_study_on_front *p, int n, int most) {
+    if (n <= most) return n;
+    const double wide = p[n - 1].f[0] - p[0].f[0], high = p[0].f[1] - p[n - 1].f[1];
+    for (; n > most; n--) {
+        double least = HUGE_VAL;
+        int at = 1;
+        for (int i = 1; i < n - 1; i++) {
+            const double gap =
+                (p[i + 1].f[0] - p[i - 1].f[0]) / wide + (p[i - 1].f[1] - p[i + 1].f[1]) / high;
+            if (gap < least) least = gap, at = i;
+        }
+        memmove(&p[at], &p[at + 1], (size_t)(n - at - 1) * sizeof *p);
+    }
+    return n;
+}
+
+/* The front is n devices, `had` levels were tried. A gap counts by the sum of both goals in shares of what the front covers of them,
+   and its parts between levels that were tried by their share of it, so that nothing is looked for twice where nothing is. */
+int fw_study_front_levels(const fw_study_on_front *p, int n, double *level, int had, int most) {
+    const double least = 0.01;
+    int all = had;
+    for (double widest = HUGE_VAL; n > 1 && widest > 0 && all < had + most;) {
+        const double wide = p[n - 1].f[0] - p[0].f[0], high = p[0].f[1] - p[n - 1].f[1];
+        widest = 0;
+        for (int i = 0; i < n - 1; i++) {
+            const double low = p[i + 1].f[1], up = p[i].f[1],
+                         gap = (p[i + 1].f[0] - p[i].f[0]) / wide + (up - low) / high;
+            for (int from = -1; from < all;
+                 from++) { /* parts begin at its end, or at levels in it */
+                const double a = from < 0 ? low : level[from];
+                double b = up;
+                for (int k = 0; k < all; k++)
+                    if (level[k] > a) b = fmin(b, level[k]);
+                const double part = gap * (b - a) / (up - low);
+                if (a < low || a >= up || part <= fmax(widest, least)) continue;
+                widest = part, level[all] = 0.5 * (a + b);
+            }
+        }
+        all += widest > 0;
+    }
+    return all - had;
+}
+
+/* of several with the same goals the first one */
+fw_status fw_study_front_keep(fw_study *study, const fw_study_sample *sample, fw_study_on_front *p,
+                              int n, fw_study_result *result) {
+    result->unbeaten = n = fw_study_front(p, n);
+    n = fw_study_front_thinned(p, n, FRONT_MOST);
+    FW_NEED(result->found = fw_arena_array(study->arena, fw_study_found, (size_t)n + 1));
+    for (; result->nfound < n; result->nfound++) {
+        const fw_study_on_front *on = &p[result->nfound];
+        FW_TRY(fw_study_keep_found(study, &sample[on->at], on->excess,
+                                   &result->found[result->nfound]));
+    }
+    return FW_OK;
+}
+
+/* ---- listed values ---- */
+
+long fw_study_lists_count(const fw_study *study, long most, int *at) {
+    long lists = 1;
+    *at = FW_NONE;
+    for (int k = 0; k < study->nvary && *at == FW_NONE; k++) {
+        if (study->input[k].ntext > 0) lists *= study->input[k].ntext;
+        if (lists > most) *at = k;
+    }
+    return lists;
+}
+
+fw_status fw_study_lists_write(const fw_study *study, long combination, fw_study_sample *sample) {
+    for (int k = study->nvary; k-- > 0;) {
+        const fw_study_input *in = &study->input[k];
+        if (in->ntext == 0) continue;
+        FW_TRY(fw_study_input_step(in, (int)(combination % in->ntext), sample->text[k],
+                                   &sample->value[k]));
+        combination /= in->ntext;
+    }
+    return FW_OK;
+}
+
+fw_status fw_study_check_apart(fw_study *study) {
+    if (study->asked->kind != FW_STUDY_IS_size) return FW_OK;
+    return fw_diag_error(
+        &study->diags, 490, study->asked->place,
+        "shards: a study of kind %s chooses each of its samples by the ones before; "
+        "run it in one piece, in as many threads as there are (--jobs); or, for several machines, "
+        "a study on each "
+        "with a part of the ranges, of which the best is the answer",
+        fw_device_study_kind_text(study->asked->kind));
+}
+
+/* ---- what a size may judge ---- */
+
+fw_status fw_study_check_size(fw_study *study) {
+    int at;
+    fw_study_lists_count(study, FW_SIZE_LISTS_MOST, &at);
+    if (at == FW_NONE) return FW_OK;
+    return fw_diag_error(&study->diags, 490, study->input[at].place,
+                         "more than %d combinations of listed values; each is tried, so "
+                         "list fewer, or give ranges",
+                         (int)FW_SIZE_LISTS_MOST);
+}
+
+int fw_study_size_searches(const fw_study *study, int goals) {
+    return goals == 2                ? (2 + FW_SIZE_LEVELS) * FW_SIZE_SEARCHES
+           : study->asked->yield > 0 ? FW_SIZE_SEARCHES + FW_STUDY_ROUNDS_USUAL
+                                     : FW_SIZE_SEARCHES;
+}
+
+long fw_study_count_size(const fw_study *study) {
+    long n = 0, lists = 1;
+    int goals = 0;
+    if (study->asked->samples > 0) return study->asked->samples;
+    for (int k = 0; k < study->nvary; k++) {
+        const fw_study_input *in = &study->input[k];
+        n += in->ntext == 0;
+        if (in->ntext > 0 && lists <= FW_SIZE_LISTS_MOST) lists *= in->ntext;
+    }
+    for (int k = 0; k < study->nresponse; k++)
+        goals += study->response[k].asked->goal != FW_GOAL_NONE;
+    return (n == 0 ? 1 : 1 + 4 * n) * lists +
+           FW_SIZE_EACH * (n + 1) * fw_study_size_searches(study, goals);
 }

@@ -68,6 +68,19 @@ static fw_status run(const fw_study_store *store, const char *sql, const char *d
                                                                        : failed(store, doing);
 }
 
+/* with texts in place of its question marks; second NULL: it has one */
+static fw_status run_with(const fw_study_store *store, const char *sql, const char *first,
+                          const char *second, const char *doing) {
+    sqlite3_stmt *s = NULL;
+    bool done = sqlite3_prepare_v2(store->db, sql, -1, &s, NULL) == SQLITE_OK;
+    if (done) sqlite3_bind_text(s, 1, first, -1, SQLITE_TRANSIENT);
+    if (done && second) sqlite3_bind_text(s, 2, second, -1, SQLITE_TRANSIENT);
+    done = done && sqlite3_step(s) == SQLITE_DONE;
+    const fw_status status = done ? FW_OK : failed(store, doing);
+    sqlite3_finalize(s);
+    return status;
+}
+
 static fw_status prepare(const fw_study_store *store, const fw_text *sql,
                          sqlite3_stmt **statement) {
     FW_TRY(fw_text_end(sql));
@@ -89,14 +102,16 @@ static int readings(const fw_study *study) {
     return study->asked->kind == FW_STUDY_IS_yield ? 2 : 0;
 }
 
-/* a size that watches corners: which one governs, of devices that were looked at in all */
-static int corners(const fw_study *study) {
-    return study->watches ? 1 : 0;
+/* of a size, bytes of what each hinge uses, doubles of this machine: only --resume reads them */
+static size_t uses(const fw_study *study) {
+    return FW_USE_NUMBERS * (size_t)study->nuse * sizeof(double);
 }
 
+/* of a size that watches corners the one that governs, of devices that were looked at in all */
 static void add_columns(fw_text *sql, const fw_study *study, bool types) {
     static const char *const end[] = {"limit_used_low", "limit_used_high"};
-    if (corners(study) > 0) fw_text_printf(sql, ", corner%s", types ? " TEXT" : "");
+    if (study->watches) fw_text_printf(sql, ", corner%s", types ? " TEXT" : "");
+    if (study->nuse > 0) fw_text_printf(sql, ", uses%s", types ? " BLOB" : "");
     for (int k = 0; k < readings(study); k++)
         fw_text_printf(sql, ", %s%s", end[k], types ? " REAL" : "");
     for (int k = 0; k < study->ninput + study->nresponse; k++) {
@@ -108,17 +123,6 @@ static void add_columns(fw_text *sql, const fw_study *study, bool types) {
 }
 
 /* ---- what it is of ---- */
-
-static fw_status say(fw_study_store *store, const char *key, const char *value) {
-    sqlite3_stmt *s;
-    if (sqlite3_prepare_v2(store->db, "INSERT INTO study VALUES (?, ?)", -1, &s, NULL) != SQLITE_OK)
-        return failed(store, "the store could not be begun");
-    sqlite3_bind_text(s, 1, key, -1, SQLITE_TRANSIENT);
-    sqlite3_bind_text(s, 2, value, -1, SQLITE_TRANSIENT);
-    bool done = sqlite3_step(s) == SQLITE_DONE;
-    sqlite3_finalize(s);
-    return done ? FW_OK : failed(store, "the store could not be begun");
-}
 
 static fw_status make_tables(fw_study_store *store) {
     const fw_study *study = store->study;
@@ -145,7 +149,8 @@ static fw_status make_tables(fw_study_store *store) {
                                  {"shard", fw_arena_printf(sql.arena, "%d", o->shard)},
                                  {"shards", fw_arena_printf(sql.arena, "%d", o->shards)}};
     for (size_t i = 0; i < sizeof of / sizeof of[0] - (o->shards > 0 ? 0 : 2); i++)
-        FW_TRY(say(store, of[i][0], of[i][1]));
+        FW_TRY(run_with(store, "INSERT INTO study VALUES (?, ?)", of[i][0], of[i][1],
+                        "the store could not be begun"));
     return run(store, "COMMIT", "the store could not be begun");
 }
 
@@ -206,7 +211,8 @@ static fw_status prepare_all(fw_study_store *store) {
     const fw_study *study = store->study;
     fw_text add = fw_text_new(study->arena), get = fw_text_new(study->arena);
     fw_text_add(&add, "INSERT OR IGNORE INTO sample VALUES (?, ?, ?, ?");
-    for (int k = 0; k < study->ninput + study->nresponse + readings(study) + corners(study); k++)
+    const int more = readings(study) + study->watches + (study->nuse > 0);
+    for (int k = 0; k < study->ninput + study->nresponse + more; k++)
         fw_text_add(&add, ", ?");
     fw_text_add(&add, ")");
     FW_TRY(prepare(store, &add, &store->add));
@@ -414,8 +420,10 @@ fw_status fw_study_store_add(fw_study_store *store, const fw_study_sample *sampl
                       SQLITE_STATIC);
     sqlite3_bind_text(s, at++, sample->why[0] ? sample->why : NULL, -1, SQLITE_TRANSIENT);
     bind_number(s, at++, sample->used);
-    if (corners(study) > 0)
+    if (study->watches)
         sqlite3_bind_text(s, at++, sample->corner[0] ? sample->corner : NULL, -1, SQLITE_TRANSIENT);
+    if (uses(study) > 0)
+        sqlite3_bind_blob(s, at++, sample->use, (int)uses(study), SQLITE_TRANSIENT);
     if (readings(study) > 0)
         bind_number(s, at++, sample->used_low), bind_number(s, at++, sample->used_high);
     for (int k = 0; k < study->ninput; k++, at++)
@@ -453,7 +461,10 @@ static void take_row(const fw_study *study, sqlite3_stmt *s, fw_study_sample *sa
     fw_study_state_take(text_column(s, 1), sample);
     snprintf(sample->why, FW_STUDY_WHY, "%s", text_column(s, 2));
     sample->used = column(s, 3);
-    if (corners(study) > 0) snprintf(sample->corner, FW_PLAN_CORNER, "%s", text_column(s, at++));
+    if (study->watches) snprintf(sample->corner, FW_PLAN_CORNER, "%s", text_column(s, at++));
+    const void *use = study->nuse > 0 ? sqlite3_column_blob(s, at++) : NULL;
+    if (use && (size_t)sqlite3_column_bytes(s, at - 1) == uses(study))
+        memcpy(sample->use, use, uses(study));
     if (readings(study) > 0)
         sample->used_low = column(s, at++), sample->used_high = column(s, at++);
     for (int k = 0; k < study->ninput; k++, at++) {
@@ -503,7 +514,6 @@ fw_status fw_study_store_each(fw_study_store *store,
 fw_status fw_study_store_finish(fw_study_store *store) {
     fw_study *study = store->study;
     fw_study_store last = {.study = study};
-    fw_text sql = fw_text_new(study->arena);
     FW_TRY(commit(store));
     FW_NEED(last.path = fw_arena_printf(study->arena, "%s.tmp-%ld", store->path, (long)getpid()));
     unlink(last.path);
@@ -514,15 +524,9 @@ fw_status fw_study_store_finish(fw_study_store *store) {
             : failed(&last, "the store could not be completed");
     if (status == FW_OK) status = make_tables(&last);
     sqlite3_close(last.db), last.db = NULL;
-    fw_text_add(&sql, "ATTACH ? AS last");
-    sqlite3_stmt *attach = NULL;
-    if (status == FW_OK) status = prepare(store, &sql, &attach);
-    if (status == FW_OK) {
-        sqlite3_bind_text(attach, 1, last.path, -1, SQLITE_TRANSIENT);
-        if (sqlite3_step(attach) != SQLITE_DONE)
-            status = failed(store, "the store could not be completed");
-    }
-    sqlite3_finalize(attach);
+    if (status == FW_OK)
+        status = run_with(store, "ATTACH ? AS last", last.path, NULL,
+                          "the store could not be completed");
     if (status == FW_OK)
         status = run(store,
                      "PRAGMA last.journal_mode = OFF; PRAGMA last.synchronous = FULL;"
@@ -571,15 +575,9 @@ static fw_status agree(fw_study_store *store, const char *directory) {
 static fw_status merge_one(fw_study_store *store, const char *directory) {
     const fw_study *study = store->study;
     const char *path = fw_arena_printf(study->arena, "%s/study.sqlite", directory);
-    sqlite3_stmt *attach = NULL;
     FW_NEED(path);
     FW_TRY(commit(store));
-    if (sqlite3_prepare_v2(store->db, "ATTACH ? AS shard", -1, &attach, NULL) != SQLITE_OK)
-        return failed(store, "a shard could not be read");
-    sqlite3_bind_text(attach, 1, path, -1, SQLITE_TRANSIENT);
-    bool done = sqlite3_step(attach) == SQLITE_DONE;
-    sqlite3_finalize(attach);
-    if (!done) return failed(store, "a shard could not be read");
+    FW_TRY(run_with(store, "ATTACH ? AS shard", path, NULL, "a shard could not be read"));
     /* what chooses later samples every shard has judged, to the same bits */
     bool apart = (study->asked->kind == FW_STUDY_IS_sweep && !(study->asked->fitted > 0)) ||
                  study->asked->kind == FW_STUDY_IS_sensitivity;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One device at a point of the ranges of a flow: built, judged as closely as its decision needs,
    and what of it is kept. Called a corner here, as in the tables of results, even where only one
-   input is off its nominal value.
-   Theory: docs/theory/as-fabricated.md. */
+   input is off its nominal value. Theory: docs/theory/as-fabricated.md. */
 #include "verdict/body.h"
 #include "verdict/verdict_fabrication.h"
 #include "verdict/verdict_parts.h"
@@ -507,6 +506,7 @@ static fw_status run_ahead(void *context, size_t i, fw_arena *arena) {
     fw_verdict_search own = *s;
     fw_progress_whole told = *s->told;
     own.arena = arena, own.told = &told, own.sign = a->sign, own.nahead = 0;
+    own.options.kept = NULL, own.options.motion.tapes = NULL; /* which one thread may use */
     FW_NEED(a->ln = fw_arena_array(arena, double, (size_t)s->ncheck));
     return fw_verdict_search_point(&own, a->x, &a->corner, a->ln);
 }

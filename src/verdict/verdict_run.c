@@ -169,6 +169,7 @@ typedef struct judging {
     fw_verdict *verdict;
     fw_diags *diags; /* (nvariant) each flow has its own */
     bool *nothing;   /* (nvariant) to judge */
+    const fw_arena *whole; /* in which flows that need nothing of each other are judged in turn */
 } judging;
 
 /* flow i as drawn */
@@ -300,7 +301,9 @@ static fw_status draw(fw_arena *arena, const fw_device *device, const fw_verdict
 /* flow i as it makes the device */
 static fw_status judge_made(void *context, size_t i, fw_arena *arena) {
     const judging *j = context;
-    return fw_verdict_as_made(arena, j->device, j->layout, j->options, &j->verdict->variant[i]);
+    fw_verdict_options options = *j->options;
+    if (arena != j->whole) options.kept = NULL, options.motion.tapes = NULL; /* of one thread */
+    return fw_verdict_as_made(arena, j->device, j->layout, &options, &j->verdict->variant[i]);
 }
 
 /* what the flows make of it; the drawn verdict stays in each variant */
@@ -308,7 +311,11 @@ static fw_status as_fabricated(fw_arena *arena, const fw_device *device, const f
                                const fw_verdict_options *options, fw_verdict *verdict) {
     verdict->drawn = verdict->decision;
     if (options->decision_only && verdict->drawn == FW_REJECT) return FW_OK;
-    judging j = {.device = device, .layout = layout, .options = options, .verdict = verdict};
+    judging j = {.device = device,
+                 .layout = layout,
+                 .options = options,
+                 .verdict = verdict,
+                 .whole = arena};
     FW_TRY(fw_arena_each(arena, (size_t)verdict->nvariant, judge_made, &j));
     for (int i = 0; i < verdict->nvariant; i++)
         verdict->decision = fw_verdict_worse(verdict->decision, verdict->variant[i].decision);

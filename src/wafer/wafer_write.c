@@ -3,7 +3,7 @@
    And the order sheet of a plate of the layered file, for people: ASCII, to be pasted into a shop's form. */
 #include "geometry/segment.h"
 #include "mask/mask.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "wafer/wafer.h"
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "base/json.h"
 #include "geometry/segment.h"
 #include "mask/mask.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "wafer/wafer.h"
 #include <math.h>
 #include <stdio.h>

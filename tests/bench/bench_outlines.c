@@ -7,8 +7,7 @@
    cmake --build DIR --target bench_outlines && DIR/tests/bench/bench_outlines [vertices [FILE]] */
 #include "geometry/segment.h"
 #include "mask/rule.h"
-#include "mask/mask_polygons.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -332,7 +332,7 @@ class Pair(unittest.TestCase):
         self.assertIn("11 devices each for a goal alone and ", done.stdout)
         self.assertNotIn("too few", done.stdout)
         rows = list(csv.DictReader((place / "out/study.csv").read_text().splitlines()))
-        self.assertTrue(150 < len(rows) <= 200, len(rows))
+        self.assertTrue(120 < len(rows) <= 200, len(rows))  # searches end where nothing better is expected
         least = min(float(r["f1"]) for r in rows if r["state"] == "accept")
         self.assertLess(least, 307.5 * 1.006)
         self.assertGreater(len(result["found"]), 10)
@@ -443,7 +443,7 @@ class AsMade(unittest.TestCase):
     def test_the_best_was_looked_at_in_all_corners(self):
         self.place = pathlib.Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.place)
-        text, result, rows = self.study("size", "--jobs", "2")
+        text, result, rows = self.study("size", "--jobs", "4")  # more than there are searches: some help with corners
         samples, found = result["samples"], result["found"][0]
         some = [row for row in rows if row["why"].startswith("not the best: accepted at the corners")]
         self.assertGreater(len(some), len(rows) / 2)

@@ -14,7 +14,7 @@
 #include "base/output.h"
 #include "device/device_table.h"
 #include "drawing/drawing.h"
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include "mutate.h"
 #include "process/pack.h"
 #include "recipe/asrun.h"

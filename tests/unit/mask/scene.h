@@ -2,7 +2,7 @@
 /* Hand-made pieces and layer tables for the tests of mask/. */
 #ifndef FW_TEST_SCENE_H
 #define FW_TEST_SCENE_H
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "test.h"
 
 #define UM 1e-6

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laboratory's layer numbers: what they change, and where mistakes are told. */
 #include "base/output.h"
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include "test.h"
 
 static fw_status apply(fw_arena *arena, fw_diags *diags, const char *text, fw_mask_table *t) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Necks, ways of flattening, and what the certificate sums up, on built masks. */
 #include "geometry/segment.h"
-#include "mask/mask_polygons.h"
+#include "mask/mask_parts.h"
 #include "scene.h"
 #include <stdlib.h>
 

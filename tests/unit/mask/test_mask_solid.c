@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STL: read back, closed, with the Euler number and the volume that they must have. */
 #include "mask/mask.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "scene.h"
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 /* Tables of flows that print several plates, and what these draw besides the device. */
 #include "base/json.h"
 #include "mask/mask.h"
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include "test.h"
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "mask/mask_polygons.h"
+#include "mask/mask_parts.h"
 #include "scene.h"
 #include <stdlib.h>
 

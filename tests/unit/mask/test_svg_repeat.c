@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "geometry/segment.h"
-#include "mask/mask_writers.h"
+#include "mask/mask_parts.h"
 #include "scene.h"
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 /* Cells, arrays, ids and the GDSII of the whole plate, read back record by record. */
 #include "wafer/plate.h"
 #include "base/output.h"
-#include "mask/mask_table.h"
+#include "mask/mask_parts.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
