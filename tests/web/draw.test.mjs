@@ -520,6 +520,12 @@ test("of another device nothing is chosen, though it has a part of the same name
     await begin("One leaf");
     await setText(page, ['length="', 'length="9']); // as long as the frame
     await page.waitForSelector('#banner[data-verdict="failed"]');
+    await setText(page, ["</mechanism>", "</mechanismx>"]);
+    await page.waitForSelector(".card.problems:not([hidden])");
+    await page.waitForFunction(() => globalThis.flexwright.settled(false));
+    assert.match(await page.innerText("#old-note"), /The present one has none/, "picture and cards are grey, and nothing says why");
+    await setText(page, ["</mechanismx>", "</mechanism>"]);
+    await page.waitForSelector('#banner[data-verdict="failed"]');
     await page.evaluate(() => {
         const { editor } = globalThis.flexwright.parts;
         editor.replace(editor.text.replace('length="9', 'length="').replace(/<scene[^]*<\/scene>/, ""));

@@ -100,7 +100,7 @@ export class Verdict {
 
     /** What could not be made is another input's, and of this one nothing is judged. */
     #noMore() {
-        this.last = null;
+        this.last = this.of = null; // the same answer shown again is composed again
         this.#decided(null);
         for (const shown of this.banner.shown) shown.take(null);
         this.banner.replaceChildren(h("p", { class: "empty" }, "Nothing is judged: what is said below comes first."));
@@ -147,7 +147,7 @@ export class Verdict {
         const key = inputKey();
         const why = state.preview === null || isPresent() ? "" : state.lost !== null ? "lost" : state.entered.size ? "entered"
             : state.cancelled === key ? "cancelled" : state.answered === key ? "none" : "late";
-        const said = this.banner.classList.contains("old") ? why : "";
+        const said = this.ofPreview.some((x) => x.element.classList.contains("old")) ? why : ""; // the banner itself may say nothing of it
         if (said === this.why) return;
         this.why = said;
         this.old.hidden = said === "";
