@@ -304,6 +304,7 @@ static fw_status ladder_section(fw_report_page *page) {
 }
 
 enum { BAR = 150 };
+static const double least_told = 2e-4; /* of a part of a band */
 
 static double bar_scale(const fw_verdict_hinge_verdict *hinge, int nhinge) {
     double most = 1.2;
@@ -341,6 +342,48 @@ static void bar(fw_text *out, const fw_verdict_hinge_verdict *h, double most) {
     fw_svg_close(out, "svg");
 }
 
+static void share(fw_text *out, const char *before, double value) {
+    fw_text_add(out, before);
+    fw_text_number(out, 100 * value, 2);
+}
+
+/* "-1.1 and +0.8 %": what is below a fiftieth of a per cent on its side is left out */
+static void both_ways(fw_text *out, const double part[2]) {
+    const bool down = part[0] >= least_told, up = part[1] >= least_told;
+    if (down) share(out, "-", part[0]);
+    if (up) share(out, down ? " and +" : "+", part[1]);
+    fw_text_add(out, " %");
+}
+
+bool fw_report_band_words(fw_text *out, const fw_verdict_hinge_verdict *h) {
+    const fw_verdict_band_parts *p = &h->parts;
+    const struct {
+        const char *what;
+        const double *part;
+    } of[] = {{"the law of the peak at a root", p->root},
+              {"the stiffness of hinges", p->stiffness},
+              {"the next model of the hinges", p->model},
+              {"where the moment stands at a root and what blocks give", p->place},
+              {"bodies that bend", p->bodies},
+              {h->numeric > 0 ? "numbers, less by a tighter --accuracy" : "numbers", p->numbers}};
+    enum { PARTS = sizeof of / sizeof *of };
+    bool told[PARTS] = {false};
+    int n = 0;
+    for (; n < PARTS; n++) { /* the widest first */
+        int widest = FW_NONE;
+        for (int i = 0; i < PARTS; i++)
+            if (!told[i] && fmax(of[i].part[0], of[i].part[1]) >= least_told &&
+                (widest == FW_NONE ||
+                 of[i].part[0] + of[i].part[1] > of[widest].part[0] + of[widest].part[1]))
+                widest = i;
+        if (widest == FW_NONE) break;
+        told[widest] = true;
+        fw_text_printf(out, "%s%s, ", n > 0 ? "; " : "", of[widest].what);
+        both_ways(out, of[widest].part);
+    }
+    return n > 0;
+}
+
 static void row(fw_text *out, const fw_verdict_hinge_verdict *h, bool with_flow, double most) {
     fw_markup(out, "<tr{r}><th scope=\"row\">{s}</th>",
               h->decision == FW_ACCEPT ? "" : " class=\"bad\"", h->id);
@@ -352,7 +395,11 @@ static void row(fw_text *out, const fw_verdict_hinge_verdict *h, bool with_flow,
               "<td class=\"n\">{p}</td><td>",
               h->limit_angle_rad, h->peak_strain, h->strain_limit);
     bar(out, h, most);
-    fw_markup(out, "</td><td class=\"n\">{p}</td><td class=\"n\">", h->utilisation);
+    fw_text band = fw_text_new(out->arena);
+    fw_markup(out, "</td><td class=\"n\">{p}</td><td class=\"n\"", h->utilisation);
+    if (fw_report_band_words(&band, h)) fw_markup(out, " title=\"made of: {s}\"", band.data);
+    if (band.failed) out->failed = true;
+    fw_text_add(out, ">");
     if (isfinite(h->utilisation_low) && isfinite(h->utilisation_high))
         fw_markup(out, "{p} to {p}", h->utilisation_low, h->utilisation_high);
     else

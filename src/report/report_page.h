@@ -206,6 +206,9 @@ fw_status fw_report_section_recipes(fw_report_page *page);
 fw_status fw_report_section_effects(fw_report_page *page);
 fw_status fw_report_section_accuracy(fw_report_page *page);
 fw_status fw_report_section_assumptions(fw_report_page *page);
+/* what the band of a hinge is made of, the widest part first: "the law of the peak at a root, -1.1 and +0.8 %; ..." of what it
+   uses; false: it has none */
+bool fw_report_band_words(fw_text *out, const fw_verdict_hinge_verdict *h);
 /* table of hinge verdicts; `with_flow` adds the column */
 void fw_report_hinge_table(fw_text *out, const fw_verdict_hinge_verdict *hinge, int nhinge,
                            bool with_flow, const char *caption);

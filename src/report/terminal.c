@@ -196,6 +196,9 @@ static void governing(fw_text *out, const fw_verdict_hinge_verdict *h, const fw_
                      100.0 * h->utilisation * (1.0 - h->force_share));
     }
     if (h->actuation) fw_text_printf(out, "(the pose is held by: %s)\n", h->actuation);
+    fw_text band = fw_text_new(out->arena);
+    if (fw_report_band_words(&band, h)) fw_text_printf(out, "(its band is made of: %s)\n", band.data);
+    if (band.failed) out->failed = true;
     limit(out, h, in);
     if (h->touches)
         fw_text_printf(out,
