@@ -51,6 +51,10 @@ describe("on a phone", () => {
     test("while something is computed every control of the header stays on the screen", async () => {
         await page.route("**/api/explore", () => {}); // it never answers
         await view(page, "explore");
+        const own = page.locator("#panel-explore .job-bar .cancel");
+        await own.waitFor();
+        assert.equal(await page.locator("#panel-explore .job-bar .cancel:visible, #busy-cancel:visible").count(), 1, "two buttons that cancel the same");
+        await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight)); // its own row is out of sight
         await page.waitForSelector("#busy:visible");
         const out = await page.evaluate(() => [...document.querySelectorAll("#top button, #busy, #busy button")].filter((e) => e.offsetParent !== null || e.id === "busy").map((e) => [e.id || e.textContent, e.getBoundingClientRect()]).filter(([, r]) => r.width && (r.left < 0 || r.right > innerWidth)).map(([id]) => id));
         assert.deepEqual(out, []);

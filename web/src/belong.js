@@ -194,7 +194,7 @@ export const FORMER = ", of a former input";
 
 const working = new Set();
 
-/** Work that somebody waits for: {words, cancel()}; returns the function that ends the sign. */
+/** Work that somebody waits for: {words, cancel(), row(): where it has a sign of its own}; returns the function that ends the sign. */
 export function begin(work) {
     const item = { since: performance.now(), ...work };
     working.add(item);

@@ -226,8 +226,9 @@ export class Explore {
         this.at = null;
         this.errors.replaceChildren();
         this.wrong.take(null);
-        const end = begin({ words: "Exploring", cancel: () => this.#stop("cancelled") });
+        const end = begin({ words: "Exploring", cancel: () => this.#stop("cancelled"), row: () => this.cancel });
         this.begun = performance.now();
+        this.#say();
         try {
             if (spec.inputs.length === 2) await this.#askMap(spec, key, control.signal);
             else await this.#askLine(spec, key, control.signal);
@@ -455,7 +456,7 @@ export class Explore {
         this.progress.value = Math.min(this.asked / this.inAll, 1);
         const nothing = this.showing.of === null || this.showing.another;
         this.button.classList.toggle("primary", nothing || this.showing.former);
-        this.message.textContent = busy ? `${this.asked} of ${devices(this.inAll)} · ${((performance.now() - this.begun) / 1e3).toFixed(1)} s`
+        this.message.textContent = busy && this.asked === 0 ? "" : busy ? `${this.asked} of ${devices(this.inAll)} · ${((performance.now() - this.begun) / 1e3).toFixed(1)} s`
             : why !== undefined ? `${why}${nothing ? "" : " What stands below is of the former input."}` : nothing ? "" : this.showing.former ? "of the former input: something has changed since"
                 : `${devices(this.done.size)} in ${number(this.seconds, 3)} s${!this.whole ? "; not all of it: stopped" : this.spec.inputs.length === 1 ? ", closer where the line bends" : ""}`;
     }
