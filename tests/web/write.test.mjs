@@ -52,9 +52,9 @@ describe("the text and the address", () => {
         await page.evaluate(() => document.querySelectorAll("#panel-form details.element").forEach((e) => /^limits/.test(e.textContent) && (e.open = true)));
         const more = page.locator("#panel-form details.element:not(:has(details.element)) details.more").first();
         await more.locator("summary").click();
-        const before = await more.locator(".field").count();
         const field = more.locator('input[data-path$="/@cycles"]');
-        const path = await field.getAttribute("data-path");
+        const path = await field.getAttribute("data-path"); // a browser tells that it has opened a little later: this waits until it is filled
+        const before = await more.locator(".field").count();
         await field.fill("1000");
         await field.press("Enter");
         await page.waitForFunction((t) => globalThis.flexwright.state.text !== t, whole);
