@@ -152,6 +152,20 @@ char *fw_number_text(char *buffer, size_t n, double value, int digits) {
     return buffer;
 }
 
+char *fw_prefixed_text(char *buffer, size_t n, double value, const char *unit, int digits) {
+    static const char *const prefix[] = {"f", "p", "n", "u", "m", "", "k", "M", "G"};
+    char number[32];
+    int k = 5, least = strcmp(unit, "F") == 0 ? 0 : 2; /* nobody counts in picometres */
+    double size = fabs(value) * (1 + 1e-12);
+    while (isfinite(size) && size > 0 && size < 1 && k > least)
+        size *= 1e3, value *= 1e3, k--;
+    while (isfinite(size) && size >= 1e3 && k < 8)
+        size *= 1e-3, value *= 1e-3, k++;
+    fw_number_text(number, sizeof number, value, digits);
+    snprintf(buffer, n, "%s %s%s", number, prefix[k], unit);
+    return buffer;
+}
+
 char *fw_percent_text(char *buffer, size_t n, double part) {
     double value = 100 * part, size = fabs(value);
     if (!(size >= 999.5 && size < 999500)) return fw_number_text(buffer, n, value, 3);

@@ -60,6 +60,9 @@ char *fw_millionths_text(char *buffer, double value);
 char *fw_place_text(char *buffer, double x, double y);
 /* the same into a caller's buffer of n bytes; returns buffer */
 char *fw_number_text(char *buffer, size_t n, double value, int digits);
+/* "354 uN": a value in a unit of SI with the prefix that leaves one to three digits before the point, down to 1e-9 (of farads
+   1e-15) and up to 1e9 */
+char *fw_prefixed_text(char *buffer, size_t n, double value, const char *unit, int digits);
 /* so many digits, or as many as a number below a million needs to be written without an exponent */
 static inline int fw_number_plain(double value, int digits) {
     double most = 1;

@@ -154,17 +154,7 @@ double fw_probe_origin(const fw_probe *p) {
 }
 
 const char *fw_probe_text(char buffer[FW_PROBE_TEXT], double value, const char *unit) {
-    static const char *const prefix[] = {"f", "p", "n", "u", "m", "", "k", "M", "G"};
-    char number[32];
-    int k = 5, least = strcmp(unit, "F") == 0 ? 0 : 2; /* nobody counts in picometres */
-    double size = fabs(value) * (1 + 1e-12);
-    while (isfinite(size) && size > 0 && size < 1 && k > least)
-        size *= 1e3, value *= 1e3, k--;
-    while (isfinite(size) && size >= 1e3 && k < 8)
-        size *= 1e-3, value *= 1e-3, k++;
-    fw_number_text(number, sizeof number, value, 4);
-    snprintf(buffer, FW_PROBE_TEXT, "%s %s%s", number, prefix[k], unit);
-    return buffer;
+    return fw_prefixed_text(buffer, FW_PROBE_TEXT, value, unit, 4);
 }
 
 const char *fw_probe_when(char buffer[FW_PROBE_TEXT], double t_s) {

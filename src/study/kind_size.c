@@ -2,14 +2,13 @@
 /* Sizing: the values with which a response is least or largest while every limit holds and check accepts the device; of
    two responses the Pareto front.
 
-   The description as it stands and a Sobol' sequence over the ranges are judged first; from the best of them, apart from
-   each other, local searches by models of all that was judged (study_descent.c), and some more from the best of further
-   points, apart from where these ended; the best of these with its inputs at the ends of their ranges; and one search more,
-   by models again, with what the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each
-   is sought alone, then the first with the second held at levels in the widest gaps between (epsilon constraints; Haimes, Lasdon,
-   Wismer 1971), and the front is what no other one of all that was judged and accepted beats. What is the largest of what hinges
-   use has a model of each. Nothing is proved: a better one may be where nobody looked.
-
+   The description as it stands and a Sobol' sequence over the ranges are judged first; from the best of them, apart from each other,
+   local searches by models of all that was judged (study_descent.c), and some more from the best of further points, apart from
+   where these ended; the best of these with its inputs at the ends of their ranges; and one search more, by models again, with what
+   the searches left of their devices. What is returned is a device that was judged as its texts say. Of two goals each is sought
+   alone, then the first with the second held at levels in the widest gaps between (epsilon constraints; Haimes, Lasdon, Wismer 1971),
+   and the front is what no other one of all that was judged and accepted beats. What is the largest of what hinges use has a model
+   of each. Nothing is proved: a better one may be where nobody looked.
    At a wanted yield all of these are only what further searches begin with (study_search.c).
    Test: tests/cli/test_study.py, tests/cli/test_sizing.py */
 #include "chance/random.h"
@@ -379,14 +378,22 @@ static fw_status try_ends(sizing *s, const aim *a, int *left) {
     return FW_OK;
 }
 
+/* Devices of each local search of an aim, *n: of how many at most. Where each would end too early one has those of all. */
+static int devices_of_each(const sizing *s, int most, int *n) {
+    *n = STARTS;
+    if (most >= worth_it(s->study)) return most;
+    *n = STARTS * most > s->study->nvary;
+    return STARTS * most;
+}
+
 /* searches for one aim; all that they judged joins what was judged */
 static fw_status seek(sizing *s, const aim *a, int most, long *first) {
     fw_study_search *search = fw_arena_array(s->study->arena, fw_study_search, STARTS);
-    int n, left = FW_SIZE_SEARCHES * most;
+    int n, of, left = FW_SIZE_SEARCHES * most;
     FW_NEED(search);
     FW_TRY(best_whole(s, a, &n));
-    FW_TRY(starts(s, a, 0, NULL, 0, search, &n, most, first));
-    if (most < worth_it(s->study)) n = 0;
+    FW_TRY(starts(s, a, 0, NULL, 0, search, &n, devices_of_each(s, most, &of), first));
+    if (n > of) n = of;
     FW_TRY(run_all(s, search, n, &left));
     FW_TRY(look_again(s, a, search, n, most, &left, first));
     FW_TRY(try_ends(s, a, &left));
@@ -490,8 +497,12 @@ static fw_status finish(sizing *s) {
 
 /* what a person is told of the searches */
 static const char *said_of(const sizing *s, int single) {
-    const int few = worth_it(s->study);
-    const char *held = "",
+    int n;
+    const int each = devices_of_each(s, single, &n);
+    const char *alone = n > 1   ? "each"
+                        : n > 0 ? "in a single one"
+                                : "in a single one (too few: left out)",
+               *held = "",
                *beside = s->study->asked->yield > 0
                              ? ", the last ones with the dies that are worst for the best device"
                          : s->watch.n > 0 ? ", at the corners that governed before, and at all of "
@@ -499,18 +510,16 @@ static const char *said_of(const sizing *s, int single) {
                                           : "";
     if (s->levels > 0 &&
         !(held = fw_arena_printf(
-              s->study->arena,
-              " for a goal alone and %d%s with the second one held at one of %d levels",
-              s->held_most, s->held_most < few ? " (too few: left out)" : "", s->levels)))
+              s->study->arena, " for a goal alone and %d with the second one held at %s%d level%s",
+              s->held_most, s->levels > 1 ? "each of " : "", s->levels, s->levels > 1 ? "s" : "")))
         return NULL;
     return fw_arena_printf(
         s->study->arena,
         "%ld devices over the ranges, then local searches (quadratic models) from the best of "
-        "them, at "
-        "most %d devices each%s%s, the same from further devices over the ranges, the best at ends "
-        "of the "
-        "ranges, and one search from all of them%s; a better one may be where none was tried",
-        s->first_n, single, single < few ? " (too few: left out)" : "", held, beside);
+        "them, at most %d devices %s%s, the same from further devices over the ranges, the best at "
+        "ends of the ranges, and one search from all of them%s; a better one may be where none was "
+        "tried",
+        s->first_n, each, alone, held, beside);
 }
 
 static fw_status prepare(sizing *s, int *most) {

@@ -184,12 +184,25 @@ fw_status fw_study_response_parse(fw_arena *arena, const fw_device_respond *aske
                : unit_of_path(arena, response->path, &response->unit);
 }
 
+/* small and large ones have a prefix: 251.94 um, not 0.00025194 m */
+static bool wants_prefix(double value, const char *unit) {
+    static const char *const takes[] = {"m", "s", "N",  "F",  "V",   "A",   "W",
+                                        "J", "C", "Hz", "Pa", "N/m", "m/s", "m/s^2"};
+    const double size = fabs(value);
+    bool one = false;
+    for (size_t k = 0; k < sizeof takes / sizeof takes[0]; k++)
+        one |= strcmp(unit, takes[k]) == 0;
+    return one && size > 0 && (size < 0.01 || size >= 1e5);
+}
+
 static void value_text(fw_text *out, const fw_study_response *response, double value,
                        const char *percent) {
     const char *unit = response->unit;
-    char text[32];
+    char text[64];
     if (isnan(value)) {
         fw_text_add(out, "no value");
+    } else if (wants_prefix(value, response->share ? "" : unit)) {
+        fw_text_add(out, fw_prefixed_text(text, sizeof text, value, unit, 5));
     } else if (response->share) {
         fw_text_printf(out, "%s%s", fw_percent_text(text, sizeof text, value), percent);
     } else {

@@ -338,6 +338,28 @@ class Pair(unittest.TestCase):
         self.assertGreater(len(result["found"]), 10)
 
 
+    def test_a_goal_alone_has_one_search_where_three_would_end_too_early(self):
+        """with three of 4 devices each none was run, and the fronts began at 256.1 Hz and ended at 0.6496 rad: a size of each goal
+        alone with 1200 devices has 247.79 Hz and 0.6754 rad"""
+        place = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, place)
+        long = PAIR_FILE.replace('samples="200"', 'samples="100"')
+        for n, now in ((1, 400), (2, 370)):
+            long = long.replace(f'<parameter name="t{n}"', f'<parameter name="l{n}" value="{now} um" min="100 um" max="900 um"/><parameter name="t{n}"')
+            long = long.replace(f'length="{400 - 100 * (n - 1)} um"', f'length="l{n}"')
+            long = long.replace(f'<vary what="t{n}"', f'<vary what="l{n}" from="200 um" to="600 um"/><vary what="t{n}"')
+        turn = re.sub("<respond.*/>", '<respond name="turned" value="requirements[turn,push].value" goal="maximise"/>' + SECOND_GOAL, long)
+        turn = turn.replace("  <study", '  <probe id="turn" kind="angle" on="top"/><require probe="turn" measure="peak" min="0.1 deg"/>\n  <study')
+        for name, text, column, sign, best in (("front", long, "f1", 1, 247.79), ("turn", turn, "turned", -1, 0.6754)):
+            (place / f"{name}.xml").write_text(text)
+            done = run("study", place / f"{name}.xml", "--study", "front", "--effects", "gravity", "-o", place / name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("at most 15 devices in a single one for a goal alone and ", done.stdout)
+            rows = list(csv.DictReader((place / name / "study.csv").read_text().splitlines()))
+            found = min(sign * float(r[column]) for r in rows if r["state"] == "accept")
+            self.assertLess(found, sign * best + 0.003 * best)
+
+
 class Lever(unittest.TestCase):
     """the softest lever turns most: both of its inputs are then at an end of their ranges"""
 

@@ -60,7 +60,7 @@ static void paths_lead_to_numbers(void **state) {
     fw_arena_free(arena);
 }
 
-static void shares_of_a_limit_are_told_in_percent(void **state) {
+static void numbers_are_told_in_percent_and_with_prefixes(void **state) {
     const struct {
         const char *path;
         double value;
@@ -68,7 +68,14 @@ static void shares_of_a_limit_are_told_in_percent(void **state) {
     } row[] = {{"governing.utilisation", 0.38449, "38.4 %", "%"},
                {"hinges[A].utilisation_band[1]", 1.2, "120 %", "%"},
                {"hinges[*].fatigue_cycles", 0.38449, "0.38449", ""},
-               {"hinges[A].peak_angle_rad", 0.38449, "0.38449 rad", "rad"}};
+               {"hinges[A].peak_angle_rad", 0.38449, "0.38449 rad", "rad"},
+               {"hinges[A].peak_angle_rad", 0.0038449, "0.0038449 rad", "rad"},
+               {"requirements[p].gap_m", -0.00025194, "-251.94 um", "m"},
+               {"requirements[p].gap_m", 0.25194, "0.25194 m", "m"},
+               {"modes[0].f_Hz", 123456, "123.46 kHz", "Hz"},
+               {"die.area_um2", 123456, "1.2346e+05 um2", "um2"},
+               {"contacts[0].force_N", 8e-5, "80 uN", "N"},
+               {"contacts[0].force_N", 0, "0 N", "N"}};
     (void)state;
     fw_arena *arena = fw_arena_new(0);
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
@@ -301,7 +308,7 @@ static void the_text_is_the_value(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(paths_lead_to_numbers),
-        cmocka_unit_test(shares_of_a_limit_are_told_in_percent),
+        cmocka_unit_test(numbers_are_told_in_percent_and_with_prefixes),
         cmocka_unit_test(wrong_paths_say_what_there_is),
         cmocka_unit_test(units_are_those_of_keys),
         cmocka_unit_test(units_stand_beside_numbers),
