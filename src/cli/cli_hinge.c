@@ -6,7 +6,7 @@
 #include "cli/cli.h"
 #include "continuum/continuum.h"
 #include "plan/design.h"
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "dynamics/dynamics.h"
 #include "effects/effects.h"
 #include "mask/mask.h"
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include <stdio.h>
 #include <string.h>
 

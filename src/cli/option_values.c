@@ -3,7 +3,7 @@
    line, and the values that options of masks, study and log take. */
 #include "cli/cli.h"
 #include "mask/mask.h"
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include "recipe/asrun.h"
 #include "schedule/schedule.h"
 #include <math.h>

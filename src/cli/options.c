@@ -2,7 +2,7 @@
 #include "cli/cli.h"
 #include "dynamics/dynamics.h"
 #include "mask/mask.h"
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include "schedule/schedule.h"
 #include <math.h>
 #include <stdio.h>

@@ -92,8 +92,9 @@ bool fw_mechanism_hinge_end(const fw_mechanism *m, int body, int i, fw_geometry_
     const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
     if ((side ? pin->body_b : pin->body_a) != body) return false;
     *at = fw_mechanism_pin_place(m, pin, side);
-    *root = vec_add(
-        *at, fw_geometry_vec_rotate(side ? pin->root_b_m : pin->root_a_m, m->drawn[body].phi_rad));
+    const fw_geometry_vec2 own = side ? pin->root_b_m : pin->root_a_m;
+    *root =
+        vec_add(*at, body == FW_GROUND ? own : fw_geometry_vec_rotate(own, m->drawn[body].phi_rad));
     return true;
 }
 

@@ -34,8 +34,7 @@ static fw_status need_property(const fw_mechanism_builder *b, const fw_quantity 
 
 /* ---- bodies ---- */
 
-/* the description's frame of a body in the world; where its origin is not stated, at the centroid of
-   what is drawn */
+/* the description's frame of a body in the world; without a stated origin at the centroid of what is drawn */
 static fw_geometry_vec2 frame_of(const fw_device_body *from, const fw_layout_body_layout *shape) {
     return (fw_geometry_vec2){isnan(from->x_m) && shape ? shape->centroid.x : from->x_m,
                               isnan(from->y_m) && shape ? shape->centroid.y : from->y_m};
@@ -303,12 +302,13 @@ static fw_status flexure_result(const fw_mechanism_builder *b, int j,
     hinge->input = fw_mechanism_flexure(b->device, b->layout, b->variant, j);
     FW_TRY(limits_of(b, &hinge->input, &hinge->limits));
     fw_flexure_closed_form(&hinge->input, result);
-    double drawn = result->strain_per_rad / result->stiffness_Nm_per_rad;
+    const double drawn = result->strain_per_rad / result->stiffness_Nm_per_rad;
     fw_flexure_flare(&hinge->input, f->flare_m, result);
-    double flared = result->strain_per_rad / result->stiffness_Nm_per_rad / drawn;
-    if (!isfinite(result->stiffness_Nm_per_rad) || !(result->stiffness_Nm_per_rad > 0))
+    const double flared = result->strain_per_rad / result->stiffness_Nm_per_rad / drawn,
+                 least = fmin(result->kx_N_per_m, result->ky_N_per_m);
+    if (!isfinite(result->stiffness_Nm_per_rad) || !(fmin(result->stiffness_Nm_per_rad, least) > 0))
         return fw_diag_error(b->diags, 85, f->place,
-                             "%s%s has no finite stiffness; check its length, angle and width",
+                             "%s%s has no stiffness above 0; check its length, width and fillet",
                              FW_NAMED("flexure", fw_text_name(f->id)));
     FW_TRY(fw_flexure_path_strain_new(b->arena, &hinge->input, result, &hinge->section));
     if (fw_flexure_input_varies(&hinge->input)) return varying(b, f, joint, flared, hinge);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ladder of `flexwright hinge`: hinges climb the levels of ladder_levels.c, one is picked, and
    what the axis does as the hinge turns is followed. */
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include "base/constants.h"
 #include "plan/stages.h"
 #include <math.h>

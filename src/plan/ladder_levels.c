@@ -4,7 +4,7 @@
 #include "base/constants.h"
 #include "continuum/continuum.h"
 #include "flexure/beam.h"
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include <math.h>
 
 /* Of an arc of an isotropic material the levels show strain and limit of the printed closed form,

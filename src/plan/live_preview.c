@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The quick look: what has been done with a design so far, in one document. */
 #include "plan/design.h"
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include "plan/live.h"
 #include "plan/stages.h"
 #include "report/report.h"

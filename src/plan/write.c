@@ -2,7 +2,7 @@
 /* The documents that span the flows of a plan (those of one flow are composed in its own room), the
    manifest, and the directory that holds them all. */
 #include "base/json.h"
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include "plan/stages.h"
 #include "recipe/recipe.h"
 #include "report/report.h"

@@ -41,15 +41,14 @@ typedef struct grid {
     fw_verdict_arm_end *end; /* whose way that is */
 } grid;
 
-static fw_status take_lines(const fw_layout *layout, int body, grid *g) {
-    FW_TRY(fw_mechanism_body_lines(g->arena, layout, body, &g->line, &g->nline));
+static void take_lines(const fw_verdict_drawn *from, grid *g) {
+    g->line = from->line, g->nline = from->nline;
     for (int i = 0; i < g->nline; i++) {
         fw_geometry_vec2 a = g->line[i].a, b = g->line[i].b;
         fw_geometry_box box = {fw_lesser(a.x, b.x), fw_lesser(a.y, b.y), fw_greater(a.x, b.x),
                                fw_greater(a.y, b.y)};
         g->box = i == 0 ? box : fw_box_join(g->box, box);
     }
-    return FW_OK;
 }
 
 /* ---- cells ---- */
@@ -504,12 +503,11 @@ static fw_status keep_way(const grid *g, fw_verdict_arm *to) {
     return FW_OK;
 }
 
-/* ends: of hinges (nhinge), then of loads, n in all */
-static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *layout, int body,
-                         fw_verdict_arm_end *ends, int nhinge, int n, double hole_m) {
+fw_status fw_verdict_arms_of(fw_arena *scratch, fw_arena *kept, const fw_verdict_drawn *from,
+                             fw_verdict_arm_end *ends, int nhinge, int n, double hole_m) {
     grid g = {.arena = scratch, .kept = kept};
     fw_verdict_pierced pierced = {.hole_m = hole_m};
-    FW_TRY(take_lines(layout, body, &g));
+    take_lines(from, &g);
     if (g.nline == 0) return FW_OK;
     FW_TRY(pierced_of(&g, ends, nhinge, &pierced));
     double across = vec_length((fw_geometry_vec2){g.box.x1 - g.box.x0, g.box.y1 - g.box.y0});
@@ -521,7 +519,7 @@ static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *lay
         if (cells > CELLS) break;
         fw_arena_rewind(scratch, lines); /* the former cells */
         FW_TRY(lay(&g, cell));
-        int middle = cell_at(&g, layout->body[body].centroid, 2);
+        int middle = cell_at(&g, from->middle, from->deep);
         if (middle < 0) continue;
         queue q;
         edges around;
@@ -542,7 +540,7 @@ static fw_status arms_of(fw_arena *scratch, fw_arena *kept, const fw_layout *lay
             if (!to->known || !there || to->narrow_m < fw_cells_across * cell) all = false;
         }
     }
-    FW_TRY(fw_verdict_ways_meet(kept, ends, n, g.cell, layout->body[body].centroid));
+    FW_TRY(fw_verdict_ways_meet(kept, ends, n, g.cell, from->middle));
     for (int i = 0; i < nhinge; i++) {
         pierced.own = i, pierced.root = ends[i].root;
         if (ends[i].to->known) fw_verdict_arm_cut_at_edge(&pierced, ends[i].to);
@@ -571,7 +569,11 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
                 ends[found++] = (fw_verdict_arm_end){
                     .to = *arm + n + j, .index = (int)n + j, .pin = load[j].at, .root = load[j].at};
         fw_status status = ends ? FW_OK : FW_NOMEM;
-        if (nhinge > 0) status = arms_of(scratch, arena, layout, b, ends, nhinge, found, hole_m);
+        fw_verdict_drawn from = {.middle = layout->body[b].centroid, .deep = 2};
+        if (nhinge > 0)
+            status = fw_mechanism_body_lines(scratch, layout, b, &from.line, &from.nline);
+        if (nhinge > 0 && status == FW_OK)
+            status = fw_verdict_arms_of(scratch, arena, &from, ends, nhinge, found, hole_m);
         fw_arena_free(scratch);
         FW_TRY(status);
     }

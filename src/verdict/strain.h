@@ -19,12 +19,11 @@ typedef struct fw_verdict_strip { /* a piece of a way, as fw_verdict_arm_add has
     fw_geometry_vec2 at, from, until;
     double w;
 } fw_verdict_strip;
-/* From where a flexure begins in a body to the body's middle, its centroid or what is nearest to it.
-   Energy of a wrench w = (M, Fx, Fy) about the pin, world axes of the drawn pose: w.give.w/(2 E h). */
+/* From where a flexure begins in a body to its middle, the centroid or what is nearest to it. Energy of a wrench
+   w = (M, Fx, Fy) about the pin, world axes of the drawn pose: w.give.w/(2 E h). */
 typedef struct fw_verdict_arm {
-    const struct fw_verdict_shared
-        *shared;    /* of its body; NULL: no ways go together by what counts */
-    bool known;     /* drawn, and its material hangs together */
+    const struct fw_verdict_shared *shared; /* NULL: no ways go together by what counts */
+    bool known;                             /* drawn, and its material hangs together */
     bool lost;      /* of a load: it is not, and its body is drawn: too narrow for any grid */
     double give[6]; /* MM, Mx, My, xx, xy, yy: m^-2, m^-1, m^-1, 1, 1, 1 */
     /* of the way, out of the plane, of (Fz, Mx, My) about the pin: zz, zx, zy, xx, xy, yy. By bending over width,
@@ -38,11 +37,10 @@ typedef struct fw_verdict_arm {
     double edge_m2, edge_m;
     double edge_wide_m; /* how wide it is there */
     fw_geometry_vec2 edge, along;
-    /* 6 |y|/w^2 + 1/w and 6 |x|/w^2 + 1/w at most, with (x, y) from the pin as drawn: by which a force along x and one
-       along y are multiplied. One along the way bends nothing, however far away the pin is */
+    /* 6 |y|/w^2 + 1/w and 6 |x|/w^2 + 1/w at most, with (x, y) from the pin as drawn, of a force along x and one along y */
     double edge_x_m, edge_y_m;
-    /* a straight cut there, square to the way, that parts this hinge from the body's others: a point of
-       it, what it leaves of the body (0: there is none), and the integral over that of the distance from the point */
+    /* a straight cut there that parts this hinge from the body's others: a point of it, what it leaves of the body (0: there is
+       none), and the integral over that of the distance from the point */
     fw_geometry_vec2 cut;
     double cut_m, cut_m2;
     /* of a body with release holes, at most, over straight cuts along the way (fw_verdict_arm_rims): by which a moment, a
@@ -50,13 +48,15 @@ typedef struct fw_verdict_arm {
        multiplied to be stress times thickness of what the cut leaves; and where they are largest */
     double rim_m2, rim_x_m, rim_y_m, rim_m, rim_rest_m, rim_rest_m2;
     fw_geometry_vec2 rim;
-    fw_geometry_vec2 *way; /* (nway) of a hinge: cells from its root to the middle */
-    int nway;
+    fw_geometry_vec2 *way;   /* (nway) of a hinge: cells from its root to the middle */
     fw_verdict_strip *strip; /* (nstrip) as drawn; none of a straight way */
-    int nstrip;
+    int nway, nstrip;
     fw_geometry_vec2 pin; /* about which `give` is, world */
     double
-        softer; /* as made: how many times as much as drawn its body gives at most (fw_verdict_softer); 0: as drawn */
+        softer; /* as made: its body gives as many times as drawn (fw_verdict_softer); 0: drawn */
+    const struct fw_verdict_arm *
+        base; /* of an end on the ground, which has none of all that: up to the frame (base_gives.c) */
+    int sharing; /* of a base: ends that are on it */
 } fw_verdict_arm;
 
 /* body_loads.c: how large load `at` of those (n) becomes: of one that follows from the motion what hinges put on the body
@@ -322,17 +322,17 @@ typedef struct fw_verdict_place {
 } fw_verdict_place;
 
 typedef struct fw_verdict_bending {
-    const fw_verdict_arm
-        *arm;       /* (2 nhinge); NULL: nothing is drawn, forces of hinges alone are seen */
-    double stiff_N; /* Young's modulus times thickness */
+    const fw_verdict_arm *arm; /* (2 nhinge); NULL: nothing is drawn, forces alone are seen */
+    double stiff_N;            /* Young's modulus times thickness */
     double hinges_J, bodies_J; /* largest so far of all hinges, of all bodies, */
     double moving_J; /* and of the hinges' rotations and the bending of their strips alone */
     double gone;     /* largest way of an end over its flexure's width, or turn over the limit */
     double *body_J;  /* (2 nbody) the largest of each, then those of the instant */
-    fw_verdict_turn *turn; /* (nbody) of the instant */
+    double bases_J, bases_gone, *base; /* the same of bases; base: (9 nhinge) room, NULL: none */
+    fw_verdict_turn *turn;             /* (nbody) of the instant */
     double *end; /* (6 nhinge) what hinges put on their ends at the instant (fw_verdict_shared_J) */
-    double *
-        worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all of it is */
+    double
+        *worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all */
     double hardest_N2; /* of hardest_N, the sum of all squared */
     double beside;     /* by how much they are larger where that sum was the largest so far */
     /* the last two instants, their forces (2 x 2 nhinge); what came at once: sum of squares, forces (1 + 2 nhinge) */

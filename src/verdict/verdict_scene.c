@@ -572,6 +572,13 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
     const fw_verdict_bending *b = &((const fw_verdict_strain_monitor *)motion->observed)->bending;
     for (int i = 1; i < m->nbody; i++)
         if (b->body_J[i] > b->body_J[most]) most = i;
+    if (b->bases_J > b->body_J[most]) {
+        const double own = fmin(b->bases_J / b->hinges_J, share);
+        const char *said[4] = {number_of(all, share), unit_of(share), number_of(one, own),
+                               unit_of(own)};
+        fw_verdict_bases_tell(m, b->arm, scene, said, diags);
+        return;
+    }
     const fw_verdict_arm *arm = narrowest(m, b, most);
     if (!arm) return;
     const double most_share = fmin(b->body_J[most] / b->hinges_J, share);

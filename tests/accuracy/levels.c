@@ -3,7 +3,7 @@
    the calls of fw_plan_ladder_climb:
 
    accuracy_levels DEVICE.xml    a row per call, in order: HINGE,LEVEL */
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include <stdio.h>
 
 int main(int argc, char **argv) {

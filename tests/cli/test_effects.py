@@ -11,7 +11,7 @@ import shutil
 import tempfile
 import unittest
 
-from common import ALL, ROOT, run
+from common import ALL, ROOT, only_all, run
 
 EXAMPLES = ROOT / "tests/data/effects"
 EFFECTS = len(re.findall(r"^FW_EFFECT(?:_ELEMENT)?\(\w+", (ROOT / "src/device/effects.def").read_text(), re.M))
@@ -804,6 +804,56 @@ class BodiesInSmallMotions(unittest.TestCase):
         found = self.judged(three_legs())
         self.holds(found["frequency-1"], 31.5e3)
         self.assertEqual(found["frequency-1"]["verdict"], "inconclusive")
+
+
+def stretched_stage(asked, path=None, leans_rad=0):
+    """a plate on four clamped leaves that are stretched as it goes: the bases that the layout draws hold what they pull"""
+    kinds = path or '<flexure id="leaf" kind="leaf" length="500 um" width="5 um"/>'
+    up, down = ("up", "down") if path else ("leaf", "leaf")
+    joint = '<revolute id="{id}" a="{a}" a-x="{x} mm" a-y="{y} mm" b="{b}" b-x="{x} mm" b-y="{y} mm" hinge="{hinge}" axis="-90 deg + {leans} rad"/>'
+    joints = "".join(joint.format(id="BT"[y > 0] + "LR"[x > 0], x=x, y=y, hinge=up if x < 0 else down, leans=-x * leans_rad,
+                                  a="ground" if x < 0 else "plate", b="plate" if x < 0 else "ground") for y in (1, -1) for x in (-1, 1))
+    return f"""<device xmlns="urn:flexwright:device:1" name="stage">
+  <material ref="silicon-100" youngs-modulus="150 GPa" thickness="25 um"/><limits safety-factor="1.5"/><flow ref="al-masked-rie"/>
+  {kinds}<mechanism><body id="plate" x="0 mm" y="0 mm"><plate width="0.6 mm" height="2.4 mm"/></body>{joints}</mechanism>
+  <probe id="sink" kind="displacement" on="plate" direction="-90 deg"/><probe id="kx" kind="stiffness" on="plate" direction="0 deg"/>{asked}
+  <scene name="push" duration="20 ms"><force on="plate" fy="-200 uN" law="ramp" rise="15 ms"/><material-damping loss-factor="0.05"/></scene></device>"""
+
+
+class Bases(unittest.TestCase):
+    """What is drawn between a hinge on the ground and the frame gives way, too. Solids of all that is drawn, the frame's outer edge held (CalculiX, plane
+    stress, large displacements): held at the leaves' own ends they are what the rigid model says"""
+
+    def judged(self, text, *options):
+        done = run("check", "-", "--corners", "none", "--advice", "none", "--json", *options, input=text)
+        return json.loads(done.stdout), done.stderr
+
+    def test_a_stage_between_clamped_leaves(self):
+        """accepted with 6.27 um (6.03 to 6.52) and 150 kN/m (94 to 157) along its leaves, which use 14.3 % (13.6 to 14.5)"""
+        found, said = self.judged(stretched_stage('<require probe="sink" measure="final" max="8 um"/><require probe="kx" min="90 kN/m"/>'))
+        sink, kx = found["requirements"]
+        self.assertTrue(sink["band"][0] < 8.52e-6 < sink["band"][1], sink)
+        self.assertTrue(kx["band"][0] < 28.3e3 < kx["band"][1] and kx["band"][0] > 0.9 * 28.3e3, kx)
+        self.assertEqual([r["verdict"] for r in (sink, kx)], ["inconclusive"] * 2)
+        for hinge in found["hinges"]:
+            self.assertTrue(hinge["utilisation_band"][0] < 0.17 < hinge["utilisation_band"][1], hinge)
+        self.assertRegex(said, r"The softest base, at hinge \w+, which the layout draws, is \d+ um long up to the frame: .* \[FW-D510\]")
+
+    @only_all
+    def test_half_arches(self):
+        """accepted with 684 nm (644 to 778) and 6.5 % of the limit used (5.2 to 6.5): the arms let the arches flatten"""
+        rise, span = 24, 500
+        angle = 2 * math.atan(rise / span)
+        arc = f'radius="{span / (2 * math.sin(angle)):.6f} um" angle="{angle:.9f} rad"'
+        back = arc.replace('angle="', 'angle="-')
+        text = stretched_stage('<require probe="sink" measure="final" max="1 um"/>',
+                               f'<flexure id="up" kind="path" width="5 um"><arc {arc}/><arc {back}/></flexure>'
+                               f'<flexure id="down" kind="path" width="5 um"><arc {back}/><arc {arc}/></flexure>', angle / 2)
+        found, _ = self.judged(text, "--hinge-model", "elastica")
+        sink = found["requirements"][0]
+        self.assertTrue(sink["band"][0] < 8.57e-6 < sink["band"][1] and sink["verdict"] == "inconclusive", sink)
+        for hinge in found["hinges"]:
+            self.assertTrue(hinge["utilisation_band"][0] < 0.164 < hinge["utilisation_band"][1], hinge)
 
 
 class BodiesThatSwing(unittest.TestCase):

@@ -40,6 +40,17 @@ def device(flexures, youngs="169 GPa", poisson=0.22, depth="50 um", strength="50
     return "\n".join(out)
 
 
+class Fillets(unittest.TestCase):
+    def test_a_strip_that_is_all_fillet_is_refused(self):
+        """kx was -25.7 kN/m, and the scene ran away"""
+        for fillet, ok in (("40 um", False), ("60 um", False), ("15 um", True)):
+            text = device([({"kind": "leaf", "length": "80 um", "width": "20 um", "fillet": fillet}, 0)])
+            done = run("hinge", "-", "--level", "closed-form", input=text)
+            self.assertEqual(done.returncode, 0 if ok else 3, done.stderr)
+            if not ok:
+                self.assertIn("flexure f0 has no stiffness above 0; check its length, width and fillet [FW-D085]", done.stderr)
+
+
 def arc(r, angle, t, rho):
     return {"kind": "csfh", "radius": f"{r} um", "angle": f"{angle} deg", "width": f"{t} um",
             "gap": "2 um", "fillet": f"{rho} um"}

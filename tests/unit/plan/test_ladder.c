@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hinges climb the ladder once for all that are alike, and alike are only those of the same shape. */
-#include "plan/ladder.h"
+#include "plan/plan.h"
 #include "test.h"
 #include <string.h>
 

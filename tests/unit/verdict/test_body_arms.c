@@ -621,8 +621,49 @@ static void a_link_bent_as_an_s(void **state) {
     fw_arena_free(s.arena);
 }
 
+/* A base is a bar from its hinge to where it is cut from the frame, whichever way it lies; two hinges at its end bend it together.
+   What begins at no base, and a piece that hangs on no frame, has none. */
+static void a_base_is_a_beam_up_to_the_frame(void **state) {
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        const double turn = 0.2 * i, w = 1e-4, length = 1e-3, cube = w * w * w;
+        const double corner[4][2] = {{0, 0}, {1, 0}, {1, 0.1}, {0, 0.1}};
+        scene s = body(4, corner, 1u << 1 | 1u << 3, turn);
+        fw_mechanism_variant variant = {.thickness_m = 10e-6, .material.youngs.value = 1e11};
+        double on[6] = {1, 0, 0, 0, 0, 0}, end[12];
+        s.layout.piece[0].body = FW_GROUND, s.m.variant = &variant, s.m.nhinge = 1;
+        s.m.pin[0].ax_m = s.m.pin[0].bx_m, s.m.pin[0].ay_m = s.m.pin[0].by_m;
+        assert_int_equal(fw_verdict_bases(s.arena, &s.m, &s.layout, s.arm), FW_OK);
+        assert_true(fw_verdict_has_bases(&s.m, s.arm) && s.arm[0].base && !s.arm[1].base);
+        assert_true(s.arm[0].base->sharing == 1 && fabs(s.arm[0].base->narrow_m / w - 1) < 0.02);
+        assert_relative(2 * fw_verdict_bases_J(&s.m, s.arm, 1, on, end), 12 * length / cube, 0.035);
+        on[0] = 0, on[1] = -sin(turn), on[2] = cos(turn);
+        const double one = fw_verdict_bases_J(&s.m, s.arm, 1, on, end),
+                     across = 4 * pow(length, 3) / cube + 3.2 * length / w;
+        assert_relative(2 * one, across, 0.035);
+        double gives[9] = {0};
+        fw_verdict_bases_add(&s.m, s.arm, 0, gives);
+        const double n[2] = {-sin(turn), cos(turn)},
+                     goes = n[0] * (gives[0] * n[0] + gives[1] * n[1]) +
+                            n[1] * (gives[3] * n[0] + gives[4] * n[1]);
+        assert_relative(goes * 1e11 * 10e-6, 2 * one, 1e-9);
+        s.m.nhinge = 2, s.m.pin[1] = s.m.pin[0], on[4] = on[1], on[5] = on[2];
+        assert_int_equal(fw_verdict_bases(s.arena, &s.m, &s.layout, s.arm), FW_OK);
+        assert_int_equal(s.arm[2].base->sharing, 2);
+        assert_relative(fw_verdict_bases_J(&s.m, s.arm, 1, on, end), 4 * one, 0.01);
+        on[4] = -on[1], on[5] = -on[2]; /* against each other: what is known is each by itself */
+        assert_relative(fw_verdict_bases_J(&s.m, s.arm, 1, on, end), 2 * one, 0.01);
+        s.layout.piece[0].contour.segment[3].flags = 0; /* it hangs on nothing */
+        s.arm[0].base = s.arm[2].base = NULL;
+        assert_int_equal(fw_verdict_bases(s.arena, &s.m, &s.layout, s.arm), FW_OK);
+        assert_false(fw_verdict_has_bases(&s.m, s.arm));
+        fw_arena_free(s.arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_base_is_a_beam_up_to_the_frame),
         cmocka_unit_test(a_link_bent_as_an_s),
         cmocka_unit_test(a_neck_before_a_load_is_seen),
         cmocka_unit_test(a_bar_is_a_beam),

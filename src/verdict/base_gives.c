@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What bases give: what is drawn between a hinge on the ground and the frame. Each is a piece of the drawing that ends where it
+   is cut from the frame, and gives by the strip of circles along the stiffest way from the hinge to the middle of that cut, as
+   a body does to its middle (body_arms.c). Nothing else acts on it than its hinges, so that all that it stores is
+
+     U = sum over hinges of w.g w/(2 E h), and of ways that go together what their hinges put on them together
+
+   which counts beside what bodies store, wherever that is compared with what hinges do: bases soften stiffnesses, frequencies
+   and ways in series with the flexures that stand on them. In: outlines of the layout in the drawn pose. Range: bases that the layout
+   draws; the frame beyond the cut holds still, which a bar many times as wide as the base does nearly. Error: an upper bound as
+   far as a strip of circles is a beam. Cost: some 1e5 operations a base. Source: S. Timoshenko, J. Goodier, Theory of Elasticity, 3rd
+   ed., art. 86. Theory: docs/theory/verdict.md, 5. Test: test_effects.py, Bases */
+#include "geometry/segment.h"
+#include "verdict/body.h"
+#include "verdict/verdict_parts.h"
+#include <math.h>
+#include <string.h>
+
+static const fw_verdict_turn still = {0, 1, 0};
+
+/* ---- as they are drawn ---- */
+
+static double distance_to(const fw_mechanism_line *line, fw_geometry_vec2 at) {
+    double t;
+    return vec_distance(at, vec_line_foot(line->a, line->b, at, &t));
+}
+
+/* is this cut the nearest to where one of the hinges begins? A fillet may lie between */
+static bool is_root(const fw_mechanism_line *line, int n, int cut, const fw_verdict_arm_end *end,
+                    int nend) {
+    for (int k = 0; k < nend; k++) {
+        int nearest = cut;
+        for (int i = 0; i < n; i++)
+            if (!line[i].edge &&
+                distance_to(&line[i], end[k].root) < distance_to(&line[nearest], end[k].root))
+                nearest = i;
+        if (nearest == cut) return true;
+    }
+    return false;
+}
+
+/* Where a piece hangs on the frame: the middle of the longest straight cut at which no hinge begins, and of those in line with it,
+   between which the head of a hinge may reach into the frame. false: there is none */
+static bool find_cut(const fw_mechanism_line *line, int n, const fw_verdict_arm_end *end, int nend,
+                     fw_geometry_vec2 *middle) {
+    const double in_line_m = 1e-6;
+    const fw_mechanism_line *longest = NULL;
+    double sum = 0;
+    for (int i = 0; i < n; i++)
+        if (!line[i].edge && !is_root(line, n, i, end, nend) &&
+            (!longest || vec_distance(line[i].a, line[i].b) > vec_distance(longest->a, longest->b)))
+            longest = &line[i];
+    *middle = (fw_geometry_vec2){0, 0};
+    for (int i = 0; longest && i < n; i++) {
+        const fw_geometry_vec2 a = line[i].a, b = line[i].b, at = longest->a,
+                               along = vec_unit(vec_sub(longest->b, at));
+        const double wide = vec_distance(a, b);
+        if (line[i].edge || is_root(line, n, i, end, nend) ||
+            fabs(vec_cross(along, vec_sub(a, at))) > in_line_m ||
+            fabs(vec_cross(along, vec_sub(b, at))) > in_line_m)
+            continue;
+        sum += wide;
+        *middle = vec_along(*middle, 0.5 * wide, vec_add(a, b));
+    }
+    if (sum > 0) *middle = vec_scale(1 / sum, *middle);
+    return sum > 0;
+}
+
+/* one piece: its lines, and the ends that begin at it, whose number is kept in `left` */
+static fw_status one_base(fw_arena *scratch, fw_arena *kept, fw_mechanism_line *line, int n,
+                          const fw_verdict_arm_end *all, const int *of, int nall, int piece) {
+    /* the way may end in a circle that reaches the cut: at the cut itself an edge may be near */
+    fw_verdict_drawn from = {.line = line, .nline = n, .deep = 1.25};
+    fw_verdict_arm_end *end = fw_arena_array(scratch, fw_verdict_arm_end, (size_t)nall + 1);
+    int nend = 0;
+    FW_NEED(end);
+    for (int k = 0; k < nall; k++)
+        if (of[k] == piece) end[nend++] = all[k];
+    if (nend == 0 || !find_cut(line, n, end, nend, &from.middle)) return FW_OK;
+    FW_TRY(fw_verdict_arms_of(scratch, kept, &from, end, nend, nend, 0));
+    for (int k = 0; k < nend; k++)
+        end[k].to->sharing = nend;
+    return FW_OK;
+}
+
+/* of: (n) the piece that is nearest to where each begins */
+static void find_pieces(const fw_mechanism_line *line, int nline, const fw_verdict_arm_end *end,
+                        int n, int *of) {
+    for (int k = 0; k < n; k++) {
+        double least = HUGE_VAL;
+        of[k] = FW_NONE;
+        for (int i = 0; i < nline; i++) {
+            const double away = distance_to(&line[i], end[k].root);
+            if (away < least) least = away, of[k] = line[i].piece;
+        }
+    }
+}
+
+static fw_status all_bases(fw_arena *scratch, fw_arena *arena, const fw_mechanism *m,
+                           const fw_layout *layout, fw_verdict_arm *arm) {
+    fw_mechanism_line *line;
+    int nline, n = 0;
+    const size_t ends = 2 * (size_t)m->nhinge;
+    fw_verdict_arm_end *end = fw_arena_array(scratch, fw_verdict_arm_end, ends + 1);
+    int *of = fw_arena_array(scratch, int, ends + 1);
+    fw_verdict_arm *base;
+    FW_NEED(end && of ? end : NULL);
+    FW_NEED(base = fw_arena_array(arena, fw_verdict_arm, ends + 1));
+    FW_TRY(fw_mechanism_body_lines(scratch, layout, FW_GROUND, &line, &nline));
+    for (int i = 0; i < (int)ends; i++) {
+        fw_verdict_arm_end *to = &end[n];
+        if (!fw_mechanism_hinge_end(m, FW_GROUND, i, &to->pin, &to->root)) continue;
+        to->to = &base[i], to->index = i, n++;
+    }
+    find_pieces(line, nline, end, n, of);
+    for (int first = 0, last; first < nline; first = last) {
+        for (last = first; last < nline && line[last].piece == line[first].piece;)
+            last++;
+        fw_arena *one = fw_arena_part(scratch, 0);
+        FW_NEED(one);
+        const fw_status status =
+            one_base(one, arena, line + first, last - first, end, of, n, line[first].piece);
+        fw_arena_free(one);
+        FW_TRY(status);
+    }
+    for (int k = 0; k < n; k++)
+        arm[end[k].index].base = end[k].to->known ? end[k].to : NULL;
+    return FW_OK;
+}
+
+fw_status fw_verdict_bases(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                           fw_verdict_arm *arm) {
+    if (!layout || !layout->drawn) return FW_OK;
+    fw_arena *scratch = fw_arena_part(arena, 0);
+    FW_NEED(scratch);
+    const fw_status status = all_bases(scratch, arena, m, layout, arm);
+    fw_arena_free(scratch);
+    return status;
+}
+
+bool fw_verdict_has_bases(const fw_mechanism *m, const fw_verdict_arm *arm) {
+    for (int i = 0; i < 2 * m->nhinge; i++)
+        if (arm[i].base) return true;
+    return false;
+}
+
+/* ---- what they give ---- */
+
+double fw_verdict_bases_J(const fw_mechanism *m, const fw_verdict_arm *arm, double stiff_N,
+                          const double *on, double *end) {
+    double sum = 0;
+    memset(end, 0, 6 * (size_t)m->nhinge * sizeof *end);
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_verdict_arm *base = arm[i].base;
+        const double *by = on + 3 * (i / 2);
+        double w[3];
+        if (!base) continue;
+        sum += fw_verdict_arm_energy_J(base, stiff_N, -by[0], by[1], by[2], &still);
+        if (!base->shared) continue;
+        fw_verdict_end_put(by, i % 2, &still, w);
+        fw_verdict_wrench_about(base->pin, base->shared->about, w, end + 3 * i);
+    }
+    for (int i = 0; i < 2 * m->nhinge; i++)
+        if (arm[i].base && arm[i].base->shared && arm[i].base->shared->first == i)
+            sum += fw_verdict_shared_J(arm[i].base->shared, stiff_N, end, 2 * m->nhinge);
+    return sum;
+}
+
+void fw_verdict_bases_record(fw_verdict_bending *b, const fw_mechanism *m,
+                             const fw_dynamics_instant *now) {
+    double *on = b->base;
+    for (int k = 0; k < m->nhinge; k++) {
+        const int j = m->hinge[k].pin;
+        on[3 * k] = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
+        on[3 * k + 1] = now->reaction_N[2 * j], on[3 * k + 2] = now->reaction_N[2 * j + 1];
+        for (int side = 0; side < 2; side++) {
+            const fw_verdict_arm *base = b->arm[2 * k + side].base;
+            if (base)
+                b->bases_gone =
+                    fmax(b->bases_gone, fw_verdict_arm_gone(b, &m->hinge[k], base, -on[3 * k],
+                                                            on + 3 * k + 1, &still));
+        }
+    }
+    b->bases_J =
+        fmax(b->bases_J, fw_verdict_bases_J(m, b->arm, b->stiff_N, on, on + 3 * (size_t)m->nhinge));
+}
+
+void fw_verdict_bases_add(const fw_mechanism *m, const fw_verdict_arm *arm, int hinge,
+                          double gives[9]) {
+    const double stiff_N = m->variant->material.youngs.value * m->variant->thickness_m;
+    for (int side = 0; arm && side < 2; side++) {
+        const fw_verdict_arm *base = arm[2 * hinge + side].base;
+        if (!base) continue;
+        const double *g = base->give,
+                     all[9] = {g[3], g[4], g[1], g[4], g[5], g[2], g[1], g[2], g[0]};
+        for (int i = 0; i < 9; i++)
+            gives[i] += (base->shared ? base->sharing : 1) * all[i] / stiff_N;
+    }
+}
+
+void fw_verdict_bases_tell(const fw_mechanism *m, const fw_verdict_arm *arm,
+                           const fw_device_scene *scene, const char *const share[4],
+                           fw_diags *diags) {
+    char way[32];
+    const fw_verdict_arm *softest = NULL;
+    int at = 0;
+    for (int i = 0; i < 2 * m->nhinge; i++)
+        if (arm[i].base &&
+            (!softest || fw_verdict_arm_goes(arm[i].base) > fw_verdict_arm_goes(softest)))
+            softest = arm[i].base, at = m->hinge[i / 2].pin;
+    if (!softest) return;
+    fw_diag_warning(
+        diags, 510, m->device->revolute[at].place,
+        "bodies, and bases between hinges and the frame, are taken as rigid, and in %s%s they may "
+        "give by up to %s %s what the hinges give, bases by %s %s it: what is probed may move that "
+        "much further, and the bands allow for it. The softest base, at %s%s, which the layout "
+        "draws, is %s um long up to the frame: longer or thinner flexures ask less of it",
+        FW_NAMED("scene", scene->name), share[0], share[1], share[2], share[3],
+        FW_NAMED("hinge", m->pin[at].id),
+        fw_number_text(way, sizeof way, 1e6 * softest->length_m, 3));
+}
