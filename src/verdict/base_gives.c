@@ -5,11 +5,11 @@
 
      U = sum over hinges of w.g w/(2 E h), and of ways that go together what their hinges put on them together
 
-   which counts beside what bodies store, wherever that is compared with what hinges do: bases soften stiffnesses, frequencies
-   and ways in series with the flexures that stand on them. In: outlines of the layout in the drawn pose. Range: bases that the layout
+   By Castigliano the place where a load acts goes further by U over what hinges store, to first order. It is told where that is
+   much (FW-D740), and in no band. In: outlines of the layout in the drawn pose. Range: bases that the layout
    draws; the frame beyond the cut holds still, which a bar many times as wide as the base does nearly. Error: an upper bound as
    far as a strip of circles is a beam. Cost: some 1e5 operations a base. Source: S. Timoshenko, J. Goodier, Theory of Elasticity, 3rd
-   ed., art. 86. Theory: docs/theory/verdict.md, 5. Test: test_effects.py, Bases */
+   ed., art. 86. Decision 255. Test: test_body_arms.c, test_effects.py Bases */
 #include "geometry/segment.h"
 #include "verdict/body.h"
 #include "verdict/verdict_parts.h"
@@ -173,33 +173,13 @@ void fw_verdict_bases_record(fw_verdict_bending *b, const fw_mechanism *m,
         const int j = m->hinge[k].pin;
         on[3 * k] = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
         on[3 * k + 1] = now->reaction_N[2 * j], on[3 * k + 2] = now->reaction_N[2 * j + 1];
-        for (int side = 0; side < 2; side++) {
-            const fw_verdict_arm *base = b->arm[2 * k + side].base;
-            if (base)
-                b->bases_gone =
-                    fmax(b->bases_gone, fw_verdict_arm_gone(b, &m->hinge[k], base, -on[3 * k],
-                                                            on + 3 * k + 1, &still));
-        }
     }
     b->bases_J =
         fmax(b->bases_J, fw_verdict_bases_J(m, b->arm, b->stiff_N, on, on + 3 * (size_t)m->nhinge));
 }
 
-void fw_verdict_bases_add(const fw_mechanism *m, const fw_verdict_arm *arm, int hinge,
-                          double gives[9]) {
-    const double stiff_N = m->variant->material.youngs.value * m->variant->thickness_m;
-    for (int side = 0; arm && side < 2; side++) {
-        const fw_verdict_arm *base = arm[2 * hinge + side].base;
-        if (!base) continue;
-        const double *g = base->give,
-                     all[9] = {g[3], g[4], g[1], g[4], g[5], g[2], g[1], g[2], g[0]};
-        for (int i = 0; i < 9; i++)
-            gives[i] += (base->shared ? base->sharing : 1) * all[i] / stiff_N;
-    }
-}
-
 void fw_verdict_bases_tell(const fw_mechanism *m, const fw_verdict_arm *arm,
-                           const fw_device_scene *scene, const char *const share[4],
+                           const fw_device_scene *scene, const char *share, const char *unit,
                            fw_diags *diags) {
     char way[32];
     const fw_verdict_arm *softest = NULL;
@@ -210,12 +190,12 @@ void fw_verdict_bases_tell(const fw_mechanism *m, const fw_verdict_arm *arm,
             softest = arm[i].base, at = m->hinge[i / 2].pin;
     if (!softest) return;
     fw_diag_warning(
-        diags, 510, m->device->revolute[at].place,
-        "bodies, and bases between hinges and the frame, are taken as rigid, and in %s%s they may "
-        "give by up to %s %s what the hinges give, bases by %s %s it: what is probed may move that "
-        "much further, and the bands allow for it. The softest base, at %s%s, which the layout "
-        "draws, is %s um long up to the frame: longer or thinner flexures ask less of it",
-        FW_NAMED("scene", scene->name), share[0], share[1], share[2], share[3],
-        FW_NAMED("hinge", m->pin[at].id),
+        diags, 740, m->device->revolute[at].place,
+        "bases, which the layout draws between hinges on the ground and the frame, are taken as "
+        "rigid, and in %s%s they may give by up to %s %s what the hinges give: what is probed may "
+        "move that much further, stiffnesses be as much less, and no band has it. The softest, at "
+        "%s%s, is %s um long up to the frame: move the ground hinges nearer to it, or let the "
+        "flexures be longer or thinner",
+        FW_NAMED("scene", scene->name), share, unit, FW_NAMED("hinge", m->pin[at].id),
         fw_number_text(way, sizeof way, 1e6 * softest->length_m, 3));
 }

@@ -39,12 +39,9 @@ double fw_verdict_bases_J(const fw_mechanism *mechanism, const fw_verdict_arm *a
 /* bending->bases_J */
 void fw_verdict_bases_record(fw_verdict_bending *bending, const fw_mechanism *mechanism,
                              const fw_dynamics_instant *now);
-/* what a flexure gives (3 x 3; x, y, turn, at its pin) with the bases that it stands on */
-void fw_verdict_bases_add(const fw_mechanism *mechanism, const fw_verdict_arm *arm, int hinge,
-                          double gives[9]);
-/* FW-D510 where bases give most; share: two numbers with their units, of all that give, and of bases */
+/* FW-D740; share, unit: of all bases over hinges */
 void fw_verdict_bases_tell(const fw_mechanism *mechanism, const fw_verdict_arm *arm,
-                           const fw_device_scene *scene, const char *const share[4],
+                           const fw_device_scene *scene, const char *share, const char *unit,
                            fw_diags *diags);
 
 typedef struct fw_verdict_shared {

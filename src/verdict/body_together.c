@@ -316,19 +316,6 @@ void fw_verdict_softer(const fw_mechanism *m, const fw_verdict_arm *arm,
             to[1] = fmax(to[1], b->place[i].arm->softer);
 }
 
-static fw_status bases_made(fw_arena *arena, int n, double edge_m, fw_verdict_arm *arm) {
-    for (int i = 0; i < n; i++) {
-        fw_verdict_arm *to =
-            arm[i].base ? fw_arena_grow(arena, arm[i].base, 1, 1, sizeof *to) : NULL;
-        if (!arm[i].base) continue;
-        FW_NEED(to);
-        arm_made(arm[i].base, edge_m, to);
-        if (to->shared) FW_TRY(shared_made(arena, to->shared, edge_m, &to->shared));
-        arm[i].base = to;
-    }
-    return FW_OK;
-}
-
 fw_status fw_verdict_arms_made(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
                                double edge_m, const fw_verdict_arm **made) {
     fw_mechanism_load_end *end;
@@ -352,7 +339,7 @@ fw_status fw_verdict_arms_made(fw_arena *arena, const fw_mechanism *m, const fw_
     }
     for (int b = 0; b < m->nbody; b++)
         softer_of_body(m, b, end, nload, to);
-    return bases_made(arena, 2 * m->nhinge, edge_m, to);
+    return FW_OK;
 }
 
 /* ---- a body as beams with all that acts on it where it does ---- */

@@ -298,13 +298,12 @@ static void put_on_end(const fw_verdict_bending *b, const fw_mechanism *m, int e
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (now && b->worst) {
-        if (b->base) fw_verdict_bases_record(b, m, now);
         record_straight(b, m, now);
         return;
     }
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = b->bases_J = b->bases_gone = b->moving_J = b->gone =
-            b->hardest_N2 = b->jumped_N[0] = 0;
+        b->hinges_J = b->bodies_J = b->bases_J = b->moving_J = b->gone = 0;
+        b->hardest_N2 = b->jumped_N[0] = 0;
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->before_N[k] = 0;
         for (int k = 0; k < 7 * m->nhinge; k++)
@@ -407,8 +406,6 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     bending->jumped_N = bending->hardest_N + 11 * m->nhinge;
     FW_NEED(bending->along_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
     FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 8 * (size_t)m->nhinge + 1));
-    if (arm && fw_verdict_has_bases(m, arm))
-        FW_NEED(bending->base = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
     if (straight) return worst_of(arena, m, arm, &bending->worst);
     if (m->nhinge <= FW_TIPPING_HINGES) {
         const size_t n = 2 * (size_t)m->nhinge;
@@ -416,6 +413,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
         FW_NEED(bending->extreme_N = fw_arena_array(arena, double, 2 * n * n));
     }
     if (!arm) return FW_OK; /* nothing is drawn: what tips is found by forces alone */
+    if (fw_verdict_has_bases(m, arm))
+        FW_NEED(bending->base = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;
     FW_NEED(bending->end = fw_arena_array(arena, double, 6 * (size_t)m->nhinge));
@@ -481,7 +480,7 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, con
     }
     if (!v->straight) FW_TRY(fw_verdict_body_arms(arena, m, layout, &arm));
     v->arm = arm;
-    return fw_verdict_bases(arena, m, layout, arm);
+    return v->straight ? FW_OK : fw_verdict_bases(arena, m, layout, arm);
 }
 
 bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v) {
@@ -489,8 +488,7 @@ bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v) {
         const fw_verdict_strain_monitor *saw = v->motion[i] ? v->motion[i]->observed : NULL;
         const fw_verdict_bending *b = saw && saw->bending.arm ? &saw->bending : NULL;
         /* of leaves that do not turn at all, hinges have nothing by which bodies could be measured */
-        if (b && b->bodies_J + b->bases_J >
-                     fw_verdict_straight_share * fw_verdict_bending_told * b->hinges_J)
+        if (b && b->bodies_J > fw_verdict_straight_share * fw_verdict_bending_told * b->hinges_J)
             return false;
     }
     return true;
@@ -547,18 +545,13 @@ double fw_verdict_bending_moving(const fw_dynamics_motion *motion) {
     const double fiftieth = 0.02;
     const fw_verdict_bending *b = seen(motion);
     if (!b) return 0;
-    if (b->moving_J < 0.5 * b->hinges_J && fmax(b->gone, b->bases_gone) < fiftieth) return 0;
+    if (b->moving_J < 0.5 * b->hinges_J && b->gone < fiftieth) return 0;
     return fw_verdict_bending_share(motion);
 }
 
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
     const double share = fw_verdict_bending_moving(motion);
     return share > fw_verdict_bending_told ? share : 0;
-}
-
-/* bodies and bases over hinges, without what the bodies give under what presses on them */
-static double alone(const fw_verdict_bending *b) {
-    return (b->bodies_J + b->bases_J) / b->hinges_J;
 }
 
 /* Of small motions no forces are known: the most of any scene, but for one that hardly moves beside another (round-off), and
@@ -573,7 +566,9 @@ double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v) {
         largest_J = fmax(largest_J, fw_verdict_bending_stored_J(v->motion[i]));
     for (int i = 0; i < m->device->nscene; i++)
         if (fw_verdict_bending_stored_J(v->motion[i]) >= hardly * largest_J)
-            most = fmax(most, seen(v->motion[i]) ? alone(seen(v->motion[i])) : 0);
+            most = fmax(most, seen(v->motion[i])
+                                  ? seen(v->motion[i])->bodies_J / seen(v->motion[i])->hinges_J
+                                  : 0);
     return most;
 }
 
@@ -585,11 +580,9 @@ fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const f
     const double nu = of->poisson.unknown ? 0.3 : of->poisson.value;
     double *give;
     FW_NEED(give = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
-    for (int k = 0; arm && k < 2 * m->nhinge; k++) {
-        const fw_verdict_arm *one = arm[k].known ? &arm[k] : arm[k].base;
-        if (one)
-            fw_verdict_arm_out_of_plane(one, of->youngs.value, nu, m->variant->thickness_m,
+    for (int k = 0; k < 2 * m->nhinge; k++)
+        if (arm && arm[k].known)
+            fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
                                         give + 9 * (k / 2));
-    }
     return fw_mechanism_plates_new(arena, m, give, soft);
 }

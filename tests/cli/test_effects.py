@@ -821,39 +821,37 @@ def stretched_stage(asked, path=None, leans_rad=0):
 
 
 class Bases(unittest.TestCase):
-    """What is drawn between a hinge on the ground and the frame gives way, too. Solids of all that is drawn, the frame's outer edge held (CalculiX, plane
-    stress, large displacements): held at the leaves' own ends they are what the rigid model says"""
+    """What is drawn between a hinge on the ground and the frame gives way, too, and where that is much it is told. Solids of all that is drawn, the frame's
+    outer edge held (CalculiX, plane stress, large displacements); held at the leaves' own ends they are what the rigid model says"""
 
-    def judged(self, text, *options):
-        done = run("check", "-", "--corners", "none", "--advice", "none", "--json", *options, input=text)
-        return json.loads(done.stdout), done.stderr
+    def told(self, text, *options):
+        done = run("check", "-", "--corners", "none", "--advice", "none", *options, input=text)
+        self.assertIn(done.returncode, (0, 1, 4), done.stderr)
+        said = re.findall(r"in scene push they may give by up to ([\d.]+) (% of|times) what the hinges give.*The softest, at hinge \w+, is (\d+) um long.*\[FW-D740\]",
+                          done.stderr)
+        return [(float(share) / (100 if of == "% of" else 1), float(long)) for share, of, long in said]
 
     def test_a_stage_between_clamped_leaves(self):
-        """accepted with 6.27 um (6.03 to 6.52) and 150 kN/m (94 to 157) along its leaves, which use 14.3 % (13.6 to 14.5)"""
-        found, said = self.judged(stretched_stage('<require probe="sink" measure="final" max="8 um"/><require probe="kx" min="90 kN/m"/>'))
-        sink, kx = found["requirements"]
-        self.assertTrue(sink["band"][0] < 8.52e-6 < sink["band"][1], sink)
-        self.assertTrue(kx["band"][0] < 28.3e3 < kx["band"][1] and kx["band"][0] > 0.9 * 28.3e3, kx)
-        self.assertEqual([r["verdict"] for r in (sink, kx)], ["inconclusive"] * 2)
-        for hinge in found["hinges"]:
-            self.assertTrue(hinge["utilisation_band"][0] < 0.17 < hinge["utilisation_band"][1], hinge)
-        self.assertRegex(said, r"The softest base, at hinge \w+, which the layout draws, is \d+ um long up to the frame: .* \[FW-D510\]")
+        """8.52 um as a solid where 6.27 are told, which is 36 % more; 28.3 kN/m for 150"""
+        (share, long), = self.told(stretched_stage('<require probe="sink" measure="final" max="8 um"/>'))
+        self.assertTrue(8.52 / 6.27 - 1 < share < 0.6, share)
+        self.assertTrue(500 < long < 900, long)
+
+    def test_what_turns_on_its_leaves_asks_little_of_bases(self):
+        self.assertEqual(self.told((ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()), [])
 
     @only_all
     def test_half_arches(self):
-        """accepted with 684 nm (644 to 778) and 6.5 % of the limit used (5.2 to 6.5): the arms let the arches flatten"""
+        """the arms let the arches flatten: 8.57 um for 0.68, and 16.4 % of the limit for 6.5"""
         rise, span = 24, 500
         angle = 2 * math.atan(rise / span)
         arc = f'radius="{span / (2 * math.sin(angle)):.6f} um" angle="{angle:.9f} rad"'
         back = arc.replace('angle="', 'angle="-')
-        text = stretched_stage('<require probe="sink" measure="final" max="1 um"/>',
-                               f'<flexure id="up" kind="path" width="5 um"><arc {arc}/><arc {back}/></flexure>'
-                               f'<flexure id="down" kind="path" width="5 um"><arc {back}/><arc {arc}/></flexure>', angle / 2)
-        found, _ = self.judged(text, "--hinge-model", "elastica")
-        sink = found["requirements"][0]
-        self.assertTrue(sink["band"][0] < 8.57e-6 < sink["band"][1] and sink["verdict"] == "inconclusive", sink)
-        for hinge in found["hinges"]:
-            self.assertTrue(hinge["utilisation_band"][0] < 0.164 < hinge["utilisation_band"][1], hinge)
+        (share, _), = self.told(stretched_stage('<require probe="sink" measure="final" max="1 um"/>',
+                                                f'<flexure id="up" kind="path" width="5 um"><arc {arc}/><arc {back}/></flexure>'
+                                                f'<flexure id="down" kind="path" width="5 um"><arc {back}/><arc {arc}/></flexure>', angle / 2),
+                                "--hinge-model", "elastica")
+        self.assertGreater(share, 5)
 
 
 class BodiesThatSwing(unittest.TestCase):
