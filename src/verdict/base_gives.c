@@ -67,17 +67,17 @@ static bool find_cut(const fw_mechanism_line *line, int n, const fw_verdict_arm_
 }
 
 /* one piece: its lines, and the ends that begin at it, whose number is kept in `left` */
-static fw_status one_base(fw_arena *scratch, fw_arena *kept, fw_mechanism_line *line, int n,
+static fw_status one_base(fw_arena *scratch, fw_mechanism_line *line, int n,
                           const fw_verdict_arm_end *all, const int *of, int nall, int piece) {
     /* the way may end in a circle that reaches the cut: at the cut itself an edge may be near */
-    fw_verdict_drawn from = {.line = line, .nline = n, .deep = 1.25};
+    fw_verdict_drawn from = {.line = line, .nline = n, .deep = 1.25, .finest = 2};
     fw_verdict_arm_end *end = fw_arena_array(scratch, fw_verdict_arm_end, (size_t)nall + 1);
     int nend = 0;
     FW_NEED(end);
     for (int k = 0; k < nall; k++)
         if (of[k] == piece) end[nend++] = all[k];
     if (nend == 0 || !find_cut(line, n, end, nend, &from.middle)) return FW_OK;
-    FW_TRY(fw_verdict_arms_of(scratch, kept, &from, end, nend, nend, 0));
+    FW_TRY(fw_verdict_arms_of(scratch, scratch, &from, end, nend, nend, 0));
     for (int k = 0; k < nend; k++)
         end[k].to->sharing = nend;
     return FW_OK;
@@ -96,6 +96,43 @@ static void find_pieces(const fw_mechanism_line *line, int nline, const fw_verdi
     }
 }
 
+/* what is asked of ways that meet, without their pieces */
+static fw_status keep_shared(fw_arena *arena, const fw_verdict_shared *from,
+                             const fw_verdict_shared **kept) {
+    fw_verdict_shared *to = fw_arena_one(arena, fw_verdict_shared);
+    const size_t n = (size_t)from->n;
+    FW_NEED(to);
+    *to = *from, *kept = to;
+    FW_NEED(to->trunk = fw_arena_grow(arena, from->trunk, n, n, sizeof *to->trunk));
+    for (size_t i = 0; i < n; i++) {
+        struct fw_verdict_trunk *t = &to->trunk[i];
+        const size_t ends = (size_t)t->n;
+        FW_NEED(t->end = fw_arena_grow(arena, t->end, ends, ends, sizeof *t->end));
+        t->strip = NULL, t->nstrip = 0;
+    }
+    return FW_OK;
+}
+
+/* those that are known, as long as the device is: of their ways what they give alone */
+static fw_status keep_bases(fw_arena *arena, const fw_verdict_arm_end *end, int n,
+                            fw_verdict_arm *arm) {
+    for (int k = 0; k < n; k++) {
+        if (!end[k].to->known) continue;
+        fw_verdict_arm *to = fw_arena_grow(arena, end[k].to, 1, 1, sizeof *to);
+        FW_NEED(to);
+        to->way = NULL, to->strip = NULL, to->nway = to->nstrip = 0;
+        int like = 0;
+        while (like < k && !(end[like].to->known && end[like].to->shared == to->shared))
+            like++;
+        if (to->shared && like < k)
+            to->shared = arm[end[like].index].base->shared;
+        else if (to->shared)
+            FW_TRY(keep_shared(arena, to->shared, &to->shared));
+        arm[end[k].index].base = to;
+    }
+    return FW_OK;
+}
+
 static fw_status all_bases(fw_arena *scratch, fw_arena *arena, const fw_mechanism *m,
                            const fw_layout *layout, fw_verdict_arm *arm) {
     fw_mechanism_line *line;
@@ -105,7 +142,7 @@ static fw_status all_bases(fw_arena *scratch, fw_arena *arena, const fw_mechanis
     int *of = fw_arena_array(scratch, int, ends + 1);
     fw_verdict_arm *base;
     FW_NEED(end && of ? end : NULL);
-    FW_NEED(base = fw_arena_array(arena, fw_verdict_arm, ends + 1));
+    FW_NEED(base = fw_arena_array(scratch, fw_verdict_arm, ends + 1));
     FW_TRY(fw_mechanism_body_lines(scratch, layout, FW_GROUND, &line, &nline));
     for (int i = 0; i < (int)ends; i++) {
         fw_verdict_arm_end *to = &end[n];
@@ -116,16 +153,11 @@ static fw_status all_bases(fw_arena *scratch, fw_arena *arena, const fw_mechanis
     for (int first = 0, last; first < nline; first = last) {
         for (last = first; last < nline && line[last].piece == line[first].piece;)
             last++;
-        fw_arena *one = fw_arena_part(scratch, 0);
-        FW_NEED(one);
         const fw_status status =
-            one_base(one, arena, line + first, last - first, end, of, n, line[first].piece);
-        fw_arena_free(one);
+            one_base(scratch, line + first, last - first, end, of, n, line[first].piece);
         FW_TRY(status);
     }
-    for (int k = 0; k < n; k++)
-        arm[end[k].index].base = end[k].to->known ? end[k].to : NULL;
-    return FW_OK;
+    return keep_bases(arena, end, n, arm);
 }
 
 fw_status fw_verdict_bases(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,

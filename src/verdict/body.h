@@ -24,6 +24,7 @@ typedef struct fw_verdict_drawn {
     int nline;
     fw_geometry_vec2 middle;
     double deep;
+    int finest; /* grids that are tried at most, each of cells half as wide */
 } fw_verdict_drawn;
 /* body_arms.c: arms of ends, of hinges (nhinge), then of loads, n in all; hole_m: of release holes */
 fw_status fw_verdict_arms_of(fw_arena *scratch, fw_arena *kept, const fw_verdict_drawn *from,

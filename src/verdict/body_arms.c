@@ -514,7 +514,7 @@ fw_status fw_verdict_arms_of(fw_arena *scratch, fw_arena *kept, const fw_verdict
     double cell = fw_greater(across / ACROSS, fw_least_cell);
     fw_mark lines = fw_arena_mark(scratch);
     bool all = false;
-    for (int turn = 0; turn < FINEST && !all; turn++, cell /= 2) {
+    for (int turn = 0; turn < from->finest && !all; turn++, cell /= 2) {
         double cells = across * across / (cell * cell);
         if (cells > CELLS) break;
         fw_arena_rewind(scratch, lines); /* the former cells */
@@ -569,7 +569,7 @@ fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_
                 ends[found++] = (fw_verdict_arm_end){
                     .to = *arm + n + j, .index = (int)n + j, .pin = load[j].at, .root = load[j].at};
         fw_status status = ends ? FW_OK : FW_NOMEM;
-        fw_verdict_drawn from = {.middle = layout->body[b].centroid, .deep = 2};
+        fw_verdict_drawn from = {.middle = layout->body[b].centroid, .deep = 2, .finest = FINEST};
         if (nhinge > 0)
             status = fw_mechanism_body_lines(scratch, layout, b, &from.line, &from.nline);
         if (nhinge > 0 && status == FW_OK)
