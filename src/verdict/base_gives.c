@@ -66,7 +66,7 @@ static bool find_cut(const fw_mechanism_line *line, int n, const fw_verdict_arm_
     return sum > 0;
 }
 
-/* one piece: its lines, and the ends that begin at it, whose number is kept in `left` */
+/* one piece: its lines, and of all ends those that begin at it */
 static fw_status one_base(fw_arena *scratch, fw_mechanism_line *line, int n,
                           const fw_verdict_arm_end *all, const int *of, int nall, int piece) {
     /* the way may end in a circle that reaches the cut: at the cut itself an edge may be near */
@@ -77,10 +77,7 @@ static fw_status one_base(fw_arena *scratch, fw_mechanism_line *line, int n,
     for (int k = 0; k < nall; k++)
         if (of[k] == piece) end[nend++] = all[k];
     if (nend == 0 || !find_cut(line, n, end, nend, &from.middle)) return FW_OK;
-    FW_TRY(fw_verdict_arms_of(scratch, scratch, &from, end, nend, nend, 0));
-    for (int k = 0; k < nend; k++)
-        end[k].to->sharing = nend;
-    return FW_OK;
+    return fw_verdict_arms_of(scratch, scratch, &from, end, nend, nend, 0);
 }
 
 /* of: (n) the piece that is nearest to where each begins */
@@ -153,9 +150,7 @@ static fw_status all_bases(fw_arena *scratch, fw_arena *arena, const fw_mechanis
     for (int first = 0, last; first < nline; first = last) {
         for (last = first; last < nline && line[last].piece == line[first].piece;)
             last++;
-        const fw_status status =
-            one_base(scratch, line + first, last - first, end, of, n, line[first].piece);
-        FW_TRY(status);
+        FW_TRY(one_base(scratch, line + first, last - first, end, of, n, line[first].piece));
     }
     return keep_bases(arena, end, n, arm);
 }

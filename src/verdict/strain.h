@@ -56,7 +56,6 @@ typedef struct fw_verdict_arm {
         softer; /* as made: its body gives as many times as drawn (fw_verdict_softer); 0: drawn */
     const struct fw_verdict_arm *
         base; /* of an end on the ground, which has none of all that: up to the frame (base_gives.c) */
-    int sharing; /* of a base: ends that are on it */
 } fw_verdict_arm;
 
 /* body_loads.c: how large load `at` of those (n) becomes: of one that follows from the motion what hinges put on the body

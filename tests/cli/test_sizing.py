@@ -337,7 +337,6 @@ class Pair(unittest.TestCase):
         self.assertLess(least, 307.5 * 1.006)
         self.assertGreater(len(result["found"]), 10)
 
-
     def test_a_goal_alone_has_one_search_where_three_would_end_too_early(self):
         """with three of 4 devices each none was run, and the fronts began at 256.1 Hz and ended at 0.6496 rad: a size of each goal
         alone with 1200 devices has 247.79 Hz and 0.6754 rad"""
