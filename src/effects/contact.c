@@ -443,14 +443,16 @@ static fw_status check(const fw_effect_case *c, fw_diags *diags) {
         if (use->side != FW_CONTACT_INSIDE) past = -past;
         char deep[32], far[32], at[32];
         if (!(past > drawn_closed)) continue;
-        fw_diag_warning(diags, 134, use->place,
-                        "%s%s overlaps by %s um in the drawn pose: what touches is %s um "
-                        "apart and touches at a distance of %s um; correct the points, the "
-                        "distance or the side",
-                        FW_NAMED("contact", fw_text_name(use->id)),
-                        fw_number_text(deep, sizeof deep, 1e6 * past, 4),
-                        fw_number_text(far, sizeof far, 1e6 * apart, 4),
-                        fw_number_text(at, sizeof at, 1e6 * use->distance_m, 4));
+        /* what somebody puts there may be pressed in */
+        (use->undrawn == FW_UNDRAWN_PLACED ? fw_diag_warning : fw_diag_unreliable)(
+            diags, 134, use->place,
+            "%s%s overlaps by %s um in the drawn pose: what touches is %s um "
+            "apart and touches at a distance of %s um; correct the points, the "
+            "distance or the side",
+            FW_NAMED("contact", fw_text_name(use->id)),
+            fw_number_text(deep, sizeof deep, 1e6 * past, 4),
+            fw_number_text(far, sizeof far, 1e6 * apart, 4),
+            fw_number_text(at, sizeof at, 1e6 * use->distance_m, 4));
     }
     return diags->failed ? FW_NOMEM : FW_OK;
 }

@@ -131,6 +131,65 @@ fw_geometry_vec2 fw_layout_window_outward(fw_layout_window_side side) {
     return out[side];
 }
 
+/* ---- to which side a base leaves its hinge ----
+   A base bends: what holds a leaf aside of its line is hundreds of times softer than the leaf is along itself, and its bar
+   then goes half around the hinge. So where a leaf whose axis is stated runs straight towards a side of the window, its base
+   leaves to that side, in line with it. Of any other the flexure would turn with its base, and what is soft itself asks little of
+   its base. docs/theory/layout.md, section 5; decision 256; test_layout_hubs.c */
+
+static fw_layout_window_side side_along(fw_geometry_vec2 way) {
+    fw_layout_window_side most = FW_LEFT;
+    for (int i = 0; i < 4; i++) {
+        const fw_layout_window_side side = (fw_layout_window_side)i;
+        if (fw_dot(fw_layout_window_outward(side), way) >
+            fw_dot(fw_layout_window_outward(most), way))
+            most = side;
+    }
+    return most;
+}
+
+static bool leaf_is_stated(const fw_device *device, const fw_device_revolute *j) {
+    const fw_device_flexure_kind kind = device->flexure[j->flexure].kind;
+    return (j->body_a == FW_GROUND || j->body_b == FW_GROUND) && !isnan(j->axis_rad) &&
+           (kind == FW_FLEXURE_LEAF || kind == FW_FLEXURE_PATH);
+}
+
+bool fw_layout_leaves_lead(const fw_device *device) {
+    for (int j = 0; j < device->nrevolute; j++)
+        if (leaf_is_stated(device, &device->revolute[j])) return true;
+    return false;
+}
+
+/* does the leaf run straight to a side of the window, from its hinge to the end that the ground holds? */
+static bool leaf_leads(const fw_layout_drawing *d, int joint, fw_layout_window_side *to) {
+    const double straight = 0.97; /* cosine of 14 degrees */
+    const fw_layout_hinge_plan *plan = &d->hinge[joint];
+    const fw_layout_local *own = &plan->side[plan->side[1].body == FW_GROUND].local;
+    if (!leaf_is_stated(d->device, &d->device->revolute[joint])) return false;
+    const fw_geometry_vec2 way = fw_sub(fw_layout_local_point(own, fw_v(0.0, 1.0)),
+                                        fw_layout_local_point(own, fw_v(0.0, 0.0)));
+    *to = side_along(way);
+    return fw_dot(fw_layout_window_outward(*to), way) >= straight;
+}
+
+bool fw_layout_sides_by_leaf(const fw_layout_drawing *d, fw_layout_window_side *side) {
+    int joint[2];
+    fw_layout_window_side to;
+    const int n = fw_layout_body_joints(d->device, FW_GROUND, joint, 2);
+    const bool both = n == 2 && leaf_leads(d, joint[0], &to) && leaf_leads(d, joint[1], &to);
+    bool any = both; /* a bar between both would hold them aside of their lines */
+    if (n == 2 && !both) return false;
+    for (int j = 0; j < d->device->nrevolute; j++) {
+        const fw_device_revolute *r = &d->device->revolute[j];
+        if (r->body_a != FW_GROUND && r->body_b != FW_GROUND) continue;
+        side[j] = side_along(d->hinge[j].side[d->hinge[j].side[1].body == FW_GROUND].direction);
+        if (!leaf_leads(d, j, &to)) continue;
+        any = any || to != side[j];
+        side[j] = to;
+    }
+    return any;
+}
+
 double fw_layout_base_reach(const fw_layout_drawing *d, int joint) {
     const fw_layout_hinge_plan *plan = &d->hinge[joint];
     fw_geometry_vec2 out = plan->side[plan->side[1].body == FW_GROUND].direction;

@@ -260,6 +260,10 @@ fw_status fw_layout_strip_draw(fw_layout_drawing *d, fw_layout_window_side side,
                                fw_layout_attachment *out);
 fw_status fw_layout_attachment_add(fw_layout_drawing *d, const fw_layout_attachment *item);
 
+/* side (njoint): to where a base of its own leaves each hinge; d: its hinges are planned, and stand as they would without
+   that; false: none of them leaves by its leaf. leaves_lead: may one? */
+bool fw_layout_sides_by_leaf(const fw_layout_drawing *d, fw_layout_window_side *side);
+bool fw_layout_leaves_lead(const fw_device *device);
 /* of a body with more than two hinges */
 fw_geometry_vec2 fw_layout_body_hub(const fw_layout_drawing *d, int body);
 fw_status fw_layout_hinges_plan(fw_layout_drawing *d);
@@ -426,6 +430,8 @@ fw_status fw_layout_show(fw_layout_drawing *d);
 
 /* ---- what finds no room, and that it is said ---- */
 fw_status fw_layout_missing_add(fw_layout_drawing *d, fw_layout_missing item);
+/* joints, springs and stops that no mask draws (FW-D130) */
+fw_status fw_layout_joints_missing(fw_layout_drawing *d);
 /* one place of the drawing, whichever scenes it is in */
 bool fw_layout_same_eyelet(const fw_device_eyelet *p, const fw_device_eyelet *q);
 

@@ -193,8 +193,6 @@ static fw_status start(fw_layout_drawing *d) {
     int nground = fw_layout_body_joints(device, FW_GROUND, NULL, 0);
     d->nslot = device->nbody + (nground > 0 && fw_layout_own_bases(d) ? nground : 1);
     size_t slots = (size_t)d->nslot;
-    for (int j = 0; j < device->nrevolute; j++)
-        d->centre = fw_add(d->centre, 1.0 / device->nrevolute, fw_layout_joint_point(device, j));
     FW_NEED(d->raw = fw_arena_array(d->arena, fw_geometry_contour, slots));
     FW_NEED(d->plain = fw_arena_array(d->arena, fw_geometry_contour, slots));
     FW_NEED(d->held = fw_arena_array(d->arena, fw_geometry_contour, slots));
@@ -275,97 +273,6 @@ static fw_status give_up(fw_layout_drawing *d) {
     return FW_GEOMETRY;
 }
 
-/* ---- what the motion has and no drawing ----
-   A guide that slides, a rod and a weld hold bodies together in the motion, and the masks leave them apart; so
-   does a spring from one body to another. The stops of a hinge are angles that no solid of the drawing
-   ends a turn at. (A spring to the ground and a driver are of the world outside, as a force is.) Decision 60. */
-
-/* where point a of a joint stands as it is stated; not a number: nobody states it */
-static fw_geometry_vec2 stated_at(const fw_device *device, int body, double x_m, double y_m) {
-    if (body == FW_GROUND) return fw_v(x_m, y_m);
-    const fw_device_body *b = &device->body[body];
-    return fw_add(fw_add(fw_v(b->x_m, b->y_m), x_m, fw_polar(b->phi_rad)), y_m,
-                  fw_left(fw_polar(b->phi_rad)));
-}
-
-/* "body cart" or "the ground" */
-static const char *holds_on(fw_layout_drawing *d, int body) {
-    return body == FW_GROUND
-               ? "the ground"
-               : fw_arena_printf(d->arena, "%s%s", FW_NAMED("body", d->device->body[body].id));
-}
-
-static const char *instead_of(fw_device_joint_kind kind) {
-    switch (kind) {
-    case FW_JOINT_PRISMATIC:
-        return "two pairs of leaves guide a stage as straight, as in docs/gallery/straight-stage";
-    case FW_JOINT_DISTANCE:
-        return "a body with a width between two hinges is a rod that is drawn, with its mass";
-    case FW_JOINT_WELD:
-        return "draw both as one body: a body may have several <outline> and <plate> elements";
-    }
-    return "";
-}
-
-/* ends a sentence about two things that move against each other */
-typedef enum undrawn { LEFT_APART, NOT_STOPPED } undrawn;
-
-static fw_status add_undrawn(fw_layout_drawing *d, const char *what, const char *id, int a, int b,
-                             fw_geometry_vec2 at, fw_place place, undrawn kind,
-                             const char *instead) {
-    fw_layout_missing m = {
-        .number = 130, .body = b >= 0 ? b : a, .at = at, .place = place, .room = instead};
-    const char *from = holds_on(d, a), *to = holds_on(d, b);
-    FW_NEED(from && to ? d : NULL);
-    FW_NEED(m.name = fw_arena_printf(d->arena, "%s %s", what, fw_text_name(id)));
-    const char *why = kind == LEFT_APART
-                          ? "flexures are the only joints that are fabricated, and the masks leave"
-                          : "a stop is an angle of the description, and the masks have no solid "
-                            "that ends the turn between";
-    FW_NEED(m.why = fw_arena_printf(d->arena, "%s %s and %s%s", why, from, to,
-                                    kind == LEFT_APART ? " apart" : " there"));
-    return fw_layout_missing_add(d, m);
-}
-
-/* without a stiffness it is none, and the motion has none (mechanism_build.c) */
-static bool has_stop(const fw_device_revolute *j) {
-    return j->stop_stiffness_Nm_per_rad > 0 && (!isnan(j->stop_min_rad) || !isnan(j->stop_max_rad));
-}
-
-static fw_status add_stops(fw_layout_drawing *d) {
-    for (int i = 0; i < d->device->nrevolute; i++) {
-        const fw_device_revolute *j = &d->device->revolute[i];
-        if (!has_stop(j)) continue;
-        FW_TRY(add_undrawn(d, "stop of hinge", j->id, j->body_a, j->body_b, fw_v(j->x_m, j->y_m),
-                           j->place, NOT_STOPPED,
-                           "a <contact> of the hinge's own surfaces (on=) or with a round that is "
-                           "drawn is a stop; without stop-min and stop-max the hinge is judged as "
-                           "it turns freely"));
-    }
-    return FW_OK;
-}
-
-static fw_status add_joints(fw_layout_drawing *d) {
-    static const char *const kind[] = {[FW_JOINT_PRISMATIC] = "prismatic joint",
-                                       [FW_JOINT_DISTANCE] = "distance joint",
-                                       [FW_JOINT_WELD] = "weld joint"};
-    const fw_device *device = d->device;
-    for (int i = 0; i < device->njoint; i++) {
-        const fw_device_joint *t = &device->joint[i];
-        FW_TRY(add_undrawn(d, kind[t->kind], t->id, t->body_a, t->body_b,
-                           stated_at(device, t->body_a, t->ax_m, t->ay_m), t->place, LEFT_APART,
-                           instead_of(t->kind)));
-    }
-    for (int i = 0; i < device->nspring; i++) {
-        const fw_device_spring *s = &device->spring[i];
-        if (s->body_a == FW_GROUND || s->body_b == FW_GROUND) continue;
-        FW_TRY(add_undrawn(d, s->cable ? "cable" : "spring", s->id, s->body_a, s->body_b,
-                           stated_at(device, s->body_a, s->ax_m, s->ay_m), s->place, LEFT_APART,
-                           "a leaf or a path between both is a spring that is drawn"));
-    }
-    return add_stops(d);
-}
-
 /* warnings and notes of a drawing, which are not repeated when the device is drawn again */
 static bool comments_drawing(int number) {
     static const int of_drawing[] = {127, 130, 131, 138, 139, 189, 255, 258, 653};
@@ -388,6 +295,8 @@ static fw_status new_drawing(fw_arena *arena, const fw_device *device, fw_diags 
                              .layout = l,
                              .base = FW_NONE,
                              .too_wide = FW_NONE};
+    for (int j = 0; j < device->nrevolute; j++)
+        d->centre = fw_add(d->centre, 1.0 / device->nrevolute, fw_layout_joint_point(device, j));
     return FW_OK;
 }
 
@@ -440,7 +349,7 @@ static fw_status name_width(const fw_layout_drawing *refused) {
 }
 
 /* ---- to which side a base leaves its hinge ----
-   A base of one ground hinge leaves it away from the mean of all hinges. In a long row that is along the row, through
+   A base of one ground hinge leaves it in line with its leaf (draw.c), else away from the mean of all hinges. In a long row that is along the row, through
    the places of its neighbours. Where a base cannot be drawn so, the device is drawn anew: all bases leave towards the
    side of the window that is nearest to their hinge, and one that cannot be drawn so either towards the next one. What
    could be drawn in the first place stays as it is. docs/theory/layout.md, section 5; decision 213; test_layout_hubs.c: rows */
@@ -538,33 +447,65 @@ static fw_status find_sides(const fw_layout_drawing *first, size_t errors,
 
 /* what has no drawing, and the drawing; *status is FW_OK or FW_GEOMETRY */
 static fw_status draw_once(fw_layout_drawing *d, fw_status *status) {
-    FW_TRY(add_joints(d));
+    FW_TRY(fw_layout_joints_missing(d));
     *status = draw(d);
     return *status == FW_GEOMETRY ? FW_OK : *status;
 }
 
-static fw_status draw_device(fw_layout_drawing *d, fw_diags *diags, fw_status *status) {
+/* the same device anew, and what was said of the former drawing forgotten; side NULL: each base away from the mean of all hinges */
+static fw_status draw_again(fw_layout_drawing *d, fw_mark mark, const fw_layout_window_side *side,
+                            fw_diags *first, fw_status *status) {
     fw_arena *arena = d->arena;
     const fw_device *device = d->device;
     const bool said = d->said;
+    fw_arena_rewind(arena, mark);
+    *first = fw_diags_new(arena);
+    FW_TRY(new_drawing(arena, device, first, d));
+    d->layout->fill = device->die.fill;
+    d->base_side = side;
+    d->said = said;
+    return draw_once(d, status);
+}
+
+/* by a plan of the hinges as they stand without that, without a word */
+static fw_status find_leaves(const fw_layout_drawing *d, fw_layout_window_side *side, bool *any) {
+    if (!fw_layout_leaves_lead(d->device)) return FW_OK;
+    fw_arena *scratch = fw_arena_part(d->arena, 0);
+    fw_diags unsaid = fw_diags_new(scratch);
+    fw_layout_drawing plan;
+    FW_NEED(scratch);
+    fw_status status = new_drawing(scratch, d->device, &unsaid, &plan);
+    plan.said = true;
+    if (status == FW_OK) status = start(&plan);
+    if (status == FW_OK) status = fw_layout_shapes_unite(&plan);
+    if (status == FW_OK) status = fw_layout_hinges_plan(&plan);
+    *any = status == FW_OK && fw_layout_sides_by_leaf(&plan, side);
+    fw_arena_free(scratch);
+    return status == FW_GEOMETRY ? FW_OK : status;
+}
+
+/* something that stands on bases, or beside them, finds no room; what no mask draws at all (FW-D130) lacks in any drawing */
+static bool lacks_parts(const fw_layout_drawing *d) {
+    for (int i = 0; i < d->layout->nmissing; i++)
+        if (d->layout->missing[i].number != 130) return true;
+    return false;
+}
+
+static fw_status draw_device(fw_layout_drawing *d, fw_diags *diags, fw_status *status) {
     fw_layout_window_side *side;
-    bool turned = false;
-    FW_NEED(side = fw_arena_array(arena, fw_layout_window_side, (size_t)device->nrevolute));
-    const fw_mark mark = fw_arena_mark(arena);
-    fw_diags first = fw_diags_new(arena);
+    bool turned = false, by_leaf = false;
+    FW_NEED(side = fw_arena_array(d->arena, fw_layout_window_side, (size_t)d->device->nrevolute));
+    const fw_mark mark = fw_arena_mark(d->arena);
+    fw_diags first = fw_diags_new(d->arena);
     d->diags = &first;
     d->own = &first;
+    FW_TRY(find_leaves(d, side, &by_leaf));
+    if (by_leaf) d->base_side = side;
     FW_TRY(draw_once(d, status));
+    if (by_leaf && (*status == FW_GEOMETRY || lacks_parts(d)))
+        FW_TRY(draw_again(d, mark, NULL, &first, status));
     if (*status == FW_GEOMETRY && any_stuck(d)) FW_TRY(find_sides(d, first.errors, side, &turned));
-    if (turned) {
-        fw_arena_rewind(arena, mark);
-        first = fw_diags_new(arena);
-        FW_TRY(new_drawing(arena, device, &first, d));
-        d->layout->fill = device->die.fill;
-        d->base_side = side;
-        d->said = said;
-        FW_TRY(draw_once(d, status));
-    }
+    if (turned) FW_TRY(draw_again(d, mark, side, &first, status));
     fw_diags_take(diags, &first);
     d->diags = diags;
     d->own = diags;

@@ -298,3 +298,94 @@ const char *fw_layout_wider_there(fw_arena *arena, const fw_device *device, cons
             ? "; where nothing asks for conjugate surfaces leave out the gap, and with it the rings"
             : "");
 }
+
+/* ---- what the motion has and no drawing ----
+   A guide that slides, a rod and a weld hold bodies together in the motion, and the masks leave them apart; so
+   does a spring from one body to another. The stops of a hinge are angles that no solid of the drawing
+   ends a turn at. (A spring to the ground and a driver are of the world outside, as a force is.) Decision 60. */
+
+/* where point a of a joint stands as it is stated; not a number: nobody states it */
+static fw_geometry_vec2 stated_at(const fw_device *device, int body, double x_m, double y_m) {
+    if (body == FW_GROUND) return fw_v(x_m, y_m);
+    const fw_device_body *b = &device->body[body];
+    return fw_add(fw_add(fw_v(b->x_m, b->y_m), x_m, fw_polar(b->phi_rad)), y_m,
+                  fw_left(fw_polar(b->phi_rad)));
+}
+
+/* "body cart" or "the ground" */
+static const char *holds_on(fw_layout_drawing *d, int body) {
+    return body == FW_GROUND
+               ? "the ground"
+               : fw_arena_printf(d->arena, "%s%s", FW_NAMED("body", d->device->body[body].id));
+}
+
+static const char *instead_of(fw_device_joint_kind kind) {
+    switch (kind) {
+    case FW_JOINT_PRISMATIC:
+        return "two pairs of leaves guide a stage as straight, as in docs/gallery/straight-stage";
+    case FW_JOINT_DISTANCE:
+        return "a body with a width between two hinges is a rod that is drawn, with its mass";
+    case FW_JOINT_WELD:
+        return "draw both as one body: a body may have several <outline> and <plate> elements";
+    }
+    return "";
+}
+
+/* ends a sentence about two things that move against each other */
+typedef enum undrawn { LEFT_APART, NOT_STOPPED } undrawn;
+
+static fw_status add_undrawn(fw_layout_drawing *d, const char *what, const char *id, int a, int b,
+                             fw_geometry_vec2 at, fw_place place, undrawn kind,
+                             const char *instead) {
+    fw_layout_missing m = {
+        .number = 130, .body = b >= 0 ? b : a, .at = at, .place = place, .room = instead};
+    const char *from = holds_on(d, a), *to = holds_on(d, b);
+    FW_NEED(from && to ? d : NULL);
+    FW_NEED(m.name = fw_arena_printf(d->arena, "%s %s", what, fw_text_name(id)));
+    const char *why = kind == LEFT_APART
+                          ? "flexures are the only joints that are fabricated, and the masks leave"
+                          : "a stop is an angle of the description, and the masks have no solid "
+                            "that ends the turn between";
+    FW_NEED(m.why = fw_arena_printf(d->arena, "%s %s and %s%s", why, from, to,
+                                    kind == LEFT_APART ? " apart" : " there"));
+    return fw_layout_missing_add(d, m);
+}
+
+/* without a stiffness it is none, and the motion has none (mechanism_build.c) */
+static bool has_stop(const fw_device_revolute *j) {
+    return j->stop_stiffness_Nm_per_rad > 0 && (!isnan(j->stop_min_rad) || !isnan(j->stop_max_rad));
+}
+
+static fw_status add_stops(fw_layout_drawing *d) {
+    for (int i = 0; i < d->device->nrevolute; i++) {
+        const fw_device_revolute *j = &d->device->revolute[i];
+        if (!has_stop(j)) continue;
+        FW_TRY(add_undrawn(d, "stop of hinge", j->id, j->body_a, j->body_b, fw_v(j->x_m, j->y_m),
+                           j->place, NOT_STOPPED,
+                           "a <contact> of the hinge's own surfaces (on=) or with a round that is "
+                           "drawn is a stop; without stop-min and stop-max the hinge is judged as "
+                           "it turns freely"));
+    }
+    return FW_OK;
+}
+
+fw_status fw_layout_joints_missing(fw_layout_drawing *d) {
+    static const char *const kind[] = {[FW_JOINT_PRISMATIC] = "prismatic joint",
+                                       [FW_JOINT_DISTANCE] = "distance joint",
+                                       [FW_JOINT_WELD] = "weld joint"};
+    const fw_device *device = d->device;
+    for (int i = 0; i < device->njoint; i++) {
+        const fw_device_joint *t = &device->joint[i];
+        FW_TRY(add_undrawn(d, kind[t->kind], t->id, t->body_a, t->body_b,
+                           stated_at(device, t->body_a, t->ax_m, t->ay_m), t->place, LEFT_APART,
+                           instead_of(t->kind)));
+    }
+    for (int i = 0; i < device->nspring; i++) {
+        const fw_device_spring *s = &device->spring[i];
+        if (s->body_a == FW_GROUND || s->body_b == FW_GROUND) continue;
+        FW_TRY(add_undrawn(d, s->cable ? "cable" : "spring", s->id, s->body_a, s->body_b,
+                           stated_at(device, s->body_a, s->ax_m, s->ay_m), s->place, LEFT_APART,
+                           "a leaf or a path between both is a spring that is drawn"));
+    }
+    return add_stops(d);
+}

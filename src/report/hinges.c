@@ -364,7 +364,7 @@ bool fw_report_band_words(fw_text *out, const fw_verdict_hinge_verdict *h) {
               {"the stiffness of hinges", p->stiffness},
               {"the next model of the hinges", p->model},
               {"where the moment stands at a root and what blocks give", p->place},
-              {"bodies that bend", p->bodies},
+              {"bodies and bases that bend", p->bodies},
               {h->numeric > 0 ? "numbers, less by a tighter --accuracy" : "numbers", p->numbers}};
     enum { PARTS = sizeof of / sizeof *of };
     bool told[PARTS] = {false};

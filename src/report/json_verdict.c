@@ -366,6 +366,7 @@ static void hinge_models(fw_json *json, const fw_report_input *in) {
             fw_report_json_hinge_model(json, v->mechanism, &x->ledger.hinge, x->level);
             fw_json_real(json, "model_error", fw_verdict_motion_model_error(v->mechanism, x));
             fw_json_real(json, "bodies_give", fw_verdict_bending_share(x));
+            fw_json_real(json, "bases_give", fw_verdict_bases_share(x));
             int at[2];
             const fw_verdict_band rims = fw_verdict_bending_rims(v->mechanism, x, at);
             fw_json_real(json, "hole_rims", rims.high);

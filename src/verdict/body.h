@@ -25,12 +25,15 @@ typedef struct fw_verdict_drawn {
     fw_geometry_vec2 middle;
     double deep;
     int finest; /* grids that are tried at most, each of cells half as wide */
+    double
+        foot_m; /* length of the straight cut whose middle that is, and beyond which the frame gives; 0: none */
+    fw_geometry_vec2 along; /* of that cut, a unit vector */
 } fw_verdict_drawn;
 /* body_arms.c: arms of ends, of hinges (nhinge), then of loads, n in all; hole_m: of release holes */
 fw_status fw_verdict_arms_of(fw_arena *scratch, fw_arena *kept, const fw_verdict_drawn *from,
                              fw_verdict_arm_end *ends, int nhinge, int n, double hole_m);
 
-/* base_gives.c: arm[].base of all ends on the ground (2 nhinge) */
+/* body_drawn.c: arm[].base of all ends on the ground (2 nhinge) */
 fw_status fw_verdict_bases(fw_arena *arena, const fw_mechanism *mechanism, const fw_layout *layout,
                            fw_verdict_arm *arm);
 bool fw_verdict_has_bases(const fw_mechanism *mechanism, const fw_verdict_arm *arm);
@@ -40,9 +43,12 @@ double fw_verdict_bases_J(const fw_mechanism *mechanism, const fw_verdict_arm *a
 /* bending->bases_J */
 void fw_verdict_bases_record(fw_verdict_bending *bending, const fw_mechanism *mechanism,
                              const fw_dynamics_instant *now);
-/* FW-D740; share, unit: of all bases over hinges */
+/* what a flexure gives (3 x 3; x, y, turn, at its pin) with the bases that it stands on */
+void fw_verdict_bases_add(const fw_mechanism *mechanism, const fw_verdict_arm *arm, int hinge,
+                          double gives[9]);
+/* FW-D510 where bases give most; share: two numbers with their units, of all that give, and of bases */
 void fw_verdict_bases_tell(const fw_mechanism *mechanism, const fw_verdict_arm *arm,
-                           const fw_device_scene *scene, const char *share, const char *unit,
+                           const fw_device_scene *scene, const char *const share[4],
                            fw_diags *diags);
 
 typedef struct fw_verdict_shared {

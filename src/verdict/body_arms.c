@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ACROSS = 100, FINEST = 4, CELLS = 1000000 };
+enum { ACROSS = 100, CELLS = 1000000 };
 /* the narrowest place of a way has as many, or cells are halved: a coarse grid misses a slender bar */
 static const double fw_cells_across = 1;
 /* a cell is not below this: what is narrower is no part of a body */
@@ -39,6 +39,7 @@ typedef struct grid {
     int *touched, ntouched;  /* cells with a cost */
     int *way, nway;          /* cells from a hinge to the middle */
     fw_verdict_arm_end *end; /* whose way that is */
+    const fw_verdict_drawn *of;
 } grid;
 
 static void take_lines(const fw_verdict_drawn *from, grid *g) {
@@ -439,6 +440,20 @@ static void add_piece(const grid *g, const fw_verdict_pierced *pierced, fw_geome
     end->to->strip[end->to->nstrip++] = (fw_verdict_strip){at, from, until, w};
 }
 
+/* From where a way ends up to the middle of the cut of a base, as wide as its last circle; and the frame, which gives as if the
+   base went on into it by 0.44 of the cut: 5.3 M/(E h w^2) (W. J. O'Donnell, J. Appl. Mech. 27 (1960) 461) */
+static void add_foot(const grid *g, const fw_verdict_pierced *pierced, fw_geometry_vec2 from,
+                     double w) {
+    const double goes_on = 5.3 / 12;
+    const fw_verdict_drawn *to = g->of;
+    const fw_geometry_vec2 cut = to->middle, left = vec_left(to->along),
+                           out = vec_dot(vec_sub(cut, from), left) < 0 ? vec_scale(-1, left) : left,
+                           frame = vec_along(cut, goes_on * to->foot_m, out);
+    if (vec_distance(from, cut) > 0)
+        add_piece(g, pierced, vec_along(from, 0.5, vec_sub(cut, from)), from, cut, w);
+    add_piece(g, pierced, vec_along(cut, 0.5, vec_sub(frame, cut)), cut, frame, to->foot_m);
+}
+
 /* Two cells at a time, from half way to the circle before to half way to the one behind; the flexure's own
    root is in its closed form: the way begins where it is a cell inside */
 static fw_status follow(const grid *g, edges *around, const fw_verdict_pierced *pierced) {
@@ -446,7 +461,7 @@ static fw_status follow(const grid *g, edges *around, const fw_verdict_pierced *
     around->wide.n = 0;
     g->end->to->known = true;
     g->end->to->narrow_m = HUGE_VAL;
-    FW_NEED(g->end->to->strip = fw_arena_array(g->kept, fw_verdict_strip, (size_t)g->nway + 2));
+    FW_NEED(g->end->to->strip = fw_arena_array(g->kept, fw_verdict_strip, (size_t)g->nway + 4));
     fw_geometry_vec2 from = place(g, g->way[0]), here = from;
     double w = 0;
     for (int i = 0; i < last;) {
@@ -461,6 +476,7 @@ static fw_status follow(const grid *g, edges *around, const fw_verdict_pierced *
         w = fw_greater(wide, 1e-3 * g->cell);
     }
     if (last > 0) add_piece(g, pierced, here, from, place(g, g->way[last]), w);
+    if (last > 0 && g->of->foot_m > 0) add_foot(g, pierced, place(g, g->way[last]), w);
     return FW_OK;
 }
 
@@ -472,17 +488,7 @@ static bool begins_at(const grid *g, const edges *around, fw_geometry_vec2 at, i
     return vec_distance(place(g, cell), at) <= beside_m + 1.5 * g->cell;
 }
 
-/* ---- bodies ---- */
-
-static int ends_of(const fw_mechanism *m, int body, fw_verdict_arm *arm, fw_verdict_arm_end *out) {
-    int n = 0;
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        fw_geometry_vec2 pin, root;
-        if (fw_mechanism_hinge_end(m, body, i, &pin, &root))
-            out[n++] = (fw_verdict_arm_end){.to = &arm[i], .index = i, .pin = pin, .root = root};
-    }
-    return n;
-}
+/* ---- all ends of a drawn piece ---- */
 
 /* what straight cuts need of a body; of which end they are told later */
 static fw_status pierced_of(const grid *g, const fw_verdict_arm_end *ends, int nhinge,
@@ -505,7 +511,7 @@ static fw_status keep_way(const grid *g, fw_verdict_arm *to) {
 
 fw_status fw_verdict_arms_of(fw_arena *scratch, fw_arena *kept, const fw_verdict_drawn *from,
                              fw_verdict_arm_end *ends, int nhinge, int n, double hole_m) {
-    grid g = {.arena = scratch, .kept = kept};
+    grid g = {.arena = scratch, .kept = kept, .of = from};
     fw_verdict_pierced pierced = {.hole_m = hole_m};
     take_lines(from, &g);
     if (g.nline == 0) return FW_OK;
@@ -545,40 +551,6 @@ fw_status fw_verdict_arms_of(fw_arena *scratch, fw_arena *kept, const fw_verdict
         pierced.own = i, pierced.root = ends[i].root;
         if (ends[i].to->known) fw_verdict_arm_cut_at_edge(&pierced, ends[i].to);
     }
-    return FW_OK;
-}
-
-fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
-                               fw_verdict_arm **arm) {
-    size_t n = 2 * (size_t)m->nhinge;
-    fw_mechanism_load_end *load;
-    int nload;
-    FW_TRY(fw_mechanism_load_ends(arena, m, &load, &nload));
-    const fw_device *d = m->device;
-    const double pitch = d ? d->release_pitch_m : 0;
-    const double drawn_m = pitch > 0 ? d->release_hole_m : 0;
-    const double hole_m = pitch > 0 && !(drawn_m > 0) ? 0.3 * pitch : drawn_m;
-    FW_NEED(*arm = fw_arena_array(arena, fw_verdict_arm, n + (size_t)nload));
-    for (int b = 0; layout && layout->drawn && b < m->nbody; b++) {
-        fw_arena *scratch = fw_arena_part(arena, 0);
-        FW_NEED(scratch);
-        fw_verdict_arm_end *ends = fw_arena_array(scratch, fw_verdict_arm_end, n + (size_t)nload);
-        int nhinge = ends ? ends_of(m, b, *arm, ends) : 0, found = nhinge;
-        for (int j = 0; ends && j < nload; j++)
-            if (load[j].body == b && load[j].first == j)
-                ends[found++] = (fw_verdict_arm_end){
-                    .to = *arm + n + j, .index = (int)n + j, .pin = load[j].at, .root = load[j].at};
-        fw_status status = ends ? FW_OK : FW_NOMEM;
-        fw_verdict_drawn from = {.middle = layout->body[b].centroid, .deep = 2, .finest = FINEST};
-        if (nhinge > 0)
-            status = fw_mechanism_body_lines(scratch, layout, b, &from.line, &from.nline);
-        if (nhinge > 0 && status == FW_OK)
-            status = fw_verdict_arms_of(scratch, arena, &from, ends, nhinge, found, hole_m);
-        fw_arena_free(scratch);
-        FW_TRY(status);
-    }
-    for (int j = 0; j < nload; j++)
-        (*arm)[n + (size_t)j] = (*arm)[n + (size_t)load[j].first];
     return FW_OK;
 }
 

@@ -562,3 +562,16 @@ double fw_verdict_flexures_off(const fw_mechanism *m, const fw_dynamics_motion *
     }
     return off > 0 ? off / all : 0;
 }
+
+void fw_verdict_softer(const fw_mechanism *m, const fw_verdict_arm *arm,
+                       const fw_verdict_bending *b, int body, double to[2]) {
+    to[0] = 1;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
+        if ((i % 2 ? pin->body_b : pin->body_a) == body) to[0] = fmax(to[0], arm[i].softer);
+    }
+    to[1] = to[0];
+    for (int i = 0; i < b->nplace; i++)
+        if (b->place[i].body == body && b->place[i].arm)
+            to[1] = fmax(to[1], b->place[i].arm->softer);
+}

@@ -451,7 +451,7 @@ void fw_verdict_places_end(fw_verdict_bending *b) {
 }
 
 double fw_verdict_bending_all_J(const fw_verdict_bending *b) {
-    return fmin(b->bodies_J + b->places_J, b->acted_J);
+    return fmin(b->bodies_J + b->places_J, b->acted_J) + b->bases_J;
 }
 
 /* the first place of everything that acts on one; NULL: nothing does, or nobody looked */

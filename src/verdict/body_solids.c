@@ -357,7 +357,8 @@ static void load_stores(small *x, double *beams, double *found) {
         hinge_puts(x, k, x->instant + 3 * k);
     for (int i = 0; i < m->nbody; i++)
         body_stores(&x->s, &x->at, i, &x->solid[i], x->instant, x->w, &x->most, sum);
-    *beams = 2 * sum[0], *found = 2 * (x->at.nplace > 0 ? sum[5] : sum[1]);
+    const double bases = fw_verdict_bases_J(m, x->s.arm, x->s.stiff_N, x->instant, x->s.end);
+    *beams = 2 * (sum[0] + bases), *found = 2 * ((x->at.nplace > 0 ? sum[5] : sum[1]) + bases);
 }
 
 /* Of all that bodies may store those that store a twentieth of it are made solids */
@@ -417,7 +418,8 @@ void fw_verdict_solids_J(const solids *s, const fw_verdict_bending *b, const dou
     for (int i = 0; i < s->m->nbody; i++)
         body_stores(s, b, i, &s->solid[i], instant, s->w, &most, sum);
     *mixed = *mixed || most.mixed;
-    both[0] = sum[3], both[1] = sum[4];
+    const double bases = fw_verdict_bases_J(s->m, s->arm, s->stiff_N, instant, s->end);
+    both[0] = sum[3] + bases, both[1] = sum[4] + bases;
 }
 
 fw_status fw_verdict_unit_load(fw_arena *arena, const solids *s, const fw_statics_modes *modes,

@@ -36,6 +36,7 @@ typedef struct end { /* of a link: the beam, its body, and the place */
 typedef struct swings {
     fw_arena *arena;
     const fw_mechanism *m;
+    const fw_verdict_arm *arm;
     fw_verdict_beams b;
     int nlink;      /* flexures, then loops */
     end (*link)[2]; /* a and b; beam FW_NONE: ground */
@@ -267,6 +268,7 @@ static void add_own(swings *x, int link) {
     double own[9] = {0}, *to = x->a + 3 * link * rows + 3 * link;
     if (link < x->m->nhinge) {
         flexure_gives(x->m, link, own);
+        fw_verdict_bases_add(x->m, x->arm, link, own);
     } else {
         const fw_verdict_loop *l = &x->b.loop[link - x->m->nhinge];
         own[0] = own[4] = l->goes, own[8] = l->turns;
@@ -506,7 +508,7 @@ fw_status fw_verdict_slowest_swings(fw_arena *arena, const fw_mechanism *m,
                                     const char **why) {
     fw_arena *own = fw_arena_part(arena, 0);
     FW_NEED(own);
-    swings x = {.arena = own, .m = m};
+    swings x = {.arena = own, .m = m, .arm = arm};
     ritz r;
     const fw_status status = slowest(arena, &x, arm, count, s2, &r, why);
     fw_arena_free(own);
@@ -540,7 +542,7 @@ static void keep_mode(swings *x, const ritz *r, int k, fw_verdict_swung *to) {
 fw_status fw_verdict_swung_modes(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
                                  int count, fw_verdict_swung *to, const char **why) {
     const size_t modes = (size_t)count, nh = (size_t)m->nhinge;
-    swings x = {.arena = arena, .m = m};
+    swings x = {.arena = arena, .m = m, .arm = arm};
     ritz r = {0};
     *to = (fw_verdict_swung){0};
     FW_NEED(to->s2 = fw_arena_array(arena, double, 2 * modes));

@@ -303,17 +303,23 @@ static void softer_of_body(const fw_mechanism *m, int body, const fw_mechanism_l
         }
 }
 
-void fw_verdict_softer(const fw_mechanism *m, const fw_verdict_arm *arm,
-                       const fw_verdict_bending *b, int body, double to[2]) {
-    to[0] = 1;
-    for (int i = 0; i < 2 * m->nhinge; i++) {
-        const fw_mechanism_pin *pin = &m->pin[m->hinge[i / 2].pin];
-        if ((i % 2 ? pin->body_b : pin->body_a) == body) to[0] = fmax(to[0], arm[i].softer);
+static fw_status bases_made(fw_arena *arena, const fw_verdict_arm *arm, int n, double edge_m,
+                            fw_verdict_arm *made) {
+    for (int i = 0; i < n; i++) {
+        fw_verdict_arm *to;
+        int like = 0;
+        if (!arm[i].base) continue;
+        FW_NEED(to = fw_arena_one(arena, fw_verdict_arm));
+        *to = *arm[i].base, made[i].base = to;
+        arm_made(arm[i].base, edge_m, to);
+        while (like < i && !(arm[like].base && arm[like].base->shared == to->shared))
+            like++;
+        if (to->shared && like < i)
+            to->shared = made[like].base->shared;
+        else if (to->shared)
+            FW_TRY(shared_made(arena, to->shared, edge_m, &to->shared));
     }
-    to[1] = to[0];
-    for (int i = 0; i < b->nplace; i++)
-        if (b->place[i].body == body && b->place[i].arm)
-            to[1] = fmax(to[1], b->place[i].arm->softer);
+    return FW_OK;
 }
 
 fw_status fw_verdict_arms_made(fw_arena *arena, const fw_mechanism *m, const fw_verdict_arm *arm,
@@ -339,7 +345,7 @@ fw_status fw_verdict_arms_made(fw_arena *arena, const fw_mechanism *m, const fw_
     }
     for (int b = 0; b < m->nbody; b++)
         softer_of_body(m, b, end, nload, to);
-    return FW_OK;
+    return bases_made(arena, arm, 2 * m->nhinge, edge_m, to);
 }
 
 /* ---- a body as beams with all that acts on it where it does ---- */

@@ -55,7 +55,7 @@ typedef struct fw_verdict_arm {
     double
         softer; /* as made: its body gives as many times as drawn (fw_verdict_softer); 0: drawn */
     const struct fw_verdict_arm *
-        base; /* of an end on the ground, which has none of all that: up to the frame (base_gives.c) */
+        base; /* of an end on the ground, which has none of all that: up to the frame (body_drawn.c) */
 } fw_verdict_arm;
 
 /* body_loads.c: how large load `at` of those (n) becomes: of one that follows from the motion what hinges put on the body
@@ -327,8 +327,8 @@ typedef struct fw_verdict_bending {
     double moving_J; /* and of the hinges' rotations and the bending of their strips alone */
     double gone;     /* largest way of an end over its flexure's width, or turn over the limit */
     double *body_J;  /* (2 nbody) the largest of each, then those of the instant */
-    double bases_J, *base; /* the same of bases; base: (9 nhinge) room, NULL: none */
-    fw_verdict_turn *turn; /* (nbody) of the instant */
+    double bases_J, bases_gone, *base; /* the same of bases; base: (9 nhinge) room, NULL: none */
+    fw_verdict_turn *turn;             /* (nbody) of the instant */
     double *end; /* (6 nhinge) what hinges put on their ends at the instant (fw_verdict_shared_J) */
     double
         *worst; /* (3 nhinge) straight ways: only whether bodies are counted is found; NULL: all */

@@ -471,10 +471,10 @@ typedef struct fw_verdict_model_errors {
 extern const fw_verdict_model_errors fw_verdict_model_error;
 extern const double fw_verdict_first_accuracy; /* of a first look */
 
-/* What bodies, which the motion takes as rigid, would give of the displacement where the loads act, as a share, at most to
-   first order (verdict_bending.c); 0: nothing is drawn, or nobody asked. motion: of a verdict, or NULL */
+/* What bodies and bases, rigid in the motion, would give of the displacement where loads act, as a share, at most to first order
+   (verdict_bending.c); bases of it; what hinges store at most, J. 0: nothing is drawn, or moves. motion: of a verdict, or NULL */
 double fw_verdict_bending_share(const fw_dynamics_motion *motion);
-/* and what hinges store at most, J; 0: they do not move, but for round-off */
+double fw_verdict_bases_share(const fw_dynamics_motion *motion);
 double fw_verdict_bending_stored_J(const fw_dynamics_motion *motion);
 /* the same, but 0 where the device is pressed along its flexures and no end of one goes or turns by what matters */
 double fw_verdict_bending_moving(const fw_dynamics_motion *motion);

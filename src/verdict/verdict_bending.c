@@ -20,6 +20,15 @@ static double turned(const fw_verdict_bending *b, int body) {
 /* a hinge that is softer one way than the other by more than this is a strip that bends there */
 static const double fw_verdict_strip_bends = 0.1;
 
+/* Across a leaf, N/m. What pulls it makes it stiffer there, guided at both ends by 6/5 of the pull over its length (S. Timoshenko, J. Gere,
+   Theory of Elastic Stability, 2nd ed., art. 1.11): of a stage on clamped leaves that is most of what holds it, and is no energy that
+   they store. What presses it is left out: it would store more, and bodies be less beside it. */
+static double bends_N_per_m(const fw_mechanism_hinge *h, double pull_N) {
+    const double k = h->closed_form.kx_N_per_m, guided = 1.2;
+    if (h->input.kind != FW_FLEXURE_LEAF || !(pull_N > 0)) return k;
+    return k + guided * pull_N / h->input.length_m;
+}
+
 /* By its rotation, and by the forces along and across its axis. *moving: what of it lets bodies move: rotation, and
    where the hinge is a strip the deflection across that */
 static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin, double angle_rad,
@@ -30,7 +39,9 @@ static double of_hinge(const fw_mechanism_hinge *h, const fw_mechanism_pin *pin,
     if (!isfinite(h->axis_rad) || !(c->kx_N_per_m > 0) || !(c->ky_N_per_m > 0)) return energy;
     double x = cos(h->axis_rad + frame_rad), y = sin(h->axis_rad + frame_rad);
     double along = x * force[0] + y * force[1], across = x * force[1] - y * force[0];
-    const double by_x = 0.5 * along * along / c->kx_N_per_m,
+    const double pull_N =
+        h->first_is_a ? -across : across; /* of a leaf, which lies across its axis */
+    const double by_x = 0.5 * along * along / bends_N_per_m(h, pull_N),
                  by_y = 0.5 * across * across / c->ky_N_per_m;
     if (c->kx_N_per_m < fw_verdict_strip_bends * c->ky_N_per_m) *moving += by_x;
     if (c->ky_N_per_m < fw_verdict_strip_bends * c->kx_N_per_m) *moving += by_y;
@@ -298,12 +309,13 @@ static void put_on_end(const fw_verdict_bending *b, const fw_mechanism *m, int e
 void fw_verdict_bending_record(fw_verdict_bending *b, const fw_mechanism *m,
                                const fw_dynamics_instant *now) {
     if (now && b->worst) {
+        if (b->base) fw_verdict_bases_record(b, m, now);
         record_straight(b, m, now);
         return;
     }
     if (!now) { /* the run starts over */
-        b->hinges_J = b->bodies_J = b->bases_J = b->moving_J = b->gone = 0;
-        b->hardest_N2 = b->jumped_N[0] = 0;
+        b->hinges_J = b->bodies_J = b->bases_J = b->bases_gone = b->moving_J = b->gone =
+            b->hardest_N2 = b->jumped_N[0] = 0;
         for (int k = 0; k < 4 * m->nhinge; k++)
             b->before_N[k] = 0;
         for (int k = 0; k < 7 * m->nhinge; k++)
@@ -406,6 +418,8 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
     bending->jumped_N = bending->hardest_N + 11 * m->nhinge;
     FW_NEED(bending->along_N = fw_arena_array(arena, double, 4 * (size_t)m->nhinge));
     FW_NEED(bending->peak = fw_arena_array(arena, fw_verdict_largest, 8 * (size_t)m->nhinge + 1));
+    if (arm && fw_verdict_has_bases(m, arm))
+        FW_NEED(bending->base = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
     if (straight) return worst_of(arena, m, arm, &bending->worst);
     if (m->nhinge <= FW_TIPPING_HINGES) {
         const size_t n = 2 * (size_t)m->nhinge;
@@ -413,8 +427,6 @@ fw_status fw_verdict_bending_watch(fw_arena *arena, const fw_mechanism *m,
         FW_NEED(bending->extreme_N = fw_arena_array(arena, double, 2 * n * n));
     }
     if (!arm) return FW_OK; /* nothing is drawn: what tips is found by forces alone */
-    if (fw_verdict_has_bases(m, arm))
-        FW_NEED(bending->base = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
     FW_NEED(bending->rest_N = fw_arena_array(arena, double, 3 * (size_t)m->nbody));
     bending->rest = bending->rest_N + m->nbody;
     FW_NEED(bending->end = fw_arena_array(arena, double, 6 * (size_t)m->nhinge));
@@ -480,7 +492,7 @@ fw_status fw_verdict_bending_begin(fw_arena *arena, const fw_layout *layout, con
     }
     if (!v->straight) FW_TRY(fw_verdict_body_arms(arena, m, layout, &arm));
     v->arm = arm;
-    return v->straight ? FW_OK : fw_verdict_bases(arena, m, layout, arm);
+    return fw_verdict_bases(arena, m, layout, arm);
 }
 
 bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v) {
@@ -488,26 +500,14 @@ bool fw_verdict_bending_settled(const fw_verdict_variant_verdict *v) {
         const fw_verdict_strain_monitor *saw = v->motion[i] ? v->motion[i]->observed : NULL;
         const fw_verdict_bending *b = saw && saw->bending.arm ? &saw->bending : NULL;
         /* of leaves that do not turn at all, hinges have nothing by which bodies could be measured */
-        if (b && b->bodies_J > fw_verdict_straight_share * fw_verdict_bending_told * b->hinges_J)
+        if (b && b->bodies_J + b->bases_J >
+                     fw_verdict_straight_share * fw_verdict_bending_told * b->hinges_J)
             return false;
     }
     return true;
 }
 
 /* ---- what it says ---- */
-
-/* Of a device of which nothing is drawn nobody knows how its bodies bend. Test: test_effects.py, NotDrawn */
-fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v) {
-    const fw_mechanism *m = v->mechanism;
-    fw_text list = fw_text_new(arena);
-    if (v->arm || v->nrequirement == 0 || v->corner) return FW_OK;
-    for (int b = 0; b < m->nbody; b++)
-        fw_text_printf(&list, "%s%s", b ? ", " : "", fw_text_name(m->body[b].id));
-    FW_TRY(fw_text_end(&list));
-    for (int k = 0; k < v->nrequirement; k++)
-        if (!v->requirement[k].why) v->requirement[k].rigid = list.data;
-    return FW_OK;
-}
 
 /* What hinges store a ten-millionth of their way to their limits: below it nothing moves, and bodies over hinges is round-off
    over round-off. A shock across the plane is such a scene. */
@@ -538,6 +538,11 @@ double fw_verdict_bending_share(const fw_dynamics_motion *motion) {
     return b ? fw_verdict_bending_all_J(b) / b->hinges_J : 0;
 }
 
+double fw_verdict_bases_share(const fw_dynamics_motion *motion) {
+    const fw_verdict_bending *b = seen(motion);
+    return b ? b->bases_J / b->hinges_J : 0;
+}
+
 /* A device that is pressed along its flexures goes nowhere, and its bodies may then give many times what the hinges do.
    That changes no strain and no clearance as long as no end of a flexure goes by a fiftieth of the flexure's width or
    turns by a fiftieth of its limit. */
@@ -545,13 +550,18 @@ double fw_verdict_bending_moving(const fw_dynamics_motion *motion) {
     const double fiftieth = 0.02;
     const fw_verdict_bending *b = seen(motion);
     if (!b) return 0;
-    if (b->moving_J < 0.5 * b->hinges_J && b->gone < fiftieth) return 0;
+    if (b->moving_J < 0.5 * b->hinges_J && fmax(b->gone, b->bases_gone) < fiftieth) return 0;
     return fw_verdict_bending_share(motion);
 }
 
 double fw_verdict_bending_counted(const fw_dynamics_motion *motion) {
     const double share = fw_verdict_bending_moving(motion);
     return share > fw_verdict_bending_told ? share : 0;
+}
+
+/* bodies and bases over hinges, without what the bodies give under what presses on them */
+static double alone(const fw_verdict_bending *b) {
+    return (b->bodies_J + b->bases_J) / b->hinges_J;
 }
 
 /* Of small motions no forces are known: the most of any scene, but for one that hardly moves beside another (round-off), and
@@ -566,9 +576,7 @@ double fw_verdict_bending_of_any(const fw_verdict_variant_verdict *v) {
         largest_J = fmax(largest_J, fw_verdict_bending_stored_J(v->motion[i]));
     for (int i = 0; i < m->device->nscene; i++)
         if (fw_verdict_bending_stored_J(v->motion[i]) >= hardly * largest_J)
-            most = fmax(most, seen(v->motion[i])
-                                  ? seen(v->motion[i])->bodies_J / seen(v->motion[i])->hinges_J
-                                  : 0);
+            most = fmax(most, seen(v->motion[i]) ? alone(seen(v->motion[i])) : 0);
     return most;
 }
 
@@ -580,9 +588,11 @@ fw_status fw_verdict_soft_plates(fw_arena *arena, const fw_mechanism *m, const f
     const double nu = of->poisson.unknown ? 0.3 : of->poisson.value;
     double *give;
     FW_NEED(give = fw_arena_array(arena, double, 9 * (size_t)m->nhinge));
-    for (int k = 0; k < 2 * m->nhinge; k++)
-        if (arm && arm[k].known)
-            fw_verdict_arm_out_of_plane(&arm[k], of->youngs.value, nu, m->variant->thickness_m,
+    for (int k = 0; arm && k < 2 * m->nhinge; k++) {
+        const fw_verdict_arm *one = arm[k].known ? &arm[k] : arm[k].base;
+        if (one)
+            fw_verdict_arm_out_of_plane(one, of->youngs.value, nu, m->variant->thickness_m,
                                         give + 9 * (k / 2));
+    }
     return fw_mechanism_plates_new(arena, m, give, soft);
 }

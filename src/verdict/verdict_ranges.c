@@ -446,11 +446,13 @@ static fw_verdict_check of_requirement(const fw_verdict_requirement *r, const ch
 }
 
 static void keep(fw_verdict_check *worst, bool *found, fw_verdict_check now) {
-    bool more = now.used > worst->used || (isnan(worst->used) && !isnan(now.used));
-    bool worse = !*found || fw_verdict_is_worse(now.decision, worst->decision) ||
-                 (now.decision == worst->decision && more);
-    if (worse) *worst = now;
-    *found = true;
+    if (*found) {
+        const bool more = now.used > worst->used || (isnan(worst->used) && !isnan(now.used));
+        if (!fw_verdict_is_worse(now.decision, worst->decision) &&
+            !(now.decision == worst->decision && more))
+            return;
+    }
+    *worst = now, *found = true;
 }
 
 static void drawn(const fw_verdict_variant_verdict *v, int kinds, fw_verdict_check *worst,

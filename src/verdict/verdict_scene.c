@@ -568,17 +568,17 @@ void fw_verdict_bending_tell(const fw_mechanism *m, const fw_device_scene *scene
     const double share = fw_verdict_bending_counted(motion);
     char all[32], one[32], width[32], x[32], y[32];
     int most = 0;
-    const fw_verdict_strain_monitor *saw = motion ? motion->observed : NULL;
-    if (saw && saw->bending.base && fw_verdict_bending_stored_J(motion) > 0) {
-        const double bases = saw->bending.bases_J / saw->bending.hinges_J;
-        if (bases > fw_verdict_bending_told)
-            fw_verdict_bases_tell(m, saw->bending.arm, scene, number_of(one, bases), unit_of(bases),
-                                  diags);
-    }
     if (share == 0) return;
-    const fw_verdict_bending *b = &saw->bending;
+    const fw_verdict_bending *b = &((const fw_verdict_strain_monitor *)motion->observed)->bending;
     for (int i = 1; i < m->nbody; i++)
         if (b->body_J[i] > b->body_J[most]) most = i;
+    if (b->bases_J > b->body_J[most]) {
+        const double own = fmin(b->bases_J / b->hinges_J, share);
+        const char *said[4] = {number_of(all, share), unit_of(share), number_of(one, own),
+                               unit_of(own)};
+        fw_verdict_bases_tell(m, b->arm, scene, said, diags);
+        return;
+    }
     const fw_verdict_arm *arm = narrowest(m, b, most);
     if (!arm) return;
     const double most_share = fmin(b->body_J[most] / b->hinges_J, share);

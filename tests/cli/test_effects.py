@@ -489,7 +489,7 @@ class Breakdown(unittest.TestCase):
     """air between a rotor and a stator, where the motion has closed their gap most"""
 
     DEVICE = """<device xmlns="urn:flexwright:device:1" name="stage"><material ref="silicon-100" thickness="50 um"/>
-<limits safety-factor="1"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>
+<limits safety-factor="1"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no" anchor="500 um"/>
 <flexure id="leaf" kind="leaf" length="400 um" width="20 um" gap="10 um"/><mechanism><body id="left" x="0 mm" y="0.75 mm" width="120 um"/>
 <body id="stage" x="0.9 mm" y="1.5 mm" plate-width="0.7 mm" plate-height="1.5 mm"/><body id="right" x="1.8 mm" y="0.75 mm" width="120 um"/>
 <revolute id="A" a="ground" b="left" b-x="0 mm" b-y="-0.75 mm" hinge="leaf"/>
@@ -523,7 +523,7 @@ class Breakdown(unittest.TestCase):
         self.assertLess(bears(softest), 335)
         self.assertTrue(told)
         self.assertLess(gap["least_m"], softest)
-        self.assertGreater(gap["least_m"], gap["drawn_m"] - 1.5 * travel)
+        self.assertGreater(gap["least_m"], gap["drawn_m"] - 1.6 * travel)
         self.assertAlmostEqual(gap["breakdown_V"][0], bears(gap["least_m"]), delta=0.2)
         self.assertFalse(self.judged(255)[2])  # less than any gap above 6 um bears
 
@@ -806,52 +806,75 @@ class BodiesInSmallMotions(unittest.TestCase):
         self.assertEqual(found["frequency-1"]["verdict"], "inconclusive")
 
 
-def stretched_stage(asked, path=None, leans_rad=0):
+def stretched_stage(asked, path=None, leans_rad=0, turned_deg=0, die=""):
     """a plate on four clamped leaves that are stretched as it goes: the bases that the layout draws hold what they pull"""
     kinds = path or '<flexure id="leaf" kind="leaf" length="500 um" width="5 um"/>'
     up, down = ("up", "down") if path else ("leaf", "leaf")
-    joint = '<revolute id="{id}" a="{a}" a-x="{x} mm" a-y="{y} mm" b="{b}" b-x="{x} mm" b-y="{y} mm" hinge="{hinge}" axis="-90 deg + {leans} rad"/>'
-    joints = "".join(joint.format(id="BT"[y > 0] + "LR"[x > 0], x=x, y=y, hinge=up if x < 0 else down, leans=-x * leans_rad,
-                                  a="ground" if x < 0 else "plate", b="plate" if x < 0 else "ground") for y in (1, -1) for x in (-1, 1))
+    c, s = math.cos(math.radians(turned_deg)), math.sin(math.radians(turned_deg))
+    joint = '<revolute id="{id}" a="{a}" a-x="{x:.9f} mm" a-y="{y:.9f} mm" b="{b}" b-x="{x:.9f} mm" b-y="{y:.9f} mm" hinge="{hinge}" axis="{turned} deg - 90 deg + {leans} rad"/>'
+    joints = "".join(joint.format(id="BT"[y > 0] + "LR"[x > 0], x=c * x - s * y, y=s * x + c * y, hinge=up if x < 0 else down, leans=-x * leans_rad,
+                                  a="ground" if x < 0 else "plate", b="plate" if x < 0 else "ground", turned=turned_deg)
+                     for y in (1, -1) for x in (-1, 1))
     return f"""<device xmlns="urn:flexwright:device:1" name="stage">
-  <material ref="silicon-100" youngs-modulus="150 GPa" thickness="25 um"/><limits safety-factor="1.5"/><flow ref="al-masked-rie"/>
-  {kinds}<mechanism><body id="plate" x="0 mm" y="0 mm"><plate width="0.6 mm" height="2.4 mm"/></body>{joints}</mechanism>
-  <probe id="sink" kind="displacement" on="plate" direction="-90 deg"/><probe id="kx" kind="stiffness" on="plate" direction="0 deg"/>{asked}
-  <scene name="push" duration="20 ms"><force on="plate" fy="-200 uN" law="ramp" rise="15 ms"/><material-damping loss-factor="0.05"/></scene></device>"""
+  <material ref="silicon-100" youngs-modulus="150 GPa" thickness="25 um"/><limits safety-factor="1.5"/><flow ref="al-masked-rie"/>{die}
+  {kinds}<mechanism><body id="plate" x="0 mm" y="0 mm"><plate width="0.6 mm" height="2.4 mm" angle="{turned_deg} deg"/></body>{joints}</mechanism>
+  <probe id="sink" kind="displacement" on="plate" direction="{turned_deg} deg - 90 deg"/><probe id="kx" kind="stiffness" on="plate" direction="{turned_deg} deg"/>{asked}
+  <scene name="push" duration="20 ms"><force on="plate" fx="{200 * s} uN" fy="{-200 * c} uN" law="ramp" rise="15 ms"/><material-damping loss-factor="0.05"/></scene></device>"""
 
 
 class Bases(unittest.TestCase):
-    """What is drawn between a hinge on the ground and the frame gives way, too, and where that is much it is told. Solids of all that is drawn, the frame's
-    outer edge held (CalculiX, plane stress, large displacements); held at the leaves' own ends they are what the rigid model says"""
+    """What is drawn between a hinge on the ground and the frame gives way, too. Where a leaf runs straight to a side of the frame its base does; of others bands
+    allow for it. Solids of all that is drawn, the frame's outer edge held (CalculiX, plane stress, large displacements)"""
 
-    def told(self, text, *options):
-        done = run("check", "-", "--corners", "none", "--advice", "none", *options, input=text)
+    ASKED = '<require probe="sink" measure="final" max="8 um"/><require probe="kx" min="1 N/m"/>'
+
+    def judged(self, text, *options):
+        done = run("check", "-", "--corners", "none", "--advice", "none", "--json", *options, input=text)
         self.assertIn(done.returncode, (0, 1, 4), done.stderr)
-        said = re.findall(r"in scene push they may give by up to ([\d.]+) (% of|times) what the hinges give.*The softest, at hinge \w+, is (\d+) um long.*\[FW-D740\]",
-                          done.stderr)
-        return [(float(share) / (100 if of == "% of" else 1), float(long)) for share, of, long in said]
+        said = json.loads(done.stdout)
+        return said, {row["probe"]: row["band"] for row in said["requirements"]}, done.stderr
+
+    def holds(self, band, probe, value):
+        low, high = band[probe]
+        self.assertTrue(low < value < high, (probe, low, value, high))
 
     def test_a_stage_between_clamped_leaves(self):
-        """8.52 um as a solid where 6.27 are told, which is 36 % more; 28.3 kN/m for 150"""
-        (share, long), = self.told(stretched_stage('<require probe="sink" measure="final" max="8 um"/>'))
-        self.assertTrue(8.52 / 6.27 - 1 < share < 0.6, share)
-        self.assertTrue(500 < long < 900, long)
+        """as it was drawn, with arms around each hinge, it was accepted with 6.27 um, and the solid went by 8.52"""
+        said, band, told = self.judged(stretched_stage(self.ASKED))
+        self.assertEqual(said["verdict"], "accept")
+        self.holds(band, "sink", 6.3245e-6)
+        self.holds(band, "kx", 96.50e3)
+        self.assertLess(band["sink"][1], 6.7e-6)
+        self.assertNotIn("FW-D510", told)
+
+    def test_turned_against_the_frame_its_bases_bend(self):
+        for turned, sink, kx in ((20, 7.766e-6, 65.53e3), (30, 7.2755e-6, 68.00e3), (45, 7.0169e-6, 69.46e3)):
+            _, band, told = self.judged(stretched_stage(self.ASKED, turned_deg=turned))
+            self.holds(band, "sink", sink)
+            self.holds(band, "kx", kx)
+            self.assertRegex(told, r"in scene push they may give by up to [\d.]+ % of what the hinges give, bases by [\d.]+ % .*FW-D510")
+
+    def test_a_wider_anchor_bends_less(self):
+        shares = [self.judged(stretched_stage(self.ASKED, turned_deg=20, die=die))[0]["hinge_model"][0]["bases_give"] for die in ("", '<die anchor="400 um"/>')]
+        self.assertLess(shares[1], 0.9 * shares[0])
 
     def test_what_turns_on_its_leaves_asks_little_of_bases(self):
-        self.assertEqual(self.told((ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text()), [])
+        said, _, _ = self.judged((ROOT / "docs/gallery/leaf-four-bar/device.xml").read_text())
+        self.assertLess(max(m["bases_give"] for m in said["hinge_model"]), 0.02)
 
     @only_all
     def test_half_arches(self):
-        """the arms let the arches flatten: 8.57 um for 0.68, and 16.4 % of the limit for 6.5"""
+        """arms around each hinge let the arches flatten: 8.57 um for 0.68"""
         rise, span = 24, 500
         angle = 2 * math.atan(rise / span)
         arc = f'radius="{span / (2 * math.sin(angle)):.6f} um" angle="{angle:.9f} rad"'
         back = arc.replace('angle="', 'angle="-')
-        (share, _), = self.told(stretched_stage('<require probe="sink" measure="final" max="1 um"/>',
-                                                f'<flexure id="up" kind="path" width="5 um"><arc {arc}/><arc {back}/></flexure>'
-                                                f'<flexure id="down" kind="path" width="5 um"><arc {back}/><arc {arc}/></flexure>', angle / 2),
-                                "--hinge-model", "elastica")
-        self.assertGreater(share, 5)
+        said, band, _ = self.judged(stretched_stage('<require probe="sink" measure="final" max="1 um"/>',
+                                                    f'<flexure id="up" kind="path" width="5 um"><arc {arc}/><arc {back}/></flexure>'
+                                                    f'<flexure id="down" kind="path" width="5 um"><arc {back}/><arc {arc}/></flexure>', angle / 2),
+                                    "--hinge-model", "elastica")
+        self.assertEqual(said["verdict"], "accept")
+        self.holds(band, "sink", 0.6719e-6)
 
 
 class BodiesThatSwing(unittest.TestCase):
@@ -902,7 +925,7 @@ class BodiesThatSwing(unittest.TestCase):
                 found = json.loads(done.stdout).get("requirements")
             for mode, (true, row) in enumerate(zip(solid, found)):
                 low, high = row["band"]
-                self.assertTrue(true / (1.2 if mode else 1.075) < low < true < high, (kind, bars, leaves, true, row))
+                self.assertTrue(true / (1.21 if mode else 1.08) < low < true < high, (kind, bars, leaves, true, row))
 
     def test_what_a_ring_and_legs_do_is_not_accepted(self):
         """solids have the first mode of this ring at 12.27 kHz, and the second of these legs at 51.1 kHz; with bodies' masses in their middles
@@ -970,7 +993,7 @@ class BodiesThatAreShaken(unittest.TestCase):
 <flexure id="leaf" kind="leaf" length="300 um" width="{leaf} um" fillet="4 um"/><mechanism><body id="arm" x="0 mm" y="0.35 mm"><plate x="0 mm" y="0 mm" width="1.2 mm" height="0.2 mm"/>
 <bar x="0 mm" y="0.1 mm" to-x="0 mm" to-y="{arm} mm" width="20 um"/></body><revolute id="A" a="ground" a-x="-0.5 mm" b="arm" b-x="-0.5 mm" b-y="-0.35 mm" hinge="leaf" axis="0 deg"/>
 <revolute id="B" a="ground" a-x="0.5 mm" b="arm" b-x="0.5 mm" b-y="-0.35 mm" hinge="leaf" axis="0 deg"/></mechanism>{asked}<scene name="go" duration="4 ms">
-<force on="arm" x="0 mm" y="{at} mm" fx="{fx} uN" law="{law}"/>{more}<material-damping loss-factor="0.02"/></scene><die clearance="600 um"/></device>"""
+<force on="arm" x="0 mm" y="{at} mm" fx="{fx} uN" law="{law}"/>{more}<material-damping loss-factor="0.02"/></scene><die clearance="600 um" anchor="700 um"/></device>"""
 
     def test_laws_that_go_once(self):
         """a stage with an arm that swings beside it. Frames of beams, moved mode by mode: the tip goes 85.3 nm and the arm's middle 49.1 by a step of 100 uN on the stage,
@@ -1191,7 +1214,7 @@ a-y="0 mm" b="ground" b-x="2.8 mm" b-y="0.5 mm" stiffness="kw" length="0.5 mm" d
             if blow > 1:
                 self.assertIn(decision, ("inconclusive", "reject"), (arm, stiff, damps, pull))
         _, low, high = self.holds("knock", 0.3978e-3, "w=200 um", "k=2e3 N/m")
-        self.assertTrue(0.37e-3 < low and high < 0.49e-3, (low, high))  # an arm as stiff as that adds little
+        self.assertTrue(0.36e-3 < low and high < 0.49e-3, (low, high))  # an arm as stiff as that adds little
 
     def test_a_slack_cable_changes_no_blow(self):
         """its eyelet is a hole of the mask, in which no solid has a node: what the arm gives was taken for nothing"""
@@ -1291,14 +1314,14 @@ stiffness="1 N/m"><eyelet on="jaw" y="0.45 mm"/><eyelet on="ground" x="0.45 mm" 
 class Resonance(unittest.TestCase):
     """a mode whose frequency is known to some per cent, and a shaker near it"""
 
-    def shaken(self, frequency, duration="60 ms"):
+    def shaken(self, frequency, duration="60 ms", ax=60):
         text = (ROOT / "docs/gallery/straight-stage/device.xml").read_text()
         text = re.sub(r'<scene name="draw".*?</scene>|<probe id="tension"[^>]*/>|<require probe="stroke"[^>]*/>', "", text, flags=re.S)
         scene = (f'<require probe="stroke" measure="maximum" max="0.4 mm" scene="shaker"/><scene name="shaker" duration="{duration}">'
-                 f'<base-motion ax="60 m/s^2" law="sine" frequency="{frequency} Hz"/></scene></device>')
+                 f'<base-motion ax="{ax} m/s^2" law="sine" frequency="{frequency} Hz"/></scene></device>')
         with tempfile.TemporaryDirectory() as place:
             device = pathlib.Path(place, "device.xml")
-            device.write_text(text.replace("</device>", scene))
+            device.write_text(text.replace("</device>", '<die anchor="600 um"/>' + scene))  # bases that hardly give
             done = run("check", device, "--corners", "none", "--advice", "none", "--json")
         return json.loads(done.stdout), done.stderr
 
@@ -1419,7 +1442,7 @@ class Resonance(unittest.TestCase):
         stroke, other = (next(r for r in d["requirements"] if r["kind"] == "displacement") for d in (near, softer))
         self.assertLess(other["value"], stroke["band"][1])
         # so near that it surely does not clear, and so far that nothing changes
-        self.assertEqual(self.shaken(mode["value"])[0]["verdict"], "reject")
+        self.assertEqual(self.shaken(mode["value"], ax=70)[0]["verdict"], "reject")
         self.assertEqual(far["verdict"], "accept")
         self.assertLess(far["hinges"][0]["utilisation_band"][1], 1.1 * far["hinges"][0]["utilisation"])
 

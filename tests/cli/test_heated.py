@@ -86,9 +86,9 @@ class Heated(unittest.TestCase):
         the legs store, 0.85 % in the plate beyond one width behind the roots, 0.42 % beyond two"""
         self.file.write_text(chevron(heat=300))
         done = run("check", self.file, "--corners", "none", "--advice", "none", "--json")
-        shares = [float(x) for x in re.findall(r'"bodies_give": ([0-9.e+-]+)', done.stdout)]
-        self.assertEqual(len(shares), 1)
-        self.assertTrue(0.0042 < shares[0] < 0.0085, shares)
+        (all_give,), (bases,) = ([float(x) for x in re.findall(rf'"{key}": ([0-9.e+-]+)', done.stdout)] for key in ("bodies_give", "bases_give"))
+        self.assertTrue(0.0042 < all_give - bases < 0.0085, (all_give, bases))
+        self.assertLess(bases, 0.015)
 
     def test_a_straight_chevron_buckles(self):
         """to either side, by what takes up the strain beyond Euler's of guided legs, in a half wave of the cosine:
@@ -410,8 +410,8 @@ TWO_JAWS = """<device xmlns="urn:flexwright:device:1" name="two-jaws">
 <require probe="grip" measure="final" min="5 uN" scene="close"/>
 <require probe="open" measure="maximum" min="95 um" scene="close"/>
 <scene name="close" duration="100 ms">
-<tendon id="tl" pull="60 uN" law="ramp" rise="40 ms"><eyelet on="left" x="0.15 mm" y="1.0 mm"/><eyelet on="ground" x="-0.1 mm" y="-0.15 mm"/></tendon>
-<tendon id="tr" pull="60 uN" law="ramp" rise="40 ms"><eyelet on="right" x="-0.15 mm" y="1.0 mm"/><eyelet on="ground" x="0.1 mm" y="-0.15 mm"/></tendon>
+<tendon id="tl" pull="68.5 uN" law="ramp" rise="40 ms"><eyelet on="left" x="0.15 mm" y="1.0 mm"/><eyelet on="ground" x="-0.08 mm" y="-0.62 mm"/></tendon>
+<tendon id="tr" pull="68.5 uN" law="ramp" rise="40 ms"><eyelet on="right" x="-0.15 mm" y="1.0 mm"/><eyelet on="ground" x="0.08 mm" y="-0.62 mm"/></tendon>
 <contact id="bead" a="left" a-x="0.45 mm" a-y="1.8 mm" a-face="0 deg" b="right" b-x="-0.45 mm" b-y="1.8 mm" side="outside" distance="80 um" stiffness="40 N/m" damping="0.002 N s/m" undrawn="placed"/>
 <material-damping loss-factor="0.2"/><temperature change="40 K" law="ramp" rise="30 ms"/></scene></device>"""
 
@@ -442,7 +442,7 @@ class Pressed(unittest.TestCase):
 
     def test_a_contact_that_closes_makes_no_die_softer(self):
         """Two jaws on a bead. About their loads they swing by 43000 1/s, held by the bead, and at rest by 1400: that is the same
-        die, and none of the flow is a thousand times softer. Quasi-static truth of the two extreme corners: 10.22 and 11.49 uN."""
+        die, and none of the flow is a thousand times softer. Quasi-static truth of the two extreme corners: 10.2 and 11.5 uN."""
         done = self.check(TWO_JAWS, "--json", "-v")
         said = json.loads(done.stdout)
         # who waits, and has no terminal, is told what is judged (every ten seconds, which a fast machine does not need)
@@ -450,10 +450,18 @@ class Pressed(unittest.TestCase):
         self.assertEqual(said["verdict"], "accept")
         look_at_rows(self, said, "two jaws")
         grip, opening = (row["as_fabricated"]["all_corners_band"] for row in said["requirements"])
-        self.assertTrue(9e-6 < grip[0] < 10.22e-6 and 11.49e-6 < grip[1] < 13e-6, grip)
+        self.assertTrue(9e-6 < grip[0] < 10.2e-6 and 11.5e-6 < grip[1] < 13e-6, grip)
         self.assertGreater(opening[0], 95e-6)
         for hinge in said["hinges"]:
             self.assertLess(hinge["as_fabricated"]["most"], 0.2)
+
+    def test_solids_of_one_layer_do_not_overlap(self):
+        """10 um deep in the drawn pose was a warning beside ACCEPT; what is put there may be pressed in"""
+        deeper = TWO_JAWS.replace('distance="80 um"', 'distance="110 um"')
+        for text, open_ in ((deeper.replace('"placed"', '"etched"'), True), (deeper, False)):
+            done = self.check(text, "--json", "--corners", "none")
+            self.assertIn("overlaps by 10 um", done.stderr)
+            self.assertEqual("FW-D134" in {r["code"] for r in json.loads(done.stdout)["reasons"]}, open_)
 
     def test_what_is_its_own_mirror_image_is_only_pressed(self):
         """Between two leaves in line heat turns nothing, and angles and ways are rounding: nothing is a share of them. The force of

@@ -11,7 +11,7 @@ import unittest
 from common import run
 
 CLAMP = """<device xmlns="urn:flexwright:device:1" name="clamp-arm"><parameter name="volts" value="39 V" min="0 V" max="300 V"/>
-<material ref="silicon-100" youngs-modulus="160 GPa" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no"/>
+<material ref="silicon-100" youngs-modulus="160 GPa" thickness="50 um"/><flow ref="silicon-on-glass" carrier="insulating"/><die tethers="no" anchor="500 um"/>
 <flexure id="la" kind="leaf" length="500 um" width="8 um" fillet="5 um"/><mechanism><body id="arm" x="0 mm" y="0 mm">
 <plate x="0.9 mm" width="900 um" height="160 um"/><plate x="1.25 mm" y="0.2 mm" width="150 um" height="300 um"/></body>
 <revolute id="A" a="ground" b="arm" hinge="la" axis="-90 deg"/></mechanism>

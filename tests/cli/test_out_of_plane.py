@@ -176,7 +176,7 @@ class OutOfPlane(unittest.TestCase):
             self.assertTrue(low < truth < high, (share, low, truth, high))
             self.assertEqual(judged(share, asked % (0.98 * low, 1.02 * high))["verdict"], "accept")
         # what is asked for at rest knows no loads
-        self.assertEqual(judged(-0.5, f'<require frequency="1" plane="across" min="{0.9 * at_rest} Hz"/>')["verdict"], "accept")
+        self.assertEqual(judged(-0.5, f'<require frequency="1" plane="across" min="{0.85 * at_rest} Hz"/>')["verdict"], "accept")
         free, pressed = (judged(share, gz=-100.0)["out_of_plane"][0]["scenes"][0]["lowest_m"] for share in (-0.001, -0.5))
         self.assertGreater(pressed / free, 2)
 
@@ -749,11 +749,12 @@ class FlexuresWeigh(unittest.TestCase):
         return whole, whole["hinges"][0], {r["probe"]: r for r in whole["requirements"]}
 
     def test_modes_across_the_plane(self):
-        """a leaf of 6.7e-9 kg with a head of 8e-9: 4.03 kHz, and 41.3 kHz, which is the leaf; without its mass 4.31 and 129"""
+        """a leaf of 6.7e-9 kg with a head of 8e-9: 4.03 kHz, and 41.3 kHz, which is the leaf; without its mass 4.31 and 129. Across the
+        plane its base, 0.9 mm long and 8 times as wide as the leaf, is a tenth of that: integral of x^2/w, as of a stepped cantilever"""
         whole, _, asked = self.check(LONG_LEAF % (
             '<require frequency="1" plane="across" min="4.06 kHz"/><require frequency="2" plane="across" min="60 kHz"/>',
             "10 ms", 'ax="1 m/s^2" law="half-sine" rise="4 ms"'))
-        for name, truth, at_least in (("frequency-1", 4030, 0.97), ("frequency-2", 41300, 0.93)):
+        for name, truth, at_least in (("frequency-1", 4030, 0.87), ("frequency-2", 41300, 0.9)):
             low, high = asked[name]["band"]
             self.assertLess(low, truth, name)
             self.assertGreater(low, at_least * truth, name)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What was refused for want of another way to draw it: three hinges in line on one bar, hinges that are not as
-   wide everywhere where their bodies leave at an angle, and the bases of long rows. */
+   wide everywhere where their bodies leave at an angle, the bases of long rows, and those of leaves that run to the frame. */
 #include "fixture.h"
 #include "layout/layout.h"
 #include "test.h"
@@ -181,8 +181,58 @@ static void bases_of_rows(void **state) {
     }
 }
 
+/* ---- leaves that run straight to a side of the frame ---- */
+
+/* a plate on n leaves to its left and right, turned by so many quarters */
+static row *clamped(fw_arena *arena, int n, int quarters) {
+    static const double c[4] = {1, 0, -1, 0}, s[4] = {0, 1, 0, -1};
+    row *r = new_row(arena, 500e-6, 0);
+    r->leaf.width_m = 5e-6;
+    r->body[0] = fixture_body("plate", 120e-6);
+    r->body[0].plate_width_m = quarters % 2 ? 2.4e-3 : 0.6e-3;
+    r->body[0].plate_height_m = quarters % 2 ? 0.6e-3 : 2.4e-3;
+    r->body[0].x_m = r->body[0].y_m = r->body[0].plate_x_m = r->body[0].plate_y_m = 0;
+    r->device.nbody = 1;
+    for (int i = 0; i < n; i++) {
+        const double x = i % 2 ? 1e-3 : -1e-3, y = n < 4 ? 0 : i < 2 ? 1e-3 : -1e-3;
+        add_hinge(r, i % 2 ? 0 : FW_GROUND, i % 2 ? FW_GROUND : 0,
+                  x * c[quarters] - y * s[quarters], x * s[quarters] + y * c[quarters],
+                  0.5 * M_PI * (quarters - 1));
+    }
+    return r;
+}
+
+/* how far the farthest base reaches across the leaves */
+static double widest_base(fw_arena *arena, const row *r, int n, int quarters) {
+    fw_diags diags = fw_diags_new(arena);
+    const fw_layout *l;
+    double wide = 0;
+    int bases = 0;
+    assert_int_equal(fw_layout_build(arena, &r->device, &diags, &l), FW_OK);
+    for (int i = 0; i < l->npiece; i++) {
+        const fw_layout_piece *p = &l->piece[i];
+        if (p->role != FW_ROLE_STRUCTURE || p->body != FW_GROUND) continue;
+        const fw_geometry_box b = fw_geometry_contour_box(&p->contour);
+        wide = fmax(wide, quarters % 2 ? b.x1 - b.x0 : b.y1 - b.y0);
+        bases++;
+    }
+    assert_int_equal(bases, n);
+    return wide;
+}
+
+static void bases_in_line(void **state) {
+    (void)state;
+    for (int n = 1; n <= 4; n *= 2)
+        for (int quarters = 0; quarters < 4; quarters++) {
+            fw_arena *arena = fw_arena_new(0);
+            assert_true(widest_base(arena, clamped(arena, n, quarters), n, quarters) < 320e-6);
+            fw_arena_free(arena);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(three_hinges_in_line),
-                                       cmocka_unit_test(bases_of_rows)};
+                                       cmocka_unit_test(bases_of_rows),
+                                       cmocka_unit_test(bases_in_line)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

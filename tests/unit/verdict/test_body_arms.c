@@ -116,10 +116,14 @@ static void plain_ways_are_bounds(void **state) {
             assert_true(plain < 3 * grid);
         }
         fw_verdict_strain_monitor seen = {.mechanism = &s.m, .arena = s.arena};
-        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, v.arm, true, 0, &seen.bending), FW_OK);
+        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, v.arm, true, 0, &seen.bending),
+                         FW_OK);
         const double q[3] = {0, 0, 0}, angle[2] = {0.1, -0.1}, far = 1e-2 / (1e-6 * 0.1);
         for (int load = 0; load < 9; load++) { /* along x, along y, and between */
-            const double force = load % 3 == 0 ? 0 : load % 3 == 1 ? 1e-9 : far, way = (const double[]){0, M_PI / 2, 0.65}[load / 3];
+            const double force = load % 3 == 0   ? 0
+                                 : load % 3 == 1 ? 1e-9
+                                                 : far,
+                         way = (const double[]){0, M_PI / 2, 0.65}[load / 3];
             const double fx = force * cos(way), fy = force * sin(way);
             const double reaction[4] = {fx, fy, -fx, -fy};
             const fw_dynamics_instant now = {.q = q, .angle_rad = angle, .reaction_N = reaction};
@@ -232,9 +236,9 @@ static void a_hole_counts_and_its_cut_does_not(void **state) {
    the distances, and F over the two strips. What the hinges put on the body together is taken off. */
 static void a_cut_bears_what_equilibrium_asks(void **state) {
     (void)state;
-    static const double pierced[MOST][2] = {{0, 0},       {0.28, 0},     {0.28, 0.01}, {0.26, 0.01},
-                                            {0.26, 0.05}, {0.30, 0.05},  {0.30, 0.01}, {0.28, 0.01},
-                                            {0.28, 0},    {1, 0},        {1, 0.06},    {0, 0.06}};
+    static const double pierced[MOST][2] = {{0, 0},       {0.28, 0},    {0.28, 0.01}, {0.26, 0.01},
+                                            {0.26, 0.05}, {0.30, 0.05}, {0.30, 0.01}, {0.28, 0.01},
+                                            {0.28, 0},    {1, 0},       {1, 0.06},    {0, 0.06}};
     for (int turn = 0; turn < 3; turn++) {
         scene s = body(MOST, pierced, 1u << 9 | 1u << 11, 0.7 * turn);
         fw_device device = {.release_pitch_m = 100e-6, .safety_factor = 2};
@@ -265,7 +269,8 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
         for (int load = 0; load < 3; load++) {
             const double moment = load == 1 ? 0 : 4e-6, force = load == 0 ? 0 : 0.1;
             const double along[2] = {cos(0.7 * turn), sin(0.7 * turn)};
-            const double q[3] = {0, 0, 0}, angle[2] = {moment / 1e-6, load == 2 ? 0 : -moment / 1e-6};
+            const double q[3] = {0, 0, 0},
+                         angle[2] = {moment / 1e-6, load == 2 ? 0 : -moment / 1e-6};
             const double reaction[4] = {force * along[0], force * along[1], -force * along[0],
                                         -force * along[1]};
             const fw_dynamics_instant now = {.q = q, .angle_rad = angle, .reaction_N = reaction};
@@ -274,8 +279,8 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
             /* load 2: one moment alone, which may act on either side, so that the force is left */
             const double asked = load == 0 ? moment / left->cut_m2 : force / left->cut_m;
             assert_relative(seen.bending.cut_N_per_m[3], asked, 1e-9);
-            const fw_dynamics_motion motion = {
-                .observed = &seen, .ledger.hinge.used = FW_HINGE_ELASTICA};
+            const fw_dynamics_motion motion = {.observed = &seen,
+                                               .ledger.hinge.used = FW_HINGE_ELASTICA};
             int at[2];
             const fw_verdict_band band = fw_verdict_bending_rims(&s.m, &motion, at);
             assert_true(band.low <= asked / (1e9 / 2 * 10e-6) && band.low > 0);
@@ -297,8 +302,16 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
             }
             /* whatever the direction of the force, which poses do not tell */
             const double share = fw_verdict_bending_rims_required(&posed, at);
-            const double all[2] = {2 * force, 1e-6 * (fabs(angle[0]) + fabs(angle[1])) + force * (vec_distance(fw_mechanism_pin_place(&s.m, &s.m.pin[0], 1), centre) + vec_distance(fw_mechanism_pin_place(&s.m, &s.m.pin[1], 1), centre))};
-            assert_relative(share, fw_verdict_arm_rims_bear(&s.m, at[0] / 2, &s.arm[at[0]], 1e-6 * fabs(angle[at[0] / 2]), force, NULL, all), 1e-9);
+            const double all[2] = {
+                2 * force,
+                1e-6 * (fabs(angle[0]) + fabs(angle[1])) +
+                    force * (vec_distance(fw_mechanism_pin_place(&s.m, &s.m.pin[0], 1), centre) +
+                             vec_distance(fw_mechanism_pin_place(&s.m, &s.m.pin[1], 1), centre))};
+            assert_relative(share,
+                            fw_verdict_arm_rims_bear(&s.m, at[0] / 2, &s.arm[at[0]],
+                                                     1e-6 * fabs(angle[at[0] / 2]), force, NULL,
+                                                     all),
+                            1e-9);
             assert_true(share >= band.high);
             assert_int_equal(fw_verdict_bending_judge_required(s.arena, &posed), FW_OK);
             assert_int_equal(posed.nreason, 1);
@@ -328,15 +341,16 @@ static void a_cut_bears_what_equilibrium_asks(void **state) {
    8.1 times as much by a moment. What else acts on the body may do so at the end's own edge. */
 static void rims_of_what_a_cut_leaves(void **state) {
     (void)state;
-    static const double pierced[MOST][2] = {{0, 0},       {0.28, 0},     {0.28, 0.01}, {0.26, 0.01},
-                                            {0.26, 0.05}, {0.30, 0.05},  {0.30, 0.01}, {0.28, 0.01},
-                                            {0.28, 0},    {1, 0},        {1, 0.06},    {0, 0.06}};
+    static const double pierced[MOST][2] = {{0, 0},       {0.28, 0},    {0.28, 0.01}, {0.26, 0.01},
+                                            {0.26, 0.05}, {0.30, 0.05}, {0.30, 0.01}, {0.28, 0.01},
+                                            {0.28, 0},    {1, 0},       {1, 0.06},    {0, 0.06}};
     for (int turn = 0; turn < 4; turn++) {
         scene s = body(MOST, pierced, 1u << 9 | 1u << 11, 0.6 * turn);
         fw_device device = {.release_pitch_m = 100e-6, .release_hole_m = 40e-6};
         s.m.device = &device;
         assert_true(s.arm[3].rim_m2 == 0); /* without holes nobody asks */
-        const fw_device in_proportion = {.release_pitch_m = 40e-6 / 0.3}; /* a hole is 0.3 of the pitch where none is stated */
+        const fw_device in_proportion = {
+            .release_pitch_m = 40e-6 / 0.3}; /* a hole is 0.3 of the pitch where none is stated */
         fw_verdict_arm *unstated;
         s.m.device = &in_proportion;
         assert_int_equal(fw_verdict_body_arms(s.arena, &s.m, &s.layout, &unstated), FW_OK);
@@ -350,12 +364,17 @@ static void rims_of_what_a_cut_leaves(void **state) {
         assert_relative(left->rim_m2, bends, 0.05);
         /* from the hinge 300 um away, half way up: a force along the bar pulls, one across it bends */
         const double pulls = 1 / 20e-6, across = 300e-6 * bends;
-        assert_true(left->rim_x_m > 0.95 * (d * across + c * pulls) && left->rim_x_m < 1.2 * (d * across + (c + 2 * d) * pulls + bends * 20e-6));
-        assert_true(left->rim_y_m > 0.95 * (c * across + d * pulls) && left->rim_y_m < 1.2 * (c * across + (d + 2 * c) * pulls + bends * 20e-6));
+        assert_true(left->rim_x_m > 0.95 * (d * across + c * pulls) &&
+                    left->rim_x_m < 1.2 * (d * across + (c + 2 * d) * pulls + bends * 20e-6));
+        assert_true(left->rim_y_m > 0.95 * (c * across + d * pulls) &&
+                    left->rim_y_m < 1.2 * (c * across + (d + 2 * c) * pulls + bends * 20e-6));
         assert_true(left->rim_m > 0.95 * across && left->rim_m < 1.2 * (across + 2.3 * pulls));
-        assert_true(left->rim_rest_m > 0.95 * across && left->rim_rest_m < 1.2 * (across + 2.3 * pulls));
+        assert_true(left->rim_rest_m > 0.95 * across &&
+                    left->rim_rest_m < 1.2 * (across + 2.3 * pulls));
         assert_relative(left->rim_rest_m2, left->rim_m2, 1e-12);
-        assert_true(vec_distance(left->rim, fw_geometry_vec_rotate((fw_geometry_vec2){0.28e-3, 0.03e-3}, 0.6 * turn)) < 40e-6);
+        assert_true(
+            vec_distance(left->rim, fw_geometry_vec_rotate((fw_geometry_vec2){0.28e-3, 0.03e-3},
+                                                           0.6 * turn)) < 40e-6);
         fw_arena_free(s.arena);
     }
 }
@@ -370,24 +389,37 @@ static void a_rim_in_silicon_is_strained_more(void **state) {
     fw_mechanism_variant variant = {.thickness_m = 10e-6};
     fw_layout layout = {.edge_m = 0};
     fw_mechanism m = {.hinge = &hinge, .device = &device, .variant = &variant, .layout = &layout};
-    const fw_verdict_arm arm = {.known = true, .narrow_m = 20e-6, .rim_m2 = 1e9, .rim_m = 1e5, .rim_x_m = 5e4, .rim_y_m = 4e4, .rim_rest_m = 1e5, .rim_rest_m2 = 1e9};
+    const fw_verdict_arm arm = {.known = true,
+                                .narrow_m = 20e-6,
+                                .rim_m2 = 1e9,
+                                .rim_m = 1e5,
+                                .rim_x_m = 5e4,
+                                .rim_y_m = 4e4,
+                                .rim_rest_m = 1e5,
+                                .rim_rest_m2 = 1e9};
     const double along[2] = {1e-3, 0}, rest[2] = {2e-3, 1e-6}, allowed = 1e9 / 2 * 10e-6;
-    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL), 3 * 1e3 / allowed, 1e-12);
-    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 0, 1e-3, along, NULL), 3 * 50 / allowed, 1e-12);
-    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 0, 0, NULL, rest), 3 * 1200 / allowed, 1e-12);
-    variant.material.c11.value = 165.7e9, variant.material.c12.value = 63.9e9, variant.material.c44.value = 79.6e9;
-    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL), 3.28 * 1e3 / allowed, 5e-3);
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL), 3 * 1e3 / allowed,
+                    1e-12);
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 0, 1e-3, along, NULL), 3 * 50 / allowed,
+                    1e-12);
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 0, 0, NULL, rest), 3 * 1200 / allowed,
+                    1e-12);
+    variant.material.c11.value = 165.7e9, variant.material.c12.value = 63.9e9,
+    variant.material.c44.value = 79.6e9;
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL),
+                    3.28 * 1e3 / allowed, 5e-3);
     layout.edge_m = -2e-6;
-    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL), 3.28 * 1e3 / allowed / 0.64, 5e-3);
+    assert_relative(fw_verdict_arm_rims_bear(&m, 0, &arm, 1e-6, 0, NULL, NULL),
+                    3.28 * 1e3 / allowed / 0.64, 5e-3);
 }
 
 /* A bar of 100 um, but for a neck of 8 um beyond its middle, and a force at its end behind that. Between its hinges it bears
    what it did; the neck has the stress of a beam, three times for its corners, and is inconclusive above what is allowed. */
 static void a_neck_before_a_load_is_seen(void **state) {
     (void)state;
-    static const double necked[MOST][2] = {{0, 0},    {1, 0},       {1, 0.046},   {1.1, 0.046},
-                                           {1.1, 0},  {1.5, 0},     {1.5, 0.1},   {1.1, 0.1},
-                                           {1.1, 0.054}, {1, 0.054}, {1, 0.1},    {0, 0.1}};
+    static const double necked[MOST][2] = {{0, 0},       {1, 0},     {1, 0.046}, {1.1, 0.046},
+                                           {1.1, 0},     {1.5, 0},   {1.5, 0.1}, {1.1, 0.1},
+                                           {1.1, 0.054}, {1, 0.054}, {1, 0.1},   {0, 0.1}};
     fw_device_force force = {.fx_N = 0, .fy_N = 1e-4};
     fw_device_scene pull = {.name = "pull", .duration_s = 1, .force = &force, .nforce = 1};
     fw_device_body own = {.id = "bar"};
@@ -420,7 +452,8 @@ static void a_neck_before_a_load_is_seen(void **state) {
         fw_verdict_reason reason[2];
         fw_verdict_variant_verdict v = {.reason = reason, .mechanism = &s.m};
         device.safety_factor = weak ? 2 : 1.8 / share;
-        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, s.arm, false, 0, &seen.bending), FW_OK);
+        assert_int_equal(fw_verdict_bending_watch(s.arena, &s.m, s.arm, false, 0, &seen.bending),
+                         FW_OK);
         fw_verdict_bending_record(&seen.bending, &s.m, NULL);
         fw_verdict_bending_record(&seen.bending, &s.m, &now);
         assert_relative(seen.bending.rest_N[0], 1e-4, 1e-12);
@@ -439,7 +472,8 @@ static void a_neck_before_a_load_is_seen(void **state) {
 static void what_hangs_over_bends(void **state) {
     (void)state;
     const double w = 0.05, l = 1;
-    const double corner[8][2] = {{-l, 0}, {-0.02, 0}, {-0.01, -0.01}, {0.01, -0.01}, {0.02, 0}, {l, 0}, {l, w}, {-l, w}};
+    const double corner[8][2] = {{-l, 0},   {-0.02, 0}, {-0.01, -0.01}, {0.01, -0.01},
+                                 {0.02, 0}, {l, 0},     {l, w},         {-l, w}};
     for (int i = 0; i < 8; i++) {
         scene s = body(8, corner, 1u << 1 | 1u << 3, 0.21 * i);
         fw_mechanism_variant variant = {.thickness_m = 20e-6};
@@ -452,13 +486,17 @@ static void what_hangs_over_bends(void **state) {
         assert_int_equal(fw_verdict_overhang(s.arena, &s.m, &s.layout, 0, s.arm, &hung), FW_OK);
         const double bends = 1.5 * 2330 * pow((l - 0.015) * 1e-3, 4) / (150e9 * 20e-6 * 20e-6);
         assert_true(hung.across_s2 > 0.98 * bends && hung.across_s2 < 1.15 * bends);
-        assert_true(hung.across_mode_s2 > 0.98 * bends * 8 / 12.362 && hung.across_mode_s2 < 1.5 * bends * 8 / 12.362);
-        const double in_it = 1.5 * 2330 * pow((l - 0.015) * 1e-3, 4) / (150e9 * pow(w * 1e-3, 2)); /* and half of 3.2 by shear */
+        assert_true(hung.across_mode_s2 > 0.98 * bends * 8 / 12.362 &&
+                    hung.across_mode_s2 < 1.5 * bends * 8 / 12.362);
+        const double in_it = 1.5 * 2330 * pow((l - 0.015) * 1e-3, 4) /
+                             (150e9 * pow(w * 1e-3, 2)); /* and half of 3.2 by shear */
         /* it is held by a place at one edge, beside which it is as wide as it is */
         assert_true(hung.in_plane_s2 > 0.95 * in_it && hung.in_plane_s2 < 1.2 * in_it);
-        assert_true(hung.in_plane_mode_s2 > 0.95 * in_it * 8 / 12.362 && hung.in_plane_mode_s2 < 1.5 * in_it * 8 / 12.362);
+        assert_true(hung.in_plane_mode_s2 > 0.95 * in_it * 8 / 12.362 &&
+                    hung.in_plane_mode_s2 < 1.5 * in_it * 8 / 12.362);
         assert_true(isinf(hung.bears_N_per_m)); /* nothing is said of what is below */
-        const double strained = 3 * 2330 * pow((l - 0.015) * 1e-3, 2) / (w * 1e-3); /* 6 M/(h w^2) at the root, M = rho h w l^2/2 */
+        const double strained = 3 * 2330 * pow((l - 0.015) * 1e-3, 2) /
+                                (w * 1e-3); /* 6 M/(h w^2) at the root, M = rho h w l^2/2 */
         assert_true(hung.Pa_per_m_s2 > 0.9 * strained && hung.Pa_per_m_s2 < 1.1 * strained);
         fw_arena_free(s.arena);
     }
@@ -470,7 +508,8 @@ static void arms_as_made(void **state) {
     (void)state;
     const double wide[] = {0.1, 0.03, 0.012}, edge_m = -1.2e-6;
     for (int i = 0; i < 3 * 4; i++) {
-        const double turn = 0.4 * (i % 4), w = 1e-3 * wide[i / 4], left = w / (w + 2 * edge_m), cube = left * left * left;
+        const double turn = 0.4 * (i % 4), w = 1e-3 * wide[i / 4], left = w / (w + 2 * edge_m),
+                     cube = left * left * left;
         const double corner[4][2] = {{0, 0}, {1, 0}, {1, wide[i / 4]}, {0, wide[i / 4]}};
         scene s = body(4, corner, 1u << 1 | 1u << 3, turn);
         const fw_verdict_arm *made, *same;
@@ -480,10 +519,13 @@ static void arms_as_made(void **state) {
         assert_ptr_equal(same, s.arm);
         for (int k = 1; k < 4; k += 2) {
             const double *g = made[k].give, *of = s.arm[k].give;
-            const double along = fw_verdict_arm_energy_J(&made[k], 1, 0, cos(turn), sin(turn), &still) /
-                                 fw_verdict_arm_energy_J(&s.arm[k], 1, 0, cos(turn), sin(turn), &still),
-                         across = fw_verdict_arm_energy_J(&made[k], 1, 0, -sin(turn), cos(turn), &still) /
-                                  fw_verdict_arm_energy_J(&s.arm[k], 1, 0, -sin(turn), cos(turn), &still);
+            const double along =
+                             fw_verdict_arm_energy_J(&made[k], 1, 0, cos(turn), sin(turn), &still) /
+                             fw_verdict_arm_energy_J(&s.arm[k], 1, 0, cos(turn), sin(turn), &still),
+                         across = fw_verdict_arm_energy_J(&made[k], 1, 0, -sin(turn), cos(turn),
+                                                          &still) /
+                                  fw_verdict_arm_energy_J(&s.arm[k], 1, 0, -sin(turn), cos(turn),
+                                                          &still);
             assert_true(fabs(g[0] / of[0] / cube - 1) < 0.02);
             assert_true(along > 0.98 * left && across < 1.01 * cube && across > 1.01 * left);
             assert_true(made[k].softer > 0.98 * cube && made[k].softer < 1.05 * cube);
@@ -503,7 +545,8 @@ static void arms_as_made(void **state) {
    force alone does */
 static void a_solid_by_its_softest_wrench(void **state) {
     (void)state;
-    const double corner[8][2] = {{0, 0}, {0.4, 0}, {0.4, -0.03}, {1, -0.03}, {1, 0.07}, {0.4, 0.07}, {0.4, 0.04}, {0, 0.04}};
+    const double corner[8][2] = {{0, 0},    {0.4, 0},    {0.4, -0.03}, {1, -0.03},
+                                 {1, 0.07}, {0.4, 0.07}, {0.4, 0.04},  {0, 0.04}};
     const double edge_m = -1e-6;
     scene s = body(8, corner, 1u << 3 | 1u << 7, 0);
     const fw_verdict_arm *made;
@@ -512,11 +555,14 @@ static void a_solid_by_its_softest_wrench(void **state) {
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 20000; k++) { /* moments and forces in all proportions */
             const double turn = 0.01 * k, *g = made[2 * i + 1].give, *of = s.arm[2 * i + 1].give;
-            const double w[3] = {cos(0.37 * turn), 1e-3 * sin(0.37 * turn) * cos(turn), 1e-3 * sin(0.37 * turn) * sin(turn) * 3};
+            const double w[3] = {cos(0.37 * turn), 1e-3 * sin(0.37 * turn) * cos(turn),
+                                 1e-3 * sin(0.37 * turn) * sin(turn) * 3};
             double up = 0, down = 0;
             for (int a = 0, n = 0; a < 3; a++)
                 for (int b = a; b < 3; b++, n++)
-                    up += (a == b ? 1 : 2) * g[n] * w[a] * w[b] * (a ? 1e6 : 1) * (b ? 1e6 : 1), down += (a == b ? 1 : 2) * of[n] * w[a] * w[b] * (a ? 1e6 : 1) * (b ? 1e6 : 1);
+                    up += (a == b ? 1 : 2) * g[n] * w[a] * w[b] * (a ? 1e6 : 1) * (b ? 1e6 : 1),
+                        down +=
+                        (a == b ? 1 : 2) * of[n] * w[a] * w[b] * (a ? 1e6 : 1) * (b ? 1e6 : 1);
             most[i] = fmax(most[i], up / down);
         }
     const double q = made[1].softer, all = fmax(most[0], most[1]);
@@ -532,7 +578,9 @@ static void what_hangs_over_as_made(void **state) {
     double goes[2], mode[2];
     for (int made = 0; made < 2; made++) {
         const double y = made ? 0 : edge, w = 0.03 - y, x = l - y; /* as it is drawn */
-        const double corner[8][2] = {{-x, y}, {-0.02, y}, {-0.01, y - 0.01}, {0.01, y - 0.01}, {0.02, y}, {x, y}, {x, w}, {-x, w}};
+        const double corner[8][2] = {{-x, y},          {-0.02, y}, {-0.01, y - 0.01},
+                                     {0.01, y - 0.01}, {0.02, y},  {x, y},
+                                     {x, w},           {-x, w}};
         scene s = body(8, corner, 1u << 1 | 1u << 3, 0.3);
         fw_mechanism_variant variant = {.thickness_m = h, .material.youngs.value = 150e9};
         fw_mechanism_shape shape = {.area_m2 = 1};
@@ -549,9 +597,11 @@ static void what_hangs_over_as_made(void **state) {
 }
 
 /* a place at s along a way of n corners, and how it runs there */
-static fw_geometry_vec2 along_the_way(const double (*way)[2], int n, double s, fw_geometry_vec2 *to) {
+static fw_geometry_vec2 along_the_way(const double (*way)[2], int n, double s,
+                                      fw_geometry_vec2 *to) {
     for (int i = 0; i + 1 < n; i++) {
-        const fw_geometry_vec2 a = {way[i][0], way[i][1]}, off = {way[i + 1][0] - a.x, way[i + 1][1] - a.y};
+        const fw_geometry_vec2 a = {way[i][0], way[i][1]},
+                               off = {way[i + 1][0] - a.x, way[i + 1][1] - a.y};
         *to = vec_unit(off);
         if (s <= vec_length(off) || i + 2 == n) return vec_along(a, s, *to);
         s -= vec_length(off);
@@ -564,28 +614,45 @@ static fw_geometry_vec2 along_the_way(const double (*way)[2], int n, double s, f
 static void folded_bars(void **state) {
     (void)state;
     enum { WAY = 4, PLACES = 600 };
-    const double corner[12][2] = {{0, 0}, {2, 0}, {2, 0.24}, {0.5, 0.24}, {0.5, 0.44}, {0.2, 0.44}, {0.2, 0.1}, {0.5, 0.1}, {0.5, 0.2}, {1.96, 0.2}, {1.96, 0.04}, {0, 0.04}};
-    const double way[WAY][2] = {{0, 0.02}, {1.98, 0.02}, {1.98, 0.22}, {0.5, 0.22}}, w = 0.04e-3, E = 150e9, nu = 0.25;
-    const double length = 1e-3 * (1.98 + 0.2 + 1.48), head = 0.3 * 0.34 * 1e-6, q = 2330 * w, h = 20e-6, wide = h / w,
-                 torsion = w * h * h * h / 3 * (1 - 0.63 * wide * (1 - wide * wide * wide * wide / 12)), step = length / PLACES;
+    const double corner[12][2] = {{0, 0},      {2, 0},      {2, 0.24},    {0.5, 0.24},
+                                  {0.5, 0.44}, {0.2, 0.44}, {0.2, 0.1},   {0.5, 0.1},
+                                  {0.5, 0.2},  {1.96, 0.2}, {1.96, 0.04}, {0, 0.04}};
+    const double way[WAY][2] = {{0, 0.02}, {1.98, 0.02}, {1.98, 0.22}, {0.5, 0.22}}, w = 0.04e-3,
+                 E = 150e9, nu = 0.25;
+    const double length = 1e-3 * (1.98 + 0.2 + 1.48), head = 0.3 * 0.34 * 1e-6, q = 2330 * w,
+                 h = 20e-6, wide = h / w,
+                 torsion =
+                     w * h * h * h / 3 * (1 - 0.63 * wide * (1 - wide * wide * wide * wide / 12)),
+                 step = length / PLACES;
     const fw_geometry_vec2 pad = {0.35e-3, 0.27e-3};
     double across = 0, aside[2] = {0, 0};
     for (int i = 0; i < PLACES; i++) {
         fw_geometry_vec2 t, other;
         const double s = (i + 0.5) * step;
-        const fw_geometry_vec2 at = vec_scale(1e-3, along_the_way(way, WAY, 1e3 * s, &t)), to_pad = vec_sub(pad, at);
-        fw_geometry_vec2 moment = vec_scale(2330 * head, to_pad); /* of a force across, by its lever */
+        const fw_geometry_vec2 at = vec_scale(1e-3, along_the_way(way, WAY, 1e3 * s, &t)),
+                               to_pad = vec_sub(pad, at);
+        fw_geometry_vec2 moment =
+            vec_scale(2330 * head, to_pad); /* of a force across, by its lever */
         for (int k = i; k < PLACES; k++)
-            moment = vec_add(moment, vec_scale(q * step, vec_sub(vec_scale(1e-3, along_the_way(way, WAY, 1e3 * (k + 0.5) * step, &other)), at)));
+            moment = vec_add(
+                moment,
+                vec_scale(q * step,
+                          vec_sub(vec_scale(1e-3, along_the_way(way, WAY, 1e3 * (k + 0.5) * step,
+                                                                &other)),
+                                  at)));
         across += step * (12 * vec_dot(moment, t) * vec_dot(to_pad, t) / (E * w * h * h) +
-                          h * vec_dot(moment, vec_left(t)) * vec_dot(to_pad, vec_left(t)) * 2 * (1 + nu) / (E * torsion));
-        aside[0] += 12 * step * moment.y * to_pad.y / (E * w * w * w); /* the pad, by an acceleration along x and along y */
+                          h * vec_dot(moment, vec_left(t)) * vec_dot(to_pad, vec_left(t)) * 2 *
+                              (1 + nu) / (E * torsion));
+        aside[0] += 12 * step * moment.y * to_pad.y /
+                    (E * w * w * w); /* the pad, by an acceleration along x and along y */
         aside[1] += 12 * step * moment.x * to_pad.x / (E * w * w * w);
     }
     for (int i = 0; i < 4; i++) {
         scene s = body(12, corner, 1u << 11, 0.4 * i);
-        fw_mechanism_variant variant = {.thickness_m = h, .material.youngs.value = E, .material.poisson.value = nu};
-        variant.below = (fw_mechanism_below){.known = true, .m = 5e-6, .low_m = 5e-6, .high_m = 5e-6};
+        fw_mechanism_variant variant = {
+            .thickness_m = h, .material.youngs.value = E, .material.poisson.value = nu};
+        variant.below =
+            (fw_mechanism_below){.known = true, .m = 5e-6, .low_m = 5e-6, .high_m = 5e-6};
         variant.drying.how = FW_DRIED_PULLED;
         fw_mechanism_shape shape = {.area_m2 = q / 2330 * length + head};
         fw_mechanism_mass mass = {.mass_kg = 2330 * h * shape.area_m2};
@@ -593,10 +660,12 @@ static void folded_bars(void **state) {
         fw_verdict_hung hung;
         assert_int_equal(fw_verdict_overhang(s.arena, &s.m, &s.layout, 0, s.arm, &hung), FW_OK);
         assert_true(hung.across_s2 > across && hung.across_s2 < 1.35 * across);
-        assert_true(hung.in_plane_s2 > hypot(aside[0], aside[1]) && hung.in_plane_s2 < 1.5 * hypot(aside[0], aside[1]));
+        assert_true(hung.in_plane_s2 > hypot(aside[0], aside[1]) &&
+                    hung.in_plane_s2 < 1.5 * hypot(aside[0], aside[1]));
         /* a quarter of what closes the gap as an even pressure, and edges as at walls of the bar, to three eighths and wide ones */
         const double even = 2330 * h * 25e-12 / across;
-        assert_true(hung.bears_N_per_m < 0.375 * even && hung.bears_N_per_m > 0.25 * even / (1.35 * (1 + h / w)));
+        assert_true(hung.bears_N_per_m < 0.375 * even &&
+                    hung.bears_N_per_m > 0.25 * even / (1.35 * (1 + h / w)));
         /* modes: not below what the pad does with all of the mass, not above what it droops by */
         assert_true(hung.across_mode_s2 > 0.6 * across && hung.across_mode_s2 < 1.2 * across);
         fw_arena_free(s.arena);
@@ -607,12 +676,14 @@ static void folded_bars(void **state) {
    M (1 - 2 s/L), and not by M (1 + 2 s/L): M^2 L/(6 E I) of both halves, where the other sign gives seven times that */
 static void a_link_bent_as_an_s(void **state) {
     (void)state;
-    const double corner[4][2] = {{0, 0}, {1, 0}, {1, 0.05}, {0, 0.05}}, moment = 1e-9, length = 1e-3, wide = 5e-5;
+    const double corner[4][2] = {{0, 0}, {1, 0}, {1, 0.05}, {0, 0.05}}, moment = 1e-9,
+                 length = 1e-3, wide = 5e-5;
     scene s = body(4, corner, 10, 0);
     const fw_verdict_turn as_drawn = {0, 1, 0};
     double sum = 0, most = 0;
     for (int k = 0; k < 2; k++) { /* both moments are against the clock, and the pair with it */
-        const double across = (s.m.pin[k].bx_m < 0.5e-3 ? 1 : -1) * 2 * moment / length, *g = s.arm[2 * k + 1].give;
+        const double across = (s.m.pin[k].bx_m < 0.5e-3 ? 1 : -1) * 2 * moment / length,
+                     *g = s.arm[2 * k + 1].give;
         sum += 0.5 * (g[0] * moment * moment + 2 * g[2] * moment * across + g[5] * across * across);
         most += fw_verdict_arm_energy_J(&s.arm[2 * k + 1], 1, moment, 0, across, &as_drawn);
     }
@@ -621,12 +692,12 @@ static void a_link_bent_as_an_s(void **state) {
     fw_arena_free(s.arena);
 }
 
-/* A base is a bar from its hinge to where it is cut from the frame, whichever way it lies; two hinges at its end bend it together.
+/* A base is a bar from its hinge to where it is cut from the frame, and on into that by 5.3/12 of its width, whichever way it lies; two hinges at its end bend it together.
    What begins at no base, and a piece that hangs on no frame, has none. */
 static void a_base_is_a_beam_up_to_the_frame(void **state) {
     (void)state;
     for (int i = 0; i < 8; i++) {
-        const double turn = 0.2 * i, w = 1e-4, length = 1e-3, cube = w * w * w;
+        const double turn = 0.2 * i, w = 1e-4, length = 1e-3 + 5.3 / 12 * w, cube = w * w * w;
         const double corner[4][2] = {{0, 0}, {1, 0}, {1, 0.1}, {0, 0.1}};
         scene s = body(4, corner, 1u << 1 | 1u << 3, turn);
         fw_mechanism_variant variant = {.thickness_m = 10e-6, .material.youngs.value = 1e11};
@@ -641,6 +712,16 @@ static void a_base_is_a_beam_up_to_the_frame(void **state) {
         const double one = fw_verdict_bases_J(&s.m, s.arm, 1, on, end),
                      across = 4 * pow(length, 3) / cube + 3.2 * length / w;
         assert_relative(2 * one, across, 0.035);
+        double gives[9] = {0};
+        fw_verdict_bases_add(&s.m, s.arm, 0, gives);
+        const double n[2] = {-sin(turn), cos(turn)},
+                     goes = n[0] * (gives[0] * n[0] + gives[1] * n[1]) +
+                            n[1] * (gives[3] * n[0] + gives[4] * n[1]);
+        assert_relative(goes * 1e11 * 10e-6, 2 * one, 1e-9);
+        const fw_verdict_arm *made;
+        assert_int_equal(fw_verdict_arms_made(s.arena, &s.m, s.arm, -2e-6, &made), FW_OK);
+        assert_relative(fw_verdict_bases_J(&s.m, made, 1, on, end), pow(w / (w - 4e-6), 3) * one,
+                        0.005);
         s.m.nhinge = 2, s.m.pin[1] = s.m.pin[0], on[4] = on[1], on[5] = on[2];
         assert_int_equal(fw_verdict_bases(s.arena, &s.m, &s.layout, s.arm), FW_OK);
         assert_true(s.arm[2].base->shared && s.arm[2].base->shared == s.arm[0].base->shared);

@@ -1,24 +1,75 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What bases give: what is drawn between a hinge on the ground and the frame. Each is a piece of the drawing that ends where it
+/* Bodies and bases as they are drawn: of which ends ways are looked for (body_arms.c), and up to where; and what bases give.
+   A base is what is drawn between a hinge on the ground and the frame. Each is a piece of the drawing that ends where it
    is cut from the frame, and gives by the strip of circles along the stiffest way from the hinge to the middle of that cut, as
-   a body does to its middle (body_arms.c). Nothing else acts on it than its hinges, so that all that it stores is
+   a body does to its middle; behind it the frame gives as if that strip went on by 0.44 of the cut. Nothing else acts on it than its hinges,
+   so that all that it stores is
 
      U = sum over hinges of w.g w/(2 E h), and of ways that go together what their hinges put on them together
 
-   By Castigliano the place where a load acts goes further by U over what hinges store, to first order. It is told where that is
-   much (FW-D740), and in no band. In: outlines of the layout in the drawn pose. Range: bases that the layout
-   draws; the frame beyond the cut holds still, which a bar many times as wide as the base does nearly. Error: an upper bound as
+   which counts beside what bodies store, wherever that is compared with what hinges do: bases soften stiffnesses, frequencies
+   and ways in series with the flexures that stand on them. In: outlines of the layout in the drawn pose. Range: bases that the layout
+   draws; the frame is a half-plane behind the cut, which a bar as wide as the cut nearly is. Error: an upper bound as
    far as a strip of circles is a beam. Cost: some 1e5 operations a base. Source: S. Timoshenko, J. Goodier, Theory of Elasticity, 3rd
-   ed., art. 86. Decision 255. Test: test_body_arms.c, test_effects.py Bases */
+   ed., art. 86; W. J. O'Donnell, J. Appl. Mech. 27 (1960) 461. Theory: docs/theory/verdict.md, 5. Test: test_body_arms.c,
+   test_effects.py Bases */
 #include "geometry/segment.h"
 #include "verdict/body.h"
 #include "verdict/verdict_parts.h"
 #include <math.h>
 #include <string.h>
 
-static const fw_verdict_turn still = {0, 1, 0};
+enum { FINEST = 4, FINEST_OF_BASES = 2 }; /* grids */
 
-/* ---- as they are drawn ---- */
+/* ---- bodies ---- */
+
+static int ends_of(const fw_mechanism *m, int body, fw_verdict_arm *arm, fw_verdict_arm_end *out) {
+    int n = 0;
+    for (int i = 0; i < 2 * m->nhinge; i++) {
+        fw_geometry_vec2 pin, root;
+        if (fw_mechanism_hinge_end(m, body, i, &pin, &root))
+            out[n++] = (fw_verdict_arm_end){.to = &arm[i], .index = i, .pin = pin, .root = root};
+    }
+    return n;
+}
+
+fw_status fw_verdict_body_arms(fw_arena *arena, const fw_mechanism *m, const fw_layout *layout,
+                               fw_verdict_arm **arm) {
+    size_t n = 2 * (size_t)m->nhinge;
+    fw_mechanism_load_end *load;
+    int nload;
+    FW_TRY(fw_mechanism_load_ends(arena, m, &load, &nload));
+    const fw_device *d = m->device;
+    const double pitch = d ? d->release_pitch_m : 0;
+    const double drawn_m = pitch > 0 ? d->release_hole_m : 0;
+    const double hole_m = pitch > 0 && !(drawn_m > 0) ? 0.3 * pitch : drawn_m;
+    FW_NEED(*arm = fw_arena_array(arena, fw_verdict_arm, n + (size_t)nload));
+    for (int b = 0; layout && layout->drawn && b < m->nbody; b++) {
+        fw_arena *scratch = fw_arena_part(arena, 0);
+        FW_NEED(scratch);
+        fw_verdict_arm_end *ends = fw_arena_array(scratch, fw_verdict_arm_end, n + (size_t)nload);
+        int nhinge = ends ? ends_of(m, b, *arm, ends) : 0, found = nhinge;
+        for (int j = 0; ends && j < nload; j++)
+            if (load[j].body == b && load[j].first == j)
+                ends[found++] = (fw_verdict_arm_end){
+                    .to = *arm + n + j, .index = (int)n + j, .pin = load[j].at, .root = load[j].at};
+        fw_status status = ends ? FW_OK : FW_NOMEM;
+        fw_verdict_drawn from = {.middle = layout->body[b].centroid, .deep = 2, .finest = FINEST};
+        if (nhinge > 0)
+            status = fw_mechanism_body_lines(scratch, layout, b, &from.line, &from.nline);
+        if (nhinge > 0 && status == FW_OK)
+            status = fw_verdict_arms_of(scratch, arena, &from, ends, nhinge, found, hole_m);
+        fw_arena_free(scratch);
+        FW_TRY(status);
+    }
+    for (int j = 0; j < nload; j++)
+        (*arm)[n + (size_t)j] = (*arm)[n + (size_t)load[j].first];
+    return FW_OK;
+}
+
+/* ---- bases ---- */
+
+static const fw_verdict_turn still = {0, 1, 0};
 
 static double distance_to(const fw_mechanism_line *line, fw_geometry_vec2 at) {
     double t;
@@ -42,7 +93,7 @@ static bool is_root(const fw_mechanism_line *line, int n, int cut, const fw_verd
 /* Where a piece hangs on the frame: the middle of the longest straight cut at which no hinge begins, and of those in line with it,
    between which the head of a hinge may reach into the frame. false: there is none */
 static bool find_cut(const fw_mechanism_line *line, int n, const fw_verdict_arm_end *end, int nend,
-                     fw_geometry_vec2 *middle) {
+                     fw_verdict_drawn *to) {
     const double in_line_m = 1e-6;
     const fw_mechanism_line *longest = NULL;
     double sum = 0;
@@ -50,7 +101,7 @@ static bool find_cut(const fw_mechanism_line *line, int n, const fw_verdict_arm_
         if (!line[i].edge && !is_root(line, n, i, end, nend) &&
             (!longest || vec_distance(line[i].a, line[i].b) > vec_distance(longest->a, longest->b)))
             longest = &line[i];
-    *middle = (fw_geometry_vec2){0, 0};
+    to->middle = (fw_geometry_vec2){0, 0};
     for (int i = 0; longest && i < n; i++) {
         const fw_geometry_vec2 a = line[i].a, b = line[i].b, at = longest->a,
                                along = vec_unit(vec_sub(longest->b, at));
@@ -59,10 +110,11 @@ static bool find_cut(const fw_mechanism_line *line, int n, const fw_verdict_arm_
             fabs(vec_cross(along, vec_sub(a, at))) > in_line_m ||
             fabs(vec_cross(along, vec_sub(b, at))) > in_line_m)
             continue;
-        sum += wide;
-        *middle = vec_along(*middle, 0.5 * wide, vec_add(a, b));
+        sum += wide, to->along = along;
+        to->middle = vec_along(to->middle, 0.5 * wide, vec_add(a, b));
     }
-    if (sum > 0) *middle = vec_scale(1 / sum, *middle);
+    if (sum > 0) to->middle = vec_scale(1 / sum, to->middle);
+    to->foot_m = sum;
     return sum > 0;
 }
 
@@ -70,13 +122,13 @@ static bool find_cut(const fw_mechanism_line *line, int n, const fw_verdict_arm_
 static fw_status one_base(fw_arena *scratch, fw_mechanism_line *line, int n,
                           const fw_verdict_arm_end *all, const int *of, int nall, int piece) {
     /* the way may end in a circle that reaches the cut: at the cut itself an edge may be near */
-    fw_verdict_drawn from = {.line = line, .nline = n, .deep = 1.25, .finest = 2};
+    fw_verdict_drawn from = {.line = line, .nline = n, .deep = 1.25, .finest = FINEST_OF_BASES};
     fw_verdict_arm_end *end = fw_arena_array(scratch, fw_verdict_arm_end, (size_t)nall + 1);
     int nend = 0;
     FW_NEED(end);
     for (int k = 0; k < nall; k++)
         if (of[k] == piece) end[nend++] = all[k];
-    if (nend == 0 || !find_cut(line, n, end, nend, &from.middle)) return FW_OK;
+    if (nend == 0 || !find_cut(line, n, end, nend, &from)) return FW_OK;
     return fw_verdict_arms_of(scratch, scratch, &from, end, nend, nend, 0);
 }
 
@@ -93,7 +145,7 @@ static void find_pieces(const fw_mechanism_line *line, int nline, const fw_verdi
     }
 }
 
-/* what is asked of ways that meet, without their pieces */
+/* what is asked of ways that meet, with the strips by which they give as made */
 static fw_status keep_shared(fw_arena *arena, const fw_verdict_shared *from,
                              const fw_verdict_shared **kept) {
     fw_verdict_shared *to = fw_arena_one(arena, fw_verdict_shared);
@@ -105,19 +157,22 @@ static fw_status keep_shared(fw_arena *arena, const fw_verdict_shared *from,
         struct fw_verdict_trunk *t = &to->trunk[i];
         const size_t ends = (size_t)t->n;
         FW_NEED(t->end = fw_arena_grow(arena, t->end, ends, ends, sizeof *t->end));
-        t->strip = NULL, t->nstrip = 0;
+        const size_t strips = (size_t)t->nstrip;
+        FW_NEED(t->strip = fw_arena_grow(arena, t->strip, strips, strips, sizeof *t->strip));
     }
     return FW_OK;
 }
 
-/* those that are known, as long as the device is: of their ways what they give alone */
+/* those that are known, as long as the device is: of their ways the strips alone */
 static fw_status keep_bases(fw_arena *arena, const fw_verdict_arm_end *end, int n,
                             fw_verdict_arm *arm) {
     for (int k = 0; k < n; k++) {
         if (!end[k].to->known) continue;
         fw_verdict_arm *to = fw_arena_grow(arena, end[k].to, 1, 1, sizeof *to);
         FW_NEED(to);
-        to->way = NULL, to->strip = NULL, to->nway = to->nstrip = 0;
+        const size_t strips = (size_t)to->nstrip;
+        to->way = NULL, to->nway = 0;
+        FW_NEED(to->strip = fw_arena_grow(arena, to->strip, strips, strips, sizeof *to->strip));
         int like = 0;
         while (like < k && !(end[like].to->known && end[like].to->shared == to->shared))
             like++;
@@ -200,13 +255,41 @@ void fw_verdict_bases_record(fw_verdict_bending *b, const fw_mechanism *m,
         const int j = m->hinge[k].pin;
         on[3 * k] = m->pin[j].stiffness_Nm_per_rad * now->angle_rad[j];
         on[3 * k + 1] = now->reaction_N[2 * j], on[3 * k + 2] = now->reaction_N[2 * j + 1];
+        for (int side = 0; side < 2; side++) {
+            const fw_verdict_arm *base = b->arm[2 * k + side].base;
+            if (base)
+                b->bases_gone =
+                    fmax(b->bases_gone, fw_verdict_arm_gone(b, &m->hinge[k], base, -on[3 * k],
+                                                            on + 3 * k + 1, &still));
+        }
     }
     b->bases_J =
         fmax(b->bases_J, fw_verdict_bases_J(m, b->arm, b->stiff_N, on, on + 3 * (size_t)m->nhinge));
 }
 
+/* ends that share their ways with this one, and it */
+static int sharing(const fw_mechanism *m, const fw_verdict_arm *arm, const fw_verdict_arm *base) {
+    int n = 0;
+    for (int i = 0; base->shared && i < 2 * m->nhinge; i++)
+        n += arm[i].base && arm[i].base->shared == base->shared;
+    return base->shared ? n : 1;
+}
+
+void fw_verdict_bases_add(const fw_mechanism *m, const fw_verdict_arm *arm, int hinge,
+                          double gives[9]) {
+    const double stiff_N = m->variant->material.youngs.value * m->variant->thickness_m;
+    for (int side = 0; arm && side < 2; side++) {
+        const fw_verdict_arm *base = arm[2 * hinge + side].base;
+        if (!base) continue;
+        const double *g = base->give,
+                     all[9] = {g[3], g[4], g[1], g[4], g[5], g[2], g[1], g[2], g[0]};
+        for (int i = 0; i < 9; i++)
+            gives[i] += sharing(m, arm, base) * all[i] / stiff_N;
+    }
+}
+
 void fw_verdict_bases_tell(const fw_mechanism *m, const fw_verdict_arm *arm,
-                           const fw_device_scene *scene, const char *share, const char *unit,
+                           const fw_device_scene *scene, const char *const share[4],
                            fw_diags *diags) {
     char way[32];
     const fw_verdict_arm *softest = NULL;
@@ -217,12 +300,28 @@ void fw_verdict_bases_tell(const fw_mechanism *m, const fw_verdict_arm *arm,
             softest = arm[i].base, at = m->hinge[i / 2].pin;
     if (!softest) return;
     fw_diag_warning(
-        diags, 740, m->device->revolute[at].place,
-        "bases, which the layout draws between hinges on the ground and the frame, are taken as "
-        "rigid, and in %s%s they may give by up to %s %s what the hinges give: what is probed may "
-        "move that much further, stiffnesses be as much less, and no band has it. The softest, at "
-        "%s%s, is %s um long up to the frame: move the ground hinges nearer to it, or let the "
-        "flexures be longer or thinner",
-        FW_NAMED("scene", scene->name), share, unit, FW_NAMED("hinge", m->pin[at].id),
+        diags, 510, m->device->revolute[at].place,
+        "bodies, and bases between hinges and the frame, are taken as rigid, and in %s%s they may "
+        "give by up to %s %s what the hinges give, bases by %s %s it: what is probed may move that "
+        "much further, and the bands allow for it. The softest base, at %s%s, which the layout "
+        "draws, is %s um long up to the frame. A leaf that runs straight to a side of the frame by "
+        "its "
+        "stated axis has a base in line with it, a wider anchor of <die> bends less, and longer or "
+        "thinner flexures ask less of it",
+        FW_NAMED("scene", scene->name), share[0], share[1], share[2], share[3],
+        FW_NAMED("hinge", m->pin[at].id),
         fw_number_text(way, sizeof way, 1e6 * softest->length_m, 3));
+}
+
+/* Of a device of which nothing is drawn nobody knows how its bodies bend. Test: test_effects.py, NotDrawn */
+fw_status fw_verdict_bending_name_rigid(fw_arena *arena, fw_verdict_variant_verdict *v) {
+    const fw_mechanism *m = v->mechanism;
+    fw_text list = fw_text_new(arena);
+    if (v->arm || v->nrequirement == 0 || v->corner) return FW_OK;
+    for (int b = 0; b < m->nbody; b++)
+        fw_text_printf(&list, "%s%s", b ? ", " : "", fw_text_name(m->body[b].id));
+    FW_TRY(fw_text_end(&list));
+    for (int k = 0; k < v->nrequirement; k++)
+        if (!v->requirement[k].why) v->requirement[k].rigid = list.data;
+    return FW_OK;
 }
