@@ -122,12 +122,15 @@ static const fw_xml_attribute_row revolute_rows[] = {
      .sentence =
          "The flexure that it is; stiffness, damping and limit then come from its geometry."},
     {"axis", TURN, .fallback = "chosen by the layout",
-     .sentence = "Direction of the flexure's bulge, from the x axis; the strip of a leaf lies "
-                 "across it. Left to the layout it may "
-                 "be turned away from its body, which makes another mechanism of a leg that is "
-                 "pulled or pressed: state it where "
-                 "that matters. Where nothing is drawn a is at "
-                 "its end on the right of that direction, and b at the one on the left."},
+     .sentence =
+         "Direction of the flexure's bulge, from the x axis; the strip of a leaf lies "
+         "across it. Left to the layout it may "
+         "be turned away from its body, which makes another mechanism of a leg that is "
+         "pulled or pressed: state it where "
+         "that matters. A leaf on the ground that runs straight to a side of the frame by it has "
+         "its base in line with it, far stiffer than one around the hinge. Where nothing is drawn "
+         "a is at "
+         "its end on the right of that direction, and b at the one on the left."},
     {"stop-min", TURNS, .fallback = "no stop",
      .sentence = "Below this angle of the joint a stop pushes back; needs stop-stiffness."},
     {"stop-max", TURNS, .fallback = "no stop",
