@@ -485,10 +485,11 @@ static fw_status find_leaves(const fw_layout_drawing *d, fw_layout_window_side *
 }
 
 /* something that stands on bases, or beside them, finds no room; what no mask draws at all (FW-D130) lacks in any drawing */
-static bool lacks_parts(const fw_layout_drawing *d) {
+static int lacking(const fw_layout_drawing *d) {
+    int n = 0;
     for (int i = 0; i < d->layout->nmissing; i++)
-        if (d->layout->missing[i].number != 130) return true;
-    return false;
+        n += d->layout->missing[i].number != 130;
+    return n;
 }
 
 static fw_status draw_device(fw_layout_drawing *d, fw_diags *diags, fw_status *status) {
@@ -502,8 +503,12 @@ static fw_status draw_device(fw_layout_drawing *d, fw_diags *diags, fw_status *s
     FW_TRY(find_leaves(d, side, &by_leaf));
     if (by_leaf) d->base_side = side;
     FW_TRY(draw_once(d, status));
-    if (by_leaf && (*status == FW_GEOMETRY || lacks_parts(d)))
+    const int lacks = by_leaf && *status == FW_OK ? lacking(d) : 0;
+    if (by_leaf && (*status == FW_GEOMETRY || lacks > 0)) {
         FW_TRY(draw_again(d, mark, NULL, &first, status));
+        if (lacks > 0 && (*status == FW_GEOMETRY || lacking(d) >= lacks))
+            FW_TRY(draw_again(d, mark, side, &first, status));
+    }
     if (*status == FW_GEOMETRY && any_stuck(d)) FW_TRY(find_sides(d, first.errors, side, &turned));
     if (turned) FW_TRY(draw_again(d, mark, side, &first, status));
     fw_diags_take(diags, &first);
