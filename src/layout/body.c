@@ -16,11 +16,6 @@ static bool has_plate(const fw_layout_drawing *d, int body) {
     return body >= 0 && !isnan(d->device->body[body].plate_width_m);
 }
 
-static const fw_layout_side *side_of(const fw_layout_drawing *d, int joint, int body) {
-    const fw_layout_hinge_plan *plan = &d->hinge[joint];
-    return &plan->side[plan->side[1].body == body];
-}
-
 /* One end of a bar: it starts inside the neck, crosses the neck's edges at a small angle and widens
    to its full width. Where that gentle slope does not reach the stated width, a steeper shoulder
    beyond the neck does, as gentle as leaves the bar its full width on the share of it that the
@@ -64,7 +59,7 @@ static fw_status close_bar(fw_layout_drawing *d, fw_geometry_vec2 w, fw_geometry
 static fw_status refuse_width(fw_layout_drawing *d, int body, int joint, double length_m,
                               double most_m) {
     const fw_device_body *b = &d->device->body[body];
-    const double neck_m = side_of(d, joint, body)->neck_end_m;
+    const double neck_m = fw_layout_side_of(d, joint, body)->neck_end_m;
     char wide[32], length[32], most[32];
     const char *label = fw_layout_body_label(d, body), *id = d->device->revolute[joint].id;
     FW_NEED(label);
@@ -110,7 +105,8 @@ static fw_status draw_spoke(fw_layout_drawing *d, int joint, const fw_layout_sid
    necks leave too little there, half-way between the necks. */
 static fw_status draw_link(fw_layout_drawing *d, int body, const int joint[2],
                            fw_geometry_contour *bar) {
-    const fw_layout_side *side[2] = {side_of(d, joint[0], body), side_of(d, joint[1], body)};
+    const fw_layout_side *side[2] = {fw_layout_side_of(d, joint[0], body),
+                                     fw_layout_side_of(d, joint[1], body)};
     fw_geometry_vec2 p[2 * EDGE], w = fw_layout_joint_point(d->device, joint[0]), far[3];
     double length = fw_norm(fw_sub(fw_layout_joint_point(d->device, joint[1]), w));
     double part[2] = {0.5 * length, 0.5 * length}, most[2];
@@ -150,7 +146,7 @@ static fw_status cut_discs(fw_layout_drawing *d, int body, const int *skip, int 
         if (own) continue;
         fw_geometry_contour disc;
         const bool its = h->lower == body || h->upper == body;
-        const fw_layout_side *side = its ? side_of(d, j, body) : NULL;
+        const fw_layout_side *side = its ? fw_layout_side_of(d, j, body) : NULL;
         const double radius = h->keep_out_m + (its ? side->form.wider_m : 0.0);
         FW_TRY(fw_layout_hinge_place(d->arena, side, h->centre, radius, &disc));
         if (!reaches(region, &disc, h->centre)) continue;
@@ -190,17 +186,17 @@ static fw_status bar_parts(fw_layout_drawing *d, int body, const int *joint, int
     for (int i = 0; i < njoint; i++) {
         fw_geometry_vec2 p = fw_layout_joint_point(d->device, joint[i]);
         hub = fw_add(hub, 1.0 / njoint, p);
-        half = side_of(d, joint[i], body)->half_width_m;
+        half = fw_layout_side_of(d, joint[i], body)->half_width_m;
     }
     if (njoint > 2 && body >= 0) hub = fw_layout_body_hub(d, body);
     if (njoint == 1 && body >= 0) hub = fw_v(d->device->body[body].x_m, d->device->body[body].y_m);
     if (njoint == 1 && body < 0) { /* the pedestal takes over before the frame */
-        const fw_layout_side *side = side_of(d, joint[0], body);
+        const fw_layout_side *side = fw_layout_side_of(d, joint[0], body);
         double begin = side->neck_end_m, cut = fw_layout_base_reach(d, joint[0]);
         hub = fw_add(hub, begin + fw_layout_rule.pedestal_reach * (cut - begin), side->direction);
     }
     for (int i = 0; i < njoint; i++) {
-        const fw_layout_side *side = side_of(d, joint[i], body);
+        const fw_layout_side *side = fw_layout_side_of(d, joint[i], body);
         double end = fw_norm(fw_sub(hub, fw_layout_joint_point(d->device, joint[i])));
         FW_TRY(draw_spoke(d, joint[i], side, half, end, &bar));
         FW_TRY(cut_free(d, body, &bar, &joint[i], 1, out));
@@ -312,7 +308,7 @@ static fw_status unite_all(fw_layout_drawing *d, const work *w) {
         FW_TRY(bar_parts(d, w->body, w->joint, w->njoint, all));
     const int head = all->count;
     for (int i = 0; i < w->njoint; i++)
-        all->item[all->count++] = side_of(d, w->joint[i], w->body)->head;
+        all->item[all->count++] = fw_layout_side_of(d, w->joint[i], w->body)->head;
     for (int i = 0; i < w->nextra; i++)
         all->item[all->count++] = w->extra[i];
     if (fw_layout_has_shapes(d->device, w->body))
@@ -434,7 +430,7 @@ static fw_status quiet_attempt(fw_layout_drawing *d, const work *w, double *soun
 
 static fw_status choose_heads(fw_layout_drawing *d, const work *w, const int *choice) {
     for (int i = 0; i < w->njoint; i++)
-        if (side_of(d, w->joint[i], w->body)->attempt != choice[i])
+        if (fw_layout_side_of(d, w->joint[i], w->body)->attempt != choice[i])
             FW_TRY(fw_layout_head_draw(d, w->joint[i], w->body, choice[i]));
     return FW_OK;
 }

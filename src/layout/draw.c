@@ -105,13 +105,22 @@ bool fw_layout_own_bases(const fw_layout_drawing *d) {
     return d->base_side || fw_layout_body_joints(d->device, FW_GROUND, NULL, 0) > 2;
 }
 
+const fw_layout_side *fw_layout_side_of(const fw_layout_drawing *d, int joint, int body) {
+    const fw_layout_hinge_plan *plan = &d->hinge[joint];
+    return &plan->side[plan->side[1].body == body];
+}
+
+static bool is_on_ground(const fw_device_revolute *j) {
+    return j->body_a == FW_GROUND || j->body_b == FW_GROUND;
+}
+
 int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint) {
     const fw_device *device = d->device;
     if (body != FW_GROUND) return body;
     if (!fw_layout_own_bases(d)) return device->nbody;
     int n = 0;
     for (int j = 0; j < joint; j++)
-        n += device->revolute[j].body_a == FW_GROUND || device->revolute[j].body_b == FW_GROUND;
+        n += is_on_ground(&device->revolute[j]);
     return device->nbody + n;
 }
 
@@ -150,11 +159,11 @@ static fw_layout_window_side side_along(fw_geometry_vec2 way) {
 
 static bool leaf_is_stated(const fw_device *device, const fw_device_revolute *j) {
     const fw_device_flexure_kind kind = device->flexure[j->flexure].kind;
-    return (j->body_a == FW_GROUND || j->body_b == FW_GROUND) && !isnan(j->axis_rad) &&
+    return is_on_ground(j) && !isnan(j->axis_rad) &&
            (kind == FW_FLEXURE_LEAF || kind == FW_FLEXURE_PATH);
 }
 
-bool fw_layout_leaves_lead(const fw_device *device) {
+bool fw_layout_has_stated_leaf(const fw_device *device) {
     for (int j = 0; j < device->nrevolute; j++)
         if (leaf_is_stated(device, &device->revolute[j])) return true;
     return false;
@@ -163,8 +172,7 @@ bool fw_layout_leaves_lead(const fw_device *device) {
 /* does the leaf run straight to a side of the window, from its hinge to the end that the ground holds? */
 static bool leaf_leads(const fw_layout_drawing *d, int joint, fw_layout_window_side *to) {
     const double straight = 0.97; /* cosine of 14 degrees */
-    const fw_layout_hinge_plan *plan = &d->hinge[joint];
-    const fw_layout_local *own = &plan->side[plan->side[1].body == FW_GROUND].local;
+    const fw_layout_local *own = &fw_layout_side_of(d, joint, FW_GROUND)->local;
     if (!leaf_is_stated(d->device, &d->device->revolute[joint])) return false;
     const fw_geometry_vec2 way = fw_sub(fw_layout_local_point(own, fw_v(0.0, 1.0)),
                                         fw_layout_local_point(own, fw_v(0.0, 0.0)));
@@ -180,9 +188,8 @@ bool fw_layout_sides_by_leaf(const fw_layout_drawing *d, fw_layout_window_side *
     bool any = both; /* a bar between both would hold them aside of their lines */
     if (n == 2 && !both) return false;
     for (int j = 0; j < d->device->nrevolute; j++) {
-        const fw_device_revolute *r = &d->device->revolute[j];
-        if (r->body_a != FW_GROUND && r->body_b != FW_GROUND) continue;
-        side[j] = side_along(d->hinge[j].side[d->hinge[j].side[1].body == FW_GROUND].direction);
+        if (!is_on_ground(&d->device->revolute[j])) continue;
+        side[j] = side_along(fw_layout_side_of(d, j, FW_GROUND)->direction);
         if (!leaf_leads(d, j, &to)) continue;
         any = any || to != side[j];
         side[j] = to;
@@ -191,8 +198,7 @@ bool fw_layout_sides_by_leaf(const fw_layout_drawing *d, fw_layout_window_side *
 }
 
 double fw_layout_base_reach(const fw_layout_drawing *d, int joint) {
-    const fw_layout_hinge_plan *plan = &d->hinge[joint];
-    fw_geometry_vec2 out = plan->side[plan->side[1].body == FW_GROUND].direction;
+    fw_geometry_vec2 out = fw_layout_side_of(d, joint, FW_GROUND)->direction;
     fw_geometry_vec2 w = fw_layout_joint_point(d->device, joint);
     const fw_geometry_box *b = &d->layout->window;
     double x = out.x > 0.0 ? b->x1 - w.x : w.x - b->x0, y = out.y > 0.0 ? b->y1 - w.y : w.y - b->y0;

@@ -237,6 +237,7 @@ typedef struct fw_layout_drawing {
 /* index into raw, plain and held; the joint tells bases apart */
 bool fw_layout_own_bases(const fw_layout_drawing *d); /* one for each ground hinge */
 int fw_layout_drawing_slot(const fw_layout_drawing *d, int body, int joint);
+const fw_layout_side *fw_layout_side_of(const fw_layout_drawing *d, int joint, int body);
 /* held, else plain */
 const fw_geometry_contour *fw_layout_drawing_outline(const fw_layout_drawing *d, int slot);
 const char *fw_layout_body_label(fw_layout_drawing *d, int body); /* NULL: out of memory */
@@ -261,9 +262,9 @@ fw_status fw_layout_strip_draw(fw_layout_drawing *d, fw_layout_window_side side,
 fw_status fw_layout_attachment_add(fw_layout_drawing *d, const fw_layout_attachment *item);
 
 /* side (njoint): to where a base of its own leaves each hinge; d: its hinges are planned, and stand as they would without
-   that; false: none of them leaves by its leaf. leaves_lead: may one? */
+   that; false: none of them leaves by its leaf, as where no leaf on the ground has a stated axis */
 bool fw_layout_sides_by_leaf(const fw_layout_drawing *d, fw_layout_window_side *side);
-bool fw_layout_leaves_lead(const fw_device *device);
+bool fw_layout_has_stated_leaf(const fw_device *device);
 /* of a body with more than two hinges */
 fw_geometry_vec2 fw_layout_body_hub(const fw_layout_drawing *d, int body);
 fw_status fw_layout_hinges_plan(fw_layout_drawing *d);

@@ -47,8 +47,7 @@ typedef struct foot {
 
 static foot choose_foot(const fw_layout_drawing *d, const int *joint, int n) {
     foot f = {{0.0, 0.0}, {0.0, 0.0}, 0.0, 0.0, 0.0};
-    const fw_layout_hinge_plan *plan = &d->hinge[joint[0]];
-    const fw_layout_side *side = &plan->side[plan->side[1].body == FW_GROUND];
+    const fw_layout_side *side = fw_layout_side_of(d, joint[0], FW_GROUND);
     for (int i = 0; i < n; i++)
         f.middle = fw_add(f.middle, 1.0 / n, fw_layout_joint_point(d->device, joint[i]));
     f.half = side->half_width_m;

@@ -348,11 +348,11 @@ static fw_status name_width(const fw_layout_drawing *refused) {
     return FW_OK;
 }
 
-/* ---- to which side a base leaves its hinge ----
-   A base of one ground hinge leaves it in line with its leaf (draw.c), else away from the mean of all hinges. In a long row that is along the row, through
-   the places of its neighbours. Where a base cannot be drawn so, the device is drawn anew: all bases leave towards the
-   side of the window that is nearest to their hinge, and one that cannot be drawn so either towards the next one. What
-   could be drawn in the first place stays as it is. docs/theory/layout.md, section 5; decision 213; test_layout_hubs.c: rows */
+/* ---- the sides to which bases leave, where these cannot be drawn ----
+   A base of one ground hinge leaves it in line with its leaf (draw.c), else away from the mean of all hinges. In a long row
+   that is along the row, through the places of its neighbours. Where a base cannot be drawn so, the device is drawn anew: all
+   bases leave towards the side of the window that is nearest to their hinge, and one that cannot be drawn so either towards
+   the next one. What could be drawn in the first place stays as it is. docs/theory/layout.md, section 5; decision 213; test_layout_hubs.c: rows */
 
 enum { SIDES = 4 };
 
@@ -368,8 +368,7 @@ static void order_sides(const fw_layout_drawing *d, int joint, fw_layout_window_
     const fw_device_revolute *j = &d->device->revolute[joint];
     const int body = j->body_a == FW_GROUND ? j->body_b : j->body_a;
     const fw_geometry_vec2 here = fw_layout_joint_point(d->device, joint);
-    const fw_layout_hinge_plan *plan = &d->hinge[joint];
-    const fw_geometry_vec2 held = plan->side[plan->side[1].body == body].direction;
+    const fw_geometry_vec2 held = fw_layout_side_of(d, joint, body)->direction;
     const double same_m = 1e-8; /* of places on the grid */
     fw_layout_sides_by_distance(d->layout, here, order);
     double far[SIDES];
@@ -469,11 +468,11 @@ static fw_status draw_again(fw_layout_drawing *d, fw_mark mark, const fw_layout_
 
 /* by a plan of the hinges as they stand without that, without a word */
 static fw_status find_leaves(const fw_layout_drawing *d, fw_layout_window_side *side, bool *any) {
-    if (!fw_layout_leaves_lead(d->device)) return FW_OK;
+    if (!fw_layout_has_stated_leaf(d->device)) return FW_OK;
     fw_arena *scratch = fw_arena_part(d->arena, 0);
-    fw_diags unsaid = fw_diags_new(scratch);
     fw_layout_drawing plan;
     FW_NEED(scratch);
+    fw_diags unsaid = fw_diags_new(scratch);
     fw_status status = new_drawing(scratch, d->device, &unsaid, &plan);
     plan.said = true;
     if (status == FW_OK) status = start(&plan);

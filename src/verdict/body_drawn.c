@@ -281,10 +281,11 @@ void fw_verdict_bases_add(const fw_mechanism *m, const fw_verdict_arm *arm, int 
     for (int side = 0; arm && side < 2; side++) {
         const fw_verdict_arm *base = arm[2 * hinge + side].base;
         if (!base) continue;
+        const int ends = sharing(m, arm, base);
         const double *g = base->give,
                      all[9] = {g[3], g[4], g[1], g[4], g[5], g[2], g[1], g[2], g[0]};
         for (int i = 0; i < 9; i++)
-            gives[i] += sharing(m, arm, base) * all[i] / stiff_N;
+            gives[i] += ends * all[i] / stiff_N;
     }
 }
 
@@ -305,9 +306,9 @@ void fw_verdict_bases_tell(const fw_mechanism *m, const fw_verdict_arm *arm,
         "give by up to %s %s what the hinges give, bases by %s %s it: what is probed may move that "
         "much further, and the bands allow for it. The softest base, at %s%s, which the layout "
         "draws, is %s um long up to the frame. A leaf that runs straight to a side of the frame by "
-        "its "
-        "stated axis has a base in line with it, a wider anchor of <die> bends less, and longer or "
-        "thinner flexures ask less of it",
+        "its stated axis has a base in line with it, a wider anchor of <die> bends less, and "
+        "longer "
+        "or thinner flexures ask less of it",
         FW_NAMED("scene", scene->name), share[0], share[1], share[2], share[3],
         FW_NAMED("hinge", m->pin[at].id),
         fw_number_text(way, sizeof way, 1e6 * softest->length_m, 3));

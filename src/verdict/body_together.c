@@ -303,21 +303,19 @@ static void softer_of_body(const fw_mechanism *m, int body, const fw_mechanism_l
         }
 }
 
-static fw_status bases_made(fw_arena *arena, const fw_verdict_arm *arm, int n, double edge_m,
-                            fw_verdict_arm *made) {
+/* of each that there is (n): what it gives; arms that share their ways go on sharing them */
+static fw_status all_made(fw_arena *arena, const fw_verdict_arm **from, int n, double edge_m,
+                          fw_verdict_arm **to) {
     for (int i = 0; i < n; i++) {
-        fw_verdict_arm *to;
         int like = 0;
-        if (!arm[i].base) continue;
-        FW_NEED(to = fw_arena_one(arena, fw_verdict_arm));
-        *to = *arm[i].base, made[i].base = to;
-        arm_made(arm[i].base, edge_m, to);
-        while (like < i && !(arm[like].base && arm[like].base->shared == to->shared))
+        if (!from[i]) continue;
+        arm_made(from[i], edge_m, to[i]);
+        while (like < i && !(from[like] && from[like]->shared == from[i]->shared))
             like++;
-        if (to->shared && like < i)
-            to->shared = made[like].base->shared;
-        else if (to->shared)
-            FW_TRY(shared_made(arena, to->shared, edge_m, &to->shared));
+        if (like < i)
+            to[i]->shared = to[like]->shared;
+        else if (from[i]->shared)
+            FW_TRY(shared_made(arena, from[i]->shared, edge_m, &to[i]->shared));
     }
     return FW_OK;
 }
@@ -333,19 +331,21 @@ fw_status fw_verdict_arms_made(fw_arena *arena, const fw_mechanism *m, const fw_
     const int n = 2 * m->nhinge + nload;
     FW_NEED(to = fw_arena_grow(arena, arm, (size_t)n, (size_t)n, sizeof *to));
     *made = to;
-    for (int i = 0; i < n; i++) {
-        int like = 0;
-        while (like < i && arm[like].shared != arm[i].shared)
-            like++;
-        arm_made(&arm[i], edge_m, &to[i]);
-        if (like < i)
-            to[i].shared = to[like].shared;
-        else if (arm[i].shared)
-            FW_TRY(shared_made(arena, arm[i].shared, edge_m, &to[i].shared));
+    const int ends = 2 * m->nhinge;
+    const fw_verdict_arm **from = fw_arena_array(arena, const fw_verdict_arm *, (size_t)(n + ends));
+    fw_verdict_arm **all = fw_arena_array(arena, fw_verdict_arm *, (size_t)(n + ends));
+    FW_NEED(from && all ? all : NULL);
+    for (int i = 0; i < n; i++)
+        from[i] = &arm[i], all[i] = &to[i];
+    for (int i = 0; i < ends; i++) {
+        if (!(from[n + i] = arm[i].base)) continue;
+        FW_NEED(all[n + i] = fw_arena_grow(arena, arm[i].base, 1, 1, sizeof *to));
+        to[i].base = all[n + i];
     }
+    FW_TRY(all_made(arena, from, n + ends, edge_m, all));
     for (int b = 0; b < m->nbody; b++)
         softer_of_body(m, b, end, nload, to);
-    return bases_made(arena, arm, 2 * m->nhinge, edge_m, to);
+    return FW_OK;
 }
 
 /* ---- a body as beams with all that acts on it where it does ---- */
