@@ -104,6 +104,7 @@ typedef struct fw_dynamics_motion_options {
                                const struct fw_statics_level_step *step, double *share);
     bool within_limits; /* where hinges turn beyond their elastic limit auto takes no better model
                             of them: a verdict does not need it */
+    bool beams_anyway;  /* auto takes exact beams also where it is not known what they change */
     fw_dynamics_observer observe; /* NULL: nobody looks */
     fw_dynamics_glance glance;    /* of the same context; NULL: all instants are wanted */
     fw_dynamics_tracer trace;     /* NULL: nobody wants the pieces */

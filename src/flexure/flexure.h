@@ -90,6 +90,8 @@ typedef struct fw_flexure_result {
     /* K of what the peak strain per radian was found with over K: of an isotropic strip with what the ends lose
        (13a), of a crystal's path without what straight roots give more; else 1 */
     double ends_stiffer;
+    double ends_lost; /* share by which what the ends lose makes an isotropic strip stiffer, be it in K or not; of a
+                         crystal 0 */
     double concentration;      /* strain_per_rad over that of the beam, t/2 over length and roots */
     double fibre;              /* the same between the roots: of curvature and depth, no fillet */
     double youngs_Pa, poisson; /* effective: of this arc; nu out of the plane */

@@ -71,6 +71,14 @@ static void uniform_compliance(const fw_flexure_shape *f, const fw_flexure_input
     C[0][1] = C[1][0] = C[0][2] = C[2][0] = C[1][2] = C[2][1] = 0;
 }
 
+/* what both ends lose of an isotropic arc, m, and the share of its stiffness that this is */
+static double ends_of_both(const fw_flexure_shape *f, const fw_flexure_input *in, double bow,
+                           fw_flexure_result *out) {
+    const double ends = 2 * fw_flexure_end_loss_m(in, bow, f->root_block_m);
+    out->ends_lost = ends / (f->whole_m - ends);
+    return ends;
+}
+
 /* circular arc of centre-line radius r, half-angle a, width t, depth h, L = 2 a r:
      K = 1/C_th, kx = 1/C_xx, ky = 1/C_yy of the above
      eps/rad = t/(2 (L + 2 dL)) max(Kt (1 + t/3r) G, inside), G of fw_flexure_root_peak,
@@ -90,11 +98,11 @@ static void printed_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
     uniform_compliance(f, in, depth.softness, out->compliance);
     out->compliance[0][0] = 1 / out->stiffness_Nm_per_rad;
     const fw_flexure_root_case root = root_case(f, in, in->poisson, depth.bow, 1);
-    double ends = 2 * fw_flexure_end_loss_m(in, depth.bow, f->root_block_m);
-    out->ends_stiffer = f->whole_m / (f->whole_m - ends);
+    double ends = ends_of_both(f, in, depth.bow, out);
+    out->ends_stiffer = 1 + out->ends_lost;
     fw_flexure_peak_strain(f, 0.5 * t / (f->whole_m - ends), fibre_factor(f, &depth),
                            fw_flexure_root_peak(&root, NULL), out);
-    out->strain_fit_per_rad /= out->ends_stiffer; /* the fit has no ends */
+    out->strain_fit_per_rad /= 1 + out->ends_lost; /* the fit has no ends */
 }
 
 /* ---- arcs of a crystal ---- */
@@ -284,6 +292,9 @@ static void elastic_arc(const fw_flexure_shape *f, const fw_flexure_input *in,
     fw_flexure_peak_strain(f, 0.5 * t / (o.weight * in->youngs_Pa), stress_factor(f, in, &depth),
                            root_peak(f, in, m.poisson, depth.bow), out);
     out->strain_fit_per_rad *= fibre_factor(f, &depth) / out->fibre;
+    if (in->crystal.known) return;
+    (void)ends_of_both(f, in, depth.bow, out);
+    out->strain_fit_per_rad /= 1 + out->ends_lost; /* the fit has no ends */
 }
 
 void fw_flexure_csfh(const fw_flexure_shape *f, const fw_flexure_input *in,
@@ -350,9 +361,11 @@ void fw_flexure_leaf(const fw_flexure_shape *f, const fw_flexure_input *in,
     out->compliance[2][2] = L / (E * A);
     const fw_flexure_root_case root = {
         .width_m = t, .fillet_m = f->fillet_m, .depth_m = h, .poisson = nu, .bow = 1, .end = 1};
-    double apart = k->known ? 0 : 2 * fw_flexure_end_loss_m(in, 1, f->root_block_m);
+    const double both = in->crystal.known ? 0 : 2 * fw_flexure_end_loss_m(in, 1, f->root_block_m);
+    const double apart = k->known ? 0 : both;
     out->ends_stiffer = whole / (whole - apart);
+    out->ends_lost = both / (whole - apart);
     fw_flexure_peak_strain(f, 0.5 * t / (whole - apart - more) * (k->known ? E / in->youngs_Pa : 1),
                            1, fw_flexure_root_peak(&root, &in->crystal), out);
-    out->strain_fit_per_rad /= out->ends_stiffer; /* the fit has no ends */
+    out->strain_fit_per_rad /= 1 + out->ends_lost; /* the fit has no ends */
 }

@@ -529,22 +529,21 @@ static double root_less_loss(const fw_flexure_course *p, const fw_flexure_path_s
     return sum * m->youngs_Pa;
 }
 
-/* what of its flexibility was not in its peak strain per radian: what isotropic ends take off, what straight
-   roots of a crystal give more */
-static double ends_of_strain(const fw_flexure_course *p, const fw_flexure_input *in,
-                             const fw_flexure_path_stuff *m) {
+/* of the flexibility: what isotropic ends take off it (lost), and what straight roots of a crystal, and of all that is
+   counted with its ends, give more (more) */
+static void ends_of_strain(const fw_flexure_course *p, const fw_flexure_input *in,
+                           const fw_flexure_path_stuff *m, double *lost, double *more) {
     fw_flexure_input own = *in;
     fw_flexure_path_stuff with = *m;
-    double sum = 0;
     own.ends = true;
     with.elastic = fw_flexure_elastic_of(&own);
+    *lost = *more = 0;
     for (int end = 0; end < 2; end++) {
         fw_flexure_path_section at;
-        double lost;
-        fw_flexure_path_end_loss(p, &with, end, &at, &lost);
-        sum += (m->elastic.known ? p->straight_more_m[end] : lost) * at.bend_per_Nm2;
+        double one;
+        fw_flexure_path_end_loss(p, &with, end, &at, &one);
+        *lost += one * at.bend_per_Nm2, *more += p->straight_more_m[end] * at.bend_per_Nm2;
     }
-    return sum;
 }
 
 /* Strip of any centre line P(s), width t(s), local radius R, neutral radius R - e (Winkler), depth
@@ -585,7 +584,10 @@ void fw_flexure_path(const fw_flexure_shape *f, const fw_flexure_input *in,
     double without[SUMS], other[2];
     measure(&p, &flat, other, without);
     out->depth_factor = without[W1] / (in->depth_m * sum[W1]);
-    out->ends_stiffer = sum[W1] / (sum[W1] - ends_of_strain(&p, in, &m));
+    double lost, more;
+    ends_of_strain(&p, in, &m, &lost, &more);
+    out->ends_stiffer = sum[W1] / (sum[W1] - (m.elastic.known ? more : lost));
+    out->ends_lost = in->crystal.known ? 0 : lost / (sum[W1] - (m.elastic.known ? 0 : lost));
     out->strain_per_rad = peak(&p, &m, in, out, &fit) / sum[W1] * out->ends_stiffer;
     out->strain_fit_per_rad = fit / sum[W1];
 }

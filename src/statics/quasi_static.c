@@ -293,7 +293,12 @@ static fw_status move(fw_arena *arena, const fw_mechanism *mechanism, const fw_d
                                          motion);
 }
 
-static bool beyond_limits(const fw_mechanism *m, const fw_dynamics_motion *x) {
+/* A hinge is beyond its limit, so that a verdict needs no better level of hinges; not where that may move otherwise */
+static bool decided(const fw_mechanism *m, const fw_dynamics_motion *x,
+                    const fw_statics_level_step *step, const fw_dynamics_motion_options *o) {
+    const bool unknown = o->beams_anyway && step && step->unknown;
+    if (!o->within_limits || (!x->ended && (unknown || fw_statics_level_far_apart(step))))
+        return false;
     for (int k = 0; k < m->nhinge; k++)
         if (fabs(x->peak[m->hinge[k].pin].angle_rad) > m->hinge[k].closed_form.limit_angle_rad)
             return true;
@@ -476,17 +481,7 @@ static fw_status level_of(fw_arena *arena, const fw_mechanism *m, const fw_devic
     return FW_OK;
 }
 
-bool fw_statics_takes_hold(const fw_mechanism *m, const fw_device_scene *scene,
-                           const fw_dynamics_motion *x, long events) {
-    bool may = scene && (scene->ntendon > 0 || scene->ncontact > 0);
-    for (int i = 0; i < m->nspring; i++)
-        may = may || m->spring[i].cable;
-    for (int i = 0; i < m->npin; i++)
-        may = may || m->pin[i].stop_stiffness_Nm_per_rad > 0;
-    return may && x->stats.events >= events && !x->loads->quasi_static;
-}
-
-/* exact beams cost some 10 us each: not by itself where there would be very many */
+/* exact beams cost 0.5 to 10 us each: not by itself where there would be very many */
 static fw_status too_many_beams(fw_arena *arena, const fw_mechanism *m,
                                 const fw_dynamics_motion_options *options,
                                 const fw_statics_level_step *step,
@@ -563,8 +558,11 @@ fw_status fw_statics_move_scene(fw_arena *arena, const fw_mechanism *mechanism,
         if (tried) accuracy = stated;
         if (higher || tried) fw_diags_take(diags, &own);
         FW_TRY(with_level(arena, found, step, accuracy, asked, motion));
-        if (options->within_limits && beyond_limits(mechanism, found)) return FW_OK;
-        if (!fw_statics_level_climb(step, accuracy, asked, &o.effects)) return FW_OK;
+        if (decided(mechanism, found, step, options) ||
+            (!fw_statics_level_climb(step, accuracy, asked, &o.effects) &&
+             !(options->beams_anyway &&
+               fw_statics_level_elsewhere(mechanism, step, asked, &o.effects))))
+            return FW_OK;
         bool too_many;
         FW_TRY(too_many_beams(arena, mechanism, options, step, motion, &too_many));
         if (too_many) return FW_OK;

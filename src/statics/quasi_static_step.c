@@ -569,3 +569,15 @@ fw_status fw_statics_stressed_way(fw_arena *arena, const fw_mechanism *m,
         .name = "(none)", .duration_s = 1, .stress = scene->stress, .nstress = scene->nstress};
     return way_of(arena, m, &stressed, way, known);
 }
+
+/* ---- does anything take hold while it moves ---- */
+
+bool fw_statics_takes_hold(const fw_mechanism *m, const fw_device_scene *scene,
+                           const fw_dynamics_motion *x, long events) {
+    bool may = scene && (scene->ntendon > 0 || scene->ncontact > 0);
+    for (int i = 0; i < m->nspring; i++)
+        may = may || m->spring[i].cable;
+    for (int i = 0; i < m->npin; i++)
+        may = may || m->pin[i].stop_stiffness_Nm_per_rad > 0;
+    return may && x->stats.events >= events && !x->loads->quasi_static;
+}

@@ -335,9 +335,8 @@ static bool may_rest_elsewhere(const fw_mechanism *m, const fw_statics_level_ste
     return may;
 }
 
-/* *choice then asks for them, from the start */
-static bool elsewhere(const fw_mechanism *m, const fw_statics_level_step *step,
-                      const fw_effect_choice *asked, fw_effect_choice *choice) {
+bool fw_statics_level_elsewhere(const fw_mechanism *m, const fw_statics_level_step *step,
+                                const fw_effect_choice *asked, fw_effect_choice *choice) {
     if (!may_rest_elsewhere(m, step) || !fw_statics_level_may_go_on(asked, choice)) return false;
     choice->hinge = FW_HINGE_ELASTICA, choice->elsewhere = true;
     return true;
@@ -393,7 +392,8 @@ fw_status fw_statics_solve(fw_arena *arena, const fw_mechanism *mechanism,
         if (tried) accuracy = stated, fw_diags_take(diags, &own);
         FW_TRY(with_level(arena, found, step, accuracy, options, statics));
         if (fw_statics_level_climb(step, accuracy, &options->effects, &choice)) continue;
-        if (!elsewhere(mechanism, step, &options->effects, &choice)) return FW_OK;
+        if (!fw_statics_level_elsewhere(mechanism, step, &options->effects, &choice))
+            return FW_OK;
     }
 }
 

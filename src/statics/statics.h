@@ -402,6 +402,9 @@ static const double fw_statics_level_rings_most = 0.029;
    did. step may be NULL. Test: judge.examples bistable-* */
 static const double fw_statics_level_bounds = 0.25;
 bool fw_statics_level_far_apart(const fw_statics_level_step *step);
+/* exact beams may rest, or move, elsewhere than closed forms; true: *choice asks for them, from the start */
+bool fw_statics_level_elsewhere(const fw_mechanism *m, const fw_statics_level_step *step,
+                                const fw_effect_choice *asked, fw_effect_choice *choice);
 /* of the largest strain what it changes, once strains are there: infinite where one is not known, NaN where one was not computed.
    largest: of the level used */
 double fw_statics_level_strains(const fw_statics_level_step *step, int nhinge, double *largest);

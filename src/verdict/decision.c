@@ -72,8 +72,7 @@ bool fw_verdict_governs(const fw_verdict_hinge_verdict *h, const fw_verdict_hing
    n, and of the same m. It pays where all undecided hinges may then be accepted, or one of them rejected.
    Test: test_closer.c. */
 
-/* numbers that are known better than this decide nothing */
-static const double fw_known = 1e-5;
+static const double fw_known = 1e-5; /* numbers that are known better decide nothing */
 const double fw_verdict_tightest = 1e-6;
 
 typedef struct reach { /* lowest upper end and highest lower end that a band may come to have */
@@ -126,9 +125,10 @@ fw_verdict_options fw_verdict_tighter(const fw_verdict_options *options,
                                       fw_verdict_refinement refinement) {
     fw_verdict_options tight = *options;
     double asked = options->motion.accuracy > 0 ? options->motion.accuracy : 1e-3;
-    tight.motion.accuracy = fmin(asked, fw_verdict_tightest);
-    tight.motion.rtol = 0.0;
-    if (refinement == FW_REFINE_HINGES) tight.motion.hinge_accuracy = asked;
+    tight.motion.beams_anyway = refinement != FW_REFINE_NUMBERS;
+    if (tight.motion.beams_anyway) tight.motion.hinge_accuracy = asked;
+    if (refinement == FW_REFINE_BEAMS) return tight;
+    tight.motion.accuracy = fmin(asked, fw_verdict_tightest), tight.motion.rtol = 0.0;
     return tight;
 }
 

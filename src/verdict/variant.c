@@ -256,7 +256,7 @@ static void warn_ended(const fw_device_scene *scene, const fw_dynamics_motion *m
    shown, and neither for trials, first looks and corners. */
 static const double fw_hinges_good_enough = 0.03, fw_hinges_good = 0.01;
 /* and exact beams only where they take a second, of an undecided device ten; who wants to wait longer asks for them */
-static const long fw_most_beams = 100000, fw_most_beams_undecided = 1000000;
+static const long fw_most_beams = 100000, fw_most_beams_undecided = 4000000;
 /* Evaluations after which a motion far beyond what hinges bear is followed no further, some seconds; of a trial some
    tenths of one. A scene of a device that works takes some thousand. */
 static const long fw_hopeless_rhs = 300000, fw_hopeless_trial_rhs = 20000;

@@ -376,13 +376,14 @@ typedef struct fw_verdict_parameter_advice {
     bool ended; /* before the search was done */
 } fw_verdict_parameter_advice;
 
-/* what is computed once more of a device that is undecided */
+/* what is computed once more of a device that is undecided, in this order */
 typedef enum fw_verdict_refinement {
     FW_REFINE_NOTHING,
+    FW_REFINE_BEAMS,   /* hinges as exact beams, of which it is not known what they change */
     FW_REFINE_NUMBERS, /* tighter numbers alone */
     FW_REFINE_HINGES   /* those, and a better model of the hinges */
 } fw_verdict_refinement;
-enum { FW_VERDICT_LOOKS = 3 };
+enum { FW_VERDICT_LOOKS = 4 };
 
 /* the numbers of the drawn device, as they were first computed or more closely where that could decide it */
 typedef struct fw_verdict_computed {
@@ -402,8 +403,7 @@ typedef struct fw_verdict {
     double failure_probability; /* of the worst variant; NaN: not known */
     double accuracy_wanted, accuracy_estimated;
     /* largest sum of bounds that a scene leaves out by itself (auto); it is part of the estimate */
-    bool
-        soft_bodies; /* bounded: what plain ways gave was too much not to be counted, and all was done again */
+    bool soft_bodies; /* bounded: plain ways gave too much not to be counted; all was done again */
     double accuracy_left_out;
     fw_verdict_proposal *proposal; /* (nproposal) of what is not accepted, the least change first */
     int nproposal;

@@ -331,16 +331,13 @@ static fw_status take_inputs(fw_arena *arena, const fw_device *device, const fw_
     return FW_OK;
 }
 
-/* better hinges come with tighter numbers */
-static bool goes_further(fw_verdict_refinement refinement, fw_verdict_refinement last) {
-    switch (last) {
-    case FW_REFINE_NOTHING:
-        return refinement != FW_REFINE_NOTHING;
-    case FW_REFINE_NUMBERS:
-        return refinement == FW_REFINE_HINGES;
-    case FW_REFINE_HINGES:
-        break;
-    }
+/* nobody knows what exact beams change */
+static bool beams_untried(const fw_verdict *verdict) {
+    for (int i = 0; i < verdict->nvariant; i++)
+        for (int k = 0; k < verdict->variant[i].nreason; k++) {
+            const fw_verdict_reason *r = &verdict->variant[i].reason[k];
+            if (r->number == 293 && r->decision == FW_INCONCLUSIVE) return true;
+        }
     return false;
 }
 
@@ -352,16 +349,18 @@ static bool all_in_vain(const fw_verdict *verdict, double times) {
 
 /* of hinges, requirements and what tips, whichever goes further; where no tolerance makes numbers better only better hinges,
    if those are not lost in the numbers */
-static fw_verdict_refinement refinement_of(const fw_verdict *verdict) {
+static fw_verdict_refinement refinement_of(const fw_verdict *verdict, fw_verdict_refinement last) {
+    if (last < FW_REFINE_BEAMS && beams_untried(verdict)) return FW_REFINE_BEAMS;
     fw_verdict_refinement most = fw_verdict_refinement_of(verdict->hinge, verdict->nhinge);
     for (int i = 0; i < verdict->nvariant; i++) {
         const fw_verdict_variant_verdict *v = &verdict->variant[i];
         const fw_verdict_refinement also =
             fw_verdict_requirements_refinement(v->requirement, v->nrequirement);
-        if (goes_further(also, most)) most = also;
+        if (also > most) most = also;
         if (most == FW_REFINE_NOTHING && fw_verdict_across_open(v)) most = FW_REFINE_NUMBERS;
     }
     if (all_in_vain(verdict, FW_DYNAMICS_VAIN)) return FW_REFINE_NOTHING;
+    if (last == FW_REFINE_BEAMS && most == FW_REFINE_NUMBERS) return FW_REFINE_HINGES;
     return most == FW_REFINE_NUMBERS && all_in_vain(verdict, 1) ? FW_REFINE_HINGES : most;
 }
 
@@ -440,8 +439,8 @@ fw_status fw_verdict_run(fw_arena *arena, const fw_device *device, const fw_verd
     for (fw_verdict_refinement last = FW_REFINE_NOTHING;
          verdict->decision == FW_INCONCLUSIVE && !options->at_a_glance &&
          !fw_verdict_no_number_helps(verdict, &vain);) {
-        fw_verdict_refinement refinement = refinement_of(verdict);
-        if (!goes_further(refinement, last)) break;
+        fw_verdict_refinement refinement = refinement_of(verdict, last);
+        if (refinement <= last) break; /* what comes first costs the least */
         last = refinement;
         fw_verdict_options tight = fw_verdict_tighter(options, refinement);
         fw_diags again = fw_diags_new(arena); /* the same warnings a second time */
