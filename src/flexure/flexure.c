@@ -260,11 +260,9 @@ static end_taken taken_of(const fw_flexure_shape *f, const fw_flexure_input *in,
    root law's part. In m; out m, both ends. 0.1 % (rms) in K of 417 isotropic solids: leaves are as strips that are
    shorter by -0.033 to 0.141 t (0.32 d at most), arcs by -0.11 to 0.19 t (where thick, with wide fillets). Test:
    test_root_strain.c stiffness_of_solids */
-static double ends_left(const fw_flexure_shape *f, const fw_flexure_input *in,
-                        const fw_flexure_result *r) {
-    const end_taken d = taken_of(f, in, r);
+static double ends_left(const fw_flexure_shape *f, const end_taken *d) {
     bool arc = f->kind == FW_FLEXURE_CSFH;
-    return (arc ? 0.5 : 0.4) * d.squares * d.length_m + (arc ? 0.025 : 0.04) * f->width_m;
+    return (arc ? 0.5 : 0.4) * d->squares * d->length_m + (arc ? 0.025 : 0.04) * f->width_m;
 }
 
 typedef struct lengths { /* of strip that may be missing, or too much, m, both ends */
@@ -296,12 +294,12 @@ static lengths lengths_of(const fw_flexure_shape *f, const fw_flexure_input *in,
     double t = f->width_m, rho = fmax(fmin(f->fillet_m, 1.25 * t), 0), square = rho * rho / t,
            nu2 = r->poisson * r->poisson;
     double bow = fmax(1 - (1 - nu2) * r->depth_factor, 0); /* twice what either end loses: */
-    double taken = fillet_taken(f, 0.0225), left = ends_left(f, in, r);
+    const end_taken d = taken_of(f, in, r);
+    double taken = fillet_taken(f, 0.0225), left = ends_left(f, &d);
     double thick = arc ? 4.6 * 9 * (f->curved * f->curved) * square + 160 * (taken * taken) * t : 0;
     /* leaves whose fillets are wider than they are: of root_strain_more.csv and root_strain_after.csv two, shallow and
        with rho = 1.25 t, are as strips that are longer by 0.1 t */
     double soft = arc ? 0 : 0.4 * fmax(rho - t, 0);
-    const end_taken d = taken_of(f, in, r);
     /* where nothing is lost the root law alone is off, by 0.006 t each */
     const double known = fmax((arc ? 0.013 : 0.028) * t - d.squares * d.length_m, 0);
     if (in->ends)

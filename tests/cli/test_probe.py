@@ -943,15 +943,15 @@ class Probe(unittest.TestCase):
                 self.near(r["band"][1] - value, value - r["band"][0], 2e-3)
             off = r["band"][1] - value - error
             if measure == "parasitic":  # its own error is not printed
-                self.assertTrue(0 < off < 0.05 * value)
+                self.assertTrue(0 < off < 0.1 * value)
             elif measure == "final" and probe in ("tip", "opening"):  # the bead holds both, by as much as its force says (decision 252)
                 self.assertTrue(0 < off < 0.01 * abs(goes), (probe, off, goes))
             elif abs(goes) > 1e-6:
                 shares[probe].append(off / abs(goes))
             else:
                 # 0.05 um of blows that come again, wherever it stands, what hangs over bends by 0.07, and what all that acts at some
-                # instant moves a body farther (decision 216) counts where it is least, too
-                self.assertLess(max(off, value - r["band"][0] - error), 0.32e-6)
+                # instant moves a body farther (decision 216) counts where it is least, too; what bases give (decision 256) is most of it
+                self.assertLess(max(off, value - r["band"][0] - error), 1.2e-6)
         for probe, found in shares.items():
             self.assertGreater(len(found), 0 if probe == "opening" else 1)
             self.assertGreater(min(found), 0.01)
