@@ -152,6 +152,11 @@ static double fillet_taken(const fw_flexure_shape *f, double from) {
     return f->kind == FW_FLEXURE_CSFH ? fmax(rho * rho / (f->radius_m * f->radius_m) - from, 0) : 0;
 }
 
+/* its stiffness has what its ends lose: always of a crystal, else where that is asked for */
+static bool counts_ends(const fw_flexure_input *in) {
+    return in->crystal.known || in->ends;
+}
+
 typedef struct root_lever { /* of a root, about W */
     double along, across, sine, cosine;
 } root_lever;
@@ -185,9 +190,8 @@ static double beyond(const fw_flexure_shape *f, const fw_flexure_input *in, doub
 }
 
 static void strain_errors(const fw_flexure_shape *f, const fw_flexure_input *in, double wide,
-                          fw_flexure_error *e) {
+                          double thick, fw_flexure_error *e) {
     const bool within = !(wide > 1); /* beyond, the former laws go on */
-    const double part = thick_arc(f, in), thick = part > 0 ? 0.15 * (part - 0.15) : 0;
     const double solids = within ? 0.010 : 0.024, leaves = within ? 0.010 : 0.028;
     const double arcs = within ? 0.0135 : 0.0245, whole = 0.008, sharp = 0.04, guess = 0.10;
     const double short_strip = 0.012, depths = 2.45;
@@ -203,11 +207,11 @@ static void strain_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
                                   : straight ? leaves
                                              : arcs) +
                                  0.001) +
-                         more + close + less + thick;
+                         more + close + less + 0.15 * fmax(thick - 0.15, 0);
     e->strain = e->strain_anywhere + down;
     /* deep or short strips that are thin in their middle: one of varying_after.csv has 0.5 % more than the others */
     e->above = fmax(wide, path ? 1 + far : 1) * whole + more + up;
-    if (part > 0) e->above += fillet_taken(f, 0.03);
+    if (thick > 0) e->above += fillet_taken(f, 0.03);
     e->above_anywhere = e->above - e->between_more;
 }
 
@@ -220,9 +224,9 @@ static void strain_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
    and between these is what goes with any power of the stiffness from that of a given rotation to that of a given moment.
    Not beyond what was compared, and not of paths of silicon. Test: test_root_strain.c, test_varying.c, test_paths.c */
 static void load_errors(const fw_flexure_shape *f, const fw_flexure_input *in, double wide,
-                        fw_flexure_error *e) {
+                        double thick, fw_flexure_error *e) {
     const bool path = f->kind == FW_FLEXURE_PATH;
-    const bool compared = !(wide > 1) && !(path && in->crystal.known) && !(thick_arc(f, in) > 0) &&
+    const bool compared = !(wide > 1) && !(path && in->crystal.known) && !(thick > 0) &&
                           f->length_m >= 16 * f->width_m && in->depth_m <= 10 * f->width_m;
     const double together = 0.005;
     e->load_less = compared ? fmax(e->root_less - together, 0) : e->root_less;
@@ -234,7 +238,7 @@ static void load_errors(const fw_flexure_shape *f, const fw_flexure_input *in, d
    than strain per radian over K has it; no solid's strain per radian is less than 0.24 % below the bound. A crystal's
    K has what the ends lose, and what is left is in root_more. Test: test_root_strain.c held_in_place */
 static double held_more(const fw_flexure_input *in, const fw_flexure_result *r) {
-    if (in->kind != FW_FLEXURE_LEAF || fw_flexure_elastic_of(in).known) return 0;
+    if (in->kind != FW_FLEXURE_LEAF || counts_ends(in)) return 0;
     return 1.5 * (r->ends_stiffer - 1) - 0.002;
 }
 
@@ -325,17 +329,16 @@ static lengths lengths_of(const fw_flexure_shape *f, const fw_flexure_input *in,
    in: shape, result with D, C, Kt (SI); out: relative errors, of W in m.
    source: docs/theory/flexure-errors.md; test_error.c, test_ladder.c */
 static fw_flexure_error isotropic_errors(const fw_flexure_shape *f, const fw_flexure_input *in,
-                                         const fw_flexure_result *r, double wide) {
+                                         const fw_flexure_result *r, double wide, double thick) {
     bool arc = f->kind == FW_FLEXURE_CSFH;
     double t = f->width_m, L = f->length_m;
     double EI = r->youngs_Pa * in->depth_m * t * t * t / 12 * r->depth_factor;
     double rho = fmax(fmin(f->fillet_m, t), 0), place = 0.6 * rho * rho;
     const lengths ends = lengths_of(f, in, r);
-    const bool counted = in->crystal.known || in->ends; /* what the ends lose is */
+    const bool counted = counts_ends(in);
     double lost = counted && !in->crystal.known ? fmax(ends.stiffer, ends.softer) : ends.stiffer;
     double give = f->fillet_m < 0 ? 0 : 3.2 * t * t * t / 12; /* 1/EA over 1/EI: t^2/12 */
-    const double forces =
-        thick_arc(f, in) > 0 ? 2 * wide : wide; /* what they do was not compared */
+    const double forces = thick > 0 ? 2 * wide : wide;        /* what they do was not compared */
     const root_lever at = root_lever_of(f);
     double x = fabs(at.along), y = fabs(at.across), c = at.cosine, n = at.sine;
     double along = y * (lost * y + place * fabs(c)) + give * (n * n);
@@ -427,7 +430,7 @@ static double path_end_of(const fw_flexure_course *p, int end, double length_m,
    solids (varying.csv, varying_after.csv, forces.csv) have 0.1 to 2.8 times the former and 1.4 times the latter */
 static void lost_elsewhere(const fw_geometry_strip_shape *shape, int end,
                            const fw_flexure_input *in, double share[2]) {
-    const double L = shape->piece.length_m, far = in->depth_m / sqrt(6 * (1 + in->poisson)),
+    const double L = shape->piece.length_m, far = in->depth_m * fw_flexure_elastic_of(in).reach,
                  s = fmin(far, 0.5 * L);
     if (shape->piece.curvature_per_m != 0) return;
     const double ratio = fw_geometry_strip_width(shape, end ? L : 0) /
@@ -456,7 +459,7 @@ static void varying(const fw_flexure_shape *f, const fw_flexure_input *in,
         double opens = 0.75 * o.fillet_m * f->error.strain;
         double part = 0.5 * r->stiffness_Nm_per_rad / o.bend_Nm2; /* of two ends */
         stiffer += (opens + o.off.stiffer) * part, softer += (opens + o.off.softer) * part;
-        lost_elsewhere(&p.shape[end ? p.n - 1 : 0], end, in, uneven);
+        if (in->ends) lost_elsewhere(&p.shape[end ? p.n - 1 : 0], end, in, uneven);
         const double lost = 0.5 * (opens + o.off.stiffer), place = 0.3 * o.fillet_m * o.fillet_m,
                      give = in->fillet_m < 0 ? 0 : 1.6 / 12 * pow(o.width_m, 3);
         along +=
@@ -466,7 +469,7 @@ static void varying(const fw_flexure_shape *f, const fw_flexure_input *in,
             p.n == 1 ? o.x_m : hypot(o.x_m, o.y_m); /* of one piece y adds up to nothing */
         if (!line) centre += 2 * part * (lost * lever + place);
     }
-    if (in->ends) stiffer += uneven[0] * r->ends_lost, softer += uneven[1] * r->ends_lost;
+    stiffer += uneven[0] * r->ends_lost, softer += uneven[1] * r->ends_lost;
     e->stiffness = wide * (rest + stiffer);
     e->softer = wide * (rest + softer);
     e->root_less = e->stiffness, e->root_more = e->softer;
@@ -481,9 +484,9 @@ fw_flexure_error fw_flexure_errors(const fw_flexure_shape *f, const fw_flexure_i
     bool path = f->kind == FW_FLEXURE_PATH, deep = in->depth_m > 20 * f->width_m * (1.0 + 1e-9);
     /* of a path's thick bends the strain has its own (fw_flexure_path_errors) */
     double wide = (path ? 1 : f->widening) * (deep ? 2 : 1) * (in->depth_m > f->length_m ? 4 : 1);
-    const bool thick = thick_arc(f, in) > 0;
-    if (thick) wide /= 2; /* has figures of its own */
-    fw_flexure_error e = path ? f->error : isotropic_errors(f, in, r, wide);
+    const double thick = thick_arc(f, in);
+    if (thick > 0) wide /= 2; /* has figures of its own */
+    fw_flexure_error e = path ? f->error : isotropic_errors(f, in, r, wide, thick);
     if (path) varying(f, in, r, wide * f->widening, &e);
     /* (13a) reaches into the strip, to where it is no longer as wide as at the face */
     if (path && !in->crystal.known) {
@@ -495,11 +498,11 @@ fw_flexure_error fw_flexure_errors(const fw_flexure_shape *f, const fw_flexure_i
     }
     if (in->crystal.known) add_crystal_errors(f, in, wide, &e);
     /* both ends of a leaf reach each other: 5.6 % of a solid with h = 0.8 L, 4.1 % with 0.67 (forces.csv) */
-    if (fw_flexure_elastic_of(in).known && in->kind == FW_FLEXURE_LEAF)
+    if (counts_ends(in) && in->kind == FW_FLEXURE_LEAF)
         e.kx += 0.08 * fmax(in->depth_m / f->length_m - 0.3, 0);
-    strain_errors(f, in, wide, &e);
-    load_errors(f, in, wide, &e);
+    strain_errors(f, in, wide, thick, &e);
+    load_errors(f, in, wide, thick, &e);
     e.root_more = fmax(e.root_more, held_more(in, r));
-    e.outside = e.outside || wide > 1 || thick;
+    e.outside = e.outside || wide > 1 || thick > 0;
     return e;
 }
